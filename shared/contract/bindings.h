@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Descriptor sets and bindings, named once.
+#ifndef DIPTYCH_CONTRACT_BINDINGS_H
+#define DIPTYCH_CONTRACT_BINDINGS_H
+
+#include "types.h"
+
+CONTRACT_BEGIN
+
+CONTRACT_CONST(uint, SET_FRAME, 0);     // what every pass of a frame reads
+CONTRACT_CONST(uint, SET_MATERIAL, 1);  // the textures of one material, bindings SLOT_*
+CONTRACT_CONST(uint, SET_GBUFFER, 2);   // deferred: the attachments, bindings GBUFFER_*, then depth
+
+CONTRACT_CONST(uint, BINDING_VIEW, 0);       // uniform View
+CONTRACT_CONST(uint, BINDING_DRAWS, 1);      // buffer Draw[]
+CONTRACT_CONST(uint, BINDING_MATERIALS, 2);  // buffer Material[]
+CONTRACT_CONST(uint, BINDING_LIGHTS, 3);     // buffer Light[]
+
+CONTRACT_CONST(uint, BINDING_DEPTH, 6);      // of SET_GBUFFER
+
+CONTRACT_END
+
+#endif

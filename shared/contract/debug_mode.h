@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Every channel that a path can show or write. Numbers 0-9 are fixed; more are appended in blocks of ten
+// (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms) and never renumbered.
+//
+// To add a channel: a row here, a line in shaders/lib/debug.glsl, a line in compare/reference.
+#ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
+#define DIPTYCH_CONTRACT_DEBUG_MODE_H
+
+#include "types.h"
+
+// number  name            width  metric    kind    made by       shows
+//   width   components; kind names them in an EXR: color .R.G.B, vector .X.Y.Z, scalar .Y, id .Y
+//   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
+//           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
+//   made by both, or forward_only where the G-buffer does not carry it
+#define DEBUG_MODES(X)                                                                                    \
+    X(0,  lit,              3, relative, color,  both,         "radiance, W/(sr m^2)")                    \
+    X(1,  albedo,           3, absolute, color,  both,         "base colour, linear Rec.709")             \
+    X(2,  normals,          3, angular,  vector, both,         "shading normal, world")                   \
+    X(3,  metallic,         1, absolute, scalar, both,         "metallic, 0 to 1")                        \
+    X(4,  roughness,        1, absolute, scalar, both,         "perceptual roughness, 0 to 1")            \
+    X(5,  emission,         3, relative, color,  both,         "emitted radiance, W/(sr m^2)")            \
+    X(6,  occlusion,        1, absolute, scalar, both,         "ambient occlusion, 0 to 1")               \
+    X(7,  specular,         3, absolute, color,  both,         "F0, specular colour at normal incidence") \
+    X(8,  material_id,      1, exact,    id,     both,         "index of the material, -1 in the background") \
+    X(9,  texcoords,        2, absolute, vector, forward_only, "first texture coordinates")               \
+    X(10, depth,            1, relative, scalar, both,         "view depth, m (EXR layer Z)")             \
+    X(11, position,         3, relative, vector, both,         "shading position, world axes, from the camera, m") \
+    X(12, geometric_normal, 3, angular,  vector, both,         "normal of the triangle, world")           \
+    X(40, lit_diffuse,      3, relative, color,  both,         "reflected by the diffuse lobe, W/(sr m^2)") \
+    X(41, lit_specular,     3, relative, color,  both,         "reflected by the specular lobe, W/(sr m^2)")
+
+CONTRACT_BEGIN
+#define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, maker, shows) \
+    CONTRACT_CONST(uint, DEBUG_##name, number);
+DEBUG_MODES(DIPTYCH_DEBUG_NUMBER)
+#undef DIPTYCH_DEBUG_NUMBER
+
+// No channel: an attachment of the capture pass that is not in use.
+CONTRACT_CONST(uint, DEBUG_none, 0xffff);
+CONTRACT_END
+
+#endif

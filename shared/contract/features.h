@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Every variant of every shader: one list of specialization constants. A pipeline's key is this list's
+// values. What a scene does not need is switched off here and costs nothing (on lavapipe a branch that
+// is not taken costs as much as one that is).
+#ifndef DIPTYCH_CONTRACT_FEATURES_H
+#define DIPTYCH_CONTRACT_FEATURES_H
+
+#include "types.h"
+
+// id  name  what it switches; 0 is off
+#define FEATURES(X)                                                                                   \
+    X(0,  base_color_texture)         /* material slots with a texture */                             \
+    X(1,  metallic_roughness_texture)                                                                 \
+    X(2,  normal_texture)                                                                             \
+    X(3,  occlusion_texture)                                                                          \
+    X(4,  emissive_texture)                                                                           \
+    X(5,  specular_texture)                                                                           \
+    X(6,  specular_color_texture)                                                                     \
+    X(7,  texture_transform)          /* some slot has KHR_texture_transform */                       \
+    X(8,  second_texcoord)            /* some slot reads the second UV set */                         \
+    X(9,  vertex_color)                                                                               \
+    X(10, alpha_mask)                                                                                 \
+    X(11, double_sided)                                                                               \
+    X(12, emission)                   /* the scene emits light */                                     \
+    X(13, dielectric_specular)        /* KHR_materials_specular or _ior somewhere in the scene */     \
+    X(14, directional_lights)         /* the scene has some */                                        \
+    X(15, local_lights)               /* the scene has point or spot lights */                        \
+    X(16, gbuffer_encoding)           /* GBUFFER_* of gbuffer.h */                                    \
+    X(17, gbuffer_wide_emission)      /* emission beyond the packed format's range: float32 */        \
+    X(18, gbuffer_wide_material_id)   /* more materials than the packed bits can name */              \
+    X(19, quantise_surface)           /* forward: shade what the G-buffer would have given back */    \
+    X(20, capture_0)                  /* DEBUG_* of each attachment of a capture pass */              \
+    X(21, capture_1)                                                                                  \
+    X(22, capture_2)                                                                                  \
+    X(23, capture_3)                                                                                  \
+    X(24, capture_4)                                                                                  \
+    X(25, capture_5)                                                                                  \
+    X(26, capture_6)                                                                                  \
+    X(27, capture_7)                                                                                  \
+    X(28, orthographic)
+
+CONTRACT_BEGIN
+#define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
+FEATURES(DIPTYCH_FEATURE_ID)
+#undef DIPTYCH_FEATURE_ID
+CONTRACT_CONST(uint, FEATURE_COUNT, 29);
+
+// Attachments of one capture pass: the fewest that every Vulkan device has.
+CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
+CONTRACT_END
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The G-buffer's layouts. Every attachment holds unsigned integers that the shader packs itself: what a
+// device does when it rounds to a render target (lavapipe truncates halves) cannot touch them, and
+// forward+ can compute exactly what deferred will read back.
+//
+//               compact                       standard                        full
+//   albedo    R32  sqrt 8.8.8, occl. 8     R32  sqrt 8.8.8, occl. 8        RGBA32 albedo, occlusion
+//   normals   R32  oct 12.12, rough. 8     RG32 oct 16.16, geom. 16.16     RGBA32 normal, roughness
+//   params    R32  geom. oct 8.8,          R32  roughness 12,              RGBA32 geom. normal, metallic
+//                  metallic 6, id 10            metallic 8, id 12
+//   emission  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 emission, id
+//   specular  R32  F0 8.8.8, F90 8         R32  F0 8.8.8, F90 8            RGBA32 F0, F90
+//   ids       R32  (only where 10 bits     R32  (only where 12 bits
+//                   do not suffice)              do not suffice)
+//   bytes     12 to 20, + 4 depth          16 to 24, + 4 depth             64 to 80, + 4 depth
+//
+// emission exists where the scene emits (full: always, it carries the id), and is RGBA32 float where its
+// radiance leaves the range of 9.9.9.e5; specular where a material has KHR_materials_specular or _ior.
+#ifndef DIPTYCH_CONTRACT_GBUFFER_H
+#define DIPTYCH_CONTRACT_GBUFFER_H
+
+#include "types.h"
+
+CONTRACT_BEGIN
+
+CONTRACT_CONST(uint, GBUFFER_compact, 0);
+CONTRACT_CONST(uint, GBUFFER_standard, 1);
+CONTRACT_CONST(uint, GBUFFER_full, 2);
+
+CONTRACT_CONST(uint, GBUFFER_ALBEDO, 0);
+CONTRACT_CONST(uint, GBUFFER_NORMALS, 1);
+CONTRACT_CONST(uint, GBUFFER_PARAMS, 2);
+CONTRACT_CONST(uint, GBUFFER_EMISSION, 3);
+CONTRACT_CONST(uint, GBUFFER_SPECULAR, 4);
+CONTRACT_CONST(uint, GBUFFER_IDS, 5);
+CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 6);
+
+// Bits of each packed field, by encoding; the tolerances are derived from these.
+CONTRACT_CONST(uint, ALBEDO_BITS, 8);
+CONTRACT_CONST(uint, OCCLUSION_BITS, 8);
+CONTRACT_CONST(uint, SPECULAR_BITS, 8);
+CONTRACT_CONST(uint, COMPACT_NORMAL_BITS, 12);
+CONTRACT_CONST(uint, COMPACT_GEOMETRIC_NORMAL_BITS, 8);
+CONTRACT_CONST(uint, COMPACT_ROUGHNESS_BITS, 8);
+CONTRACT_CONST(uint, COMPACT_METALLIC_BITS, 6);
+CONTRACT_CONST(uint, COMPACT_ID_BITS, 10);
+CONTRACT_CONST(uint, STANDARD_NORMAL_BITS, 16);
+CONTRACT_CONST(uint, STANDARD_ROUGHNESS_BITS, 12);
+CONTRACT_CONST(uint, STANDARD_METALLIC_BITS, 8);
+CONTRACT_CONST(uint, STANDARD_ID_BITS, 12);
+CONTRACT_CONST(uint, EMISSION_MANTISSA_BITS, 9);
+
+// Largest component of 9.9.9.e5: (511 / 512) * 2^16 (EXT_texture_shared_exponent).
+CONTRACT_CONST(float, EMISSION_MAX, 65408.0f);
+// Smallest largest-component that keeps all nine bits: 2^-15.
+CONTRACT_CONST(float, EMISSION_MIN, 3.0517578125e-5f);
+
+CONTRACT_END
+
+#endif

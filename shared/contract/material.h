@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#ifndef DIPTYCH_CONTRACT_MATERIAL_H
+#define DIPTYCH_CONTRACT_MATERIAL_H
+
+#include "types.h"
+
+CONTRACT_BEGIN
+
+CONTRACT_CONST(uint, SLOT_base_color, 0);
+CONTRACT_CONST(uint, SLOT_metallic_roughness, 1);
+CONTRACT_CONST(uint, SLOT_normal, 2);
+CONTRACT_CONST(uint, SLOT_occlusion, 3);
+CONTRACT_CONST(uint, SLOT_emissive, 4);
+CONTRACT_CONST(uint, SLOT_specular, 5);
+CONTRACT_CONST(uint, SLOT_specular_color, 6);
+CONTRACT_CONST(uint, SLOT_COUNT, 7);
+
+// KHR_texture_transform of one slot: uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
+struct TextureTransform {
+    vec3 u;
+    vec3 v;
+};
+
+struct Material {
+    vec4 base_color;          // linear Rec.709, alpha
+    vec3 emission;            // W/(sr m^2): emissiveFactor x emissiveStrength
+    float metallic;
+    vec3 dielectric_f0;       // ((1 - ior) / (1 + ior))^2 x specularColorFactor, before specular and clamp
+    float roughness;          // perceptual
+    float specular;           // KHR_materials_specular's specularFactor, the dielectric F90
+    float normal_scale;
+    float occlusion_strength;
+    float alpha_cutoff;
+    uint second_texcoord;     // bit SLOT_*: that slot reads the second UV set
+    TextureTransform transforms[SLOT_COUNT];
+};
+
+CONTRACT_END
+
+#endif

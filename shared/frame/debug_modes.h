@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The channels of shared/contract/debug_mode.h as C++ data.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+
+enum class Metric { relative, absolute, angular, exact };
+enum class ChannelKind { color, vector, scalar, id };
+enum class MadeBy { both, forward_only };
+
+struct DebugMode {
+    int number;
+    std::string_view name;
+    int width;  // components
+    Metric metric;
+    ChannelKind kind;
+    MadeBy maker;
+    std::string_view shows;
+};
+
+std::span<const DebugMode> debugModes();                      // in ascending number
+const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr where there is none
+const DebugMode& debugMode(int number);                       // throws std::out_of_range
+std::string_view nameOf(Metric metric);
+
+// The EXR channel names of a mode: lit is R, G, B, depth is Z, others "albedo.R", "normals.X", "roughness.Y".
+std::vector<std::string> exrChannels(const DebugMode& mode);
+
+}  // namespace diptych

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Whatever makes a Frame can be compared.
+#pragma once
+
+#include "shared/frame/settings.h"
+#include "shared/image/image.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// The whole frame, unsplit, from culling to linear lit; milliseconds.
+struct FrameTime {
+    double median = 0, min = 0, max = 0;
+    int runs = 0;
+};
+
+struct PassTime {
+    std::string name;
+    double ms = 0;  // from a separate, profiled run
+};
+
+struct FrameBytes {
+    std::uint64_t images = 0, buffers = 0;  // device memory of the path and the scene
+    std::uint64_t gbuffer_per_pixel = 0;    // deferred: attachments and depth; forward+: depth
+};
+
+struct FrameCounters {
+    std::uint64_t nonfinite_pixels = 0;  // in lit
+    std::uint64_t overflowed_lists = 0;
+    std::uint64_t lights = 0;            // every light, the sun too
+    std::uint64_t unreproduced_pixels = 0;  // where the capture's lit is not the timed pipeline's
+};
+
+// Where the picture was taken from, world, metres; for the report and for another renderer.
+struct FrameCamera {
+    std::string name;
+    double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1}, up[3] = {0, 1, 0};
+    double fov_degrees = 0;  // vertical; 0: orthographic
+    double near = 0, far = 0;  // far: infinity where there is none
+};
+
+struct Frame {
+    std::string name;   // "deferred"
+    std::string scene;  // as the user wrote it
+    Settings settings;
+    FrameCamera camera;
+    std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
+    // Forward+: lit, lit_diffuse and lit_specular of a surface that went through the encoding of
+    // settings.gbuffer and back: what the deferred path must show. It explains a difference of lit.
+    std::map<int, Image> through_gbuffer;
+    FrameTime time;
+    std::vector<PassTime> passes;
+    FrameBytes bytes;
+    FrameCounters counters;
+    std::vector<std::string> notes;  // what a reader must know: what was drawn otherwise than asked
+};
+
+}  // namespace diptych

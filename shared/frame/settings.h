@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Everything that may change a pixel of a Frame, described once: the command line, the JSON that every
+// report prints, equality and (later) sweeps all walk Settings::fields().
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+
+enum class Path { deferred, forward_plus, reference };
+enum class Assignment { every, tiled, clustered, per_object };
+enum class Switch { automatic, on, off };
+enum class GBufferEncoding { compact, standard, full };
+enum class AreaLights { ltc, representative };
+enum class Shadows { off, pcf, evsm, clipmap };
+enum class EvsmPrecision { automatic, fp32, fp16 };
+enum class ReferenceMode { surface, scene };
+
+struct Size {
+    int width = 640, height = 360;
+    bool operator==(const Size&) const = default;
+};
+
+struct Rgb {
+    float r = 0, g = 0, b = 0;
+    bool operator==(const Rgb&) const = default;
+};
+
+struct Settings {
+    Path path = Path::forward_plus;
+    Assignment assign = Assignment::every;
+    Switch prepass = Switch::automatic;
+    GBufferEncoding gbuffer = GBufferEncoding::standard;
+    Size size;
+    std::string camera;              // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
+    double time = 0.0;               // s
+    std::string env = "none";        // file of a lat-long environment
+    float ibl_intensity = 1.0f;
+    Rgb ambient;                     // W/(sr m^2)
+    std::string lights;              // "" none, "point:64,spot:16", or a file's name
+    std::uint32_t seed = 0;
+    float light_cutoff = 0.0f;
+    int pixel_lights = 4;
+    AreaLights area_lights = AreaLights::ltc;
+    Shadows shadows = Shadows::off;
+    int shadow_lights = 0;
+    EvsmPrecision evsm_precision = EvsmPrecision::automatic;
+    float evsm_exponent = 40.0f;
+    float evsm_bleed = 0.0f;
+    float evsm_min_variance = 0.0f;
+    int msaa = 1;
+    bool sort = true;
+    bool haze = false;
+    int spp = 1;
+    ReferenceMode reference_mode = ReferenceMode::surface;
+
+    bool operator==(const Settings&) const = default;
+
+    // Calls visit(Field, member) for every member, in the order above. `self` may be const.
+    template <class Self, class Visit> static void fields(Self& self, Visit&& visit);
+
+    // Why this combination has no meaning or is not built yet, naming the option and its value;
+    // nothing where it can be rendered.
+    std::optional<std::string> problem() const;
+};
+
+// How a setting is called on the command line ("--" + option, in JSON with _ for -) and what it does.
+struct Field {
+    std::string_view option;
+    std::string_view help;
+};
+
+template <class Self, class Visit> void Settings::fields(Self& s, Visit&& visit) {
+    visit(Field{"path", "deferred, forward_plus or reference"}, s.path);
+    visit(Field{"assign", "how lights are chosen for a pixel"}, s.assign);
+    visit(Field{"prepass", "depth pre-pass of the forward+ path"}, s.prepass);
+    visit(Field{"gbuffer", "encoding of the deferred path's G-buffer"}, s.gbuffer);
+    visit(Field{"size", "picture size, WxH"}, s.size);
+    visit(Field{"camera", "index, name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\""}, s.camera);
+    visit(Field{"time", "animation time, seconds"}, s.time);
+    visit(Field{"env", "lat-long environment, .exr or .hdr, or none"}, s.env);
+    visit(Field{"ibl-intensity", "factor on the environment's radiance"}, s.ibl_intensity);
+    visit(Field{"ambient", "constant ambient radiance R,G,B"}, s.ambient);
+    visit(Field{"lights", "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights"}, s.lights);
+    visit(Field{"seed", "seed of the light rig"}, s.seed);
+    visit(Field{"light-cutoff", "luminance at which a light without a range ends"}, s.light_cutoff);
+    visit(Field{"pixel-lights", "lights shaded per pixel with --assign per_object"}, s.pixel_lights);
+    visit(Field{"area-lights", "how area lights are evaluated"}, s.area_lights);
+    visit(Field{"shadows", "shadow technique"}, s.shadows);
+    visit(Field{"shadow-lights", "local lights that cast shadows"}, s.shadow_lights);
+    visit(Field{"evsm-precision", "moments' format"}, s.evsm_precision);
+    visit(Field{"evsm-exponent", "warp exponent"}, s.evsm_exponent);
+    visit(Field{"evsm-bleed", "light-bleeding reduction, 0 to 1"}, s.evsm_bleed);
+    visit(Field{"evsm-min-variance", "smallest variance"}, s.evsm_min_variance);
+    visit(Field{"msaa", "samples per pixel, 1 or 4"}, s.msaa);
+    visit(Field{"sort", "sort transparent draws"}, s.sort);
+    visit(Field{"haze", "participating medium"}, s.haze);
+    visit(Field{"spp", "samples per pixel of the reference"}, s.spp);
+    visit(Field{"reference-mode", "what the reference shades"}, s.reference_mode);
+}
+
+// The values of an enumeration by name, in order: "automatic" is written auto.
+template <class E> const std::vector<std::pair<E, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<Path, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<Assignment, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<Switch, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<GBufferEncoding, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<AreaLights, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<Shadows, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<EvsmPrecision, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<ReferenceMode, std::string_view>>& enumNames();
+
+template <class E> std::string_view nameOf(E value) {
+    for (const auto& [candidate, name] : enumNames<E>())
+        if (candidate == value) return name;
+    return "?";
+}
+
+// Every setting by its option's name (- written _), as JSON text; and the way back: a key that is absent
+// keeps the value of `base`, an unknown key or a value of the wrong kind throws std::runtime_error.
+std::string toJson(const Settings& settings, int indent = 2);
+Settings settingsFromJson(const std::string& text, const Settings& base = {});
+
+// One value from the words of the command line, e.g. set(s, "size", "640x360"). Throws
+// std::runtime_error naming option, value and what is accepted.
+void set(Settings& settings, std::string_view option, const std::string& value);
+
+}  // namespace diptych

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/image/image.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// One layer of an EXR file: `image` component i is the channel `channels[i]`, e.g. "albedo.R" or "Z".
+struct ExrLayer {
+    std::string name;                   // "" for the unnamed layer (R, G, B, Z)
+    std::vector<std::string> channels;  // full channel names, one per component of the image
+    Image image;
+};
+
+struct ExrAttribute {
+    std::string name, value;
+};
+
+// Writes every layer as float32 into one scan-line part (ZIP compressed, on all cores), with the string
+// attributes given. Written beside `file` and renamed. Throws std::runtime_error naming the file.
+struct ExrLayerView {
+    std::vector<std::string> channels;
+    const Image* image;
+};
+void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>& layers,
+              const std::vector<ExrAttribute>& attributes = {});
+
+// Reads every layer of the first part; half, float and uint channels become float32. Throws
+// std::runtime_error naming file and fault.
+std::vector<ExrLayer> readExr(const std::filesystem::path& file);
+
+}  // namespace diptych

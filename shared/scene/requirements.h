@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What a scene needs modelled; whatever is false here costs nothing in either path.
+#pragma once
+
+#include "shared/scene/scene.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+struct Requirements {
+    bool normal_maps = false, alpha_mask = false, alpha_blend = false, double_sided = false;
+    bool vertex_colors = false, second_texcoord = false, texture_transform = false;
+    bool occlusion = false;
+    bool emission = false;
+    bool dielectric_specular = false;  // KHR_materials_specular or _ior differs from its default
+    float max_emission = 0;            // largest component over all factors (textures only darken), W/(sr m^2)
+    float min_emission = 0;            // smallest non-zero largest-component of a factor
+    std::uint32_t materials = 0, textures = 0;
+    std::uint32_t directional_lights = 0, point_lights = 0, spot_lights = 0;
+    std::uint64_t draws = 0, triangles = 0, vertices = 0;
+
+    // For people: what is modelled and for what, what is left out and why.
+    struct Line {
+        bool modelled;
+        std::string what, why;
+    };
+    std::vector<Line> lines() const;
+};
+
+Requirements requirements(const Scene& scene, const Pose& pose);
+
+}  // namespace diptych

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// A scene as the CPU sees it: no Vulkan, no shaders. World space is glTF's: right-handed, +Y up, metres,
+// candela and lux, linear Rec.709.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
+
+struct Sampler {
+    Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+    bool magnify_linear = true;
+    bool minify_linear = true;
+    bool mipmaps = true;
+    bool mipmaps_linear = true;  // between two levels
+    bool operator==(const Sampler&) const = default;
+};
+
+// Level 0, RGBA, 8 bits a component, row 0 on top. Whether it is sRGB is decided by the slot that reads it.
+struct TextureImage {
+    std::string name;
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+struct Texture {
+    int image = -1;  // into Scene::images
+    Sampler sampler;
+};
+
+// A material's slot: which texture, which UV set, and KHR_texture_transform as a 2x3 matrix:
+// uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
+struct TextureSlot {
+    int texture = -1;  // into Scene::textures; -1: none
+    int texcoord = 0;  // 0 or 1
+    glm::dvec3 u{1, 0, 0}, v{0, 1, 0};
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1, 1, 1, 1};  // linear Rec.709
+    float metallic = 1, roughness = 1;
+    glm::vec3 emissive{0, 0, 0};       // W/(sr m^2): factor x KHR_materials_emissive_strength
+    float normal_scale = 1, occlusion_strength = 1;
+    float ior = 1.5f;                  // KHR_materials_ior; 0: reflects everything
+    float specular = 1;                // KHR_materials_specular
+    glm::vec3 specular_color{1, 1, 1};
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+    // In the order of SLOT_* of contract/material.h.
+    TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
+        emissive_texture, specular_texture, specular_color_texture;
+};
+
+// Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions, but
+// normals and tangents: they are always there when a scene has been loaded.
+struct Primitive {
+    std::vector<glm::vec3> positions;  // object, m
+    std::vector<glm::vec3> normals;    // unit
+    std::vector<glm::vec4> tangents;   // w: the bitangent's sign, bitangent = w * cross(normal, tangent)
+    std::vector<glm::vec2> texcoords[2];
+    std::vector<glm::vec4> colors;     // linear Rec.709, alpha
+    std::vector<std::uint32_t> indices;  // three a triangle
+    int material = 0;                  // into Scene::materials, always valid
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+struct Node {
+    std::string name;
+    int parent = -1;           // into Scene::nodes; parents need not come first
+    glm::dmat4 parent_from_node{1.0};
+    int mesh = -1;
+};
+
+enum class LightKind { directional, point, spot };
+
+// KHR_lights_punctual. Shines along -Z of its node; without a node position and direction are world.
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::point;
+    glm::vec3 color{1, 1, 1};  // linear Rec.709
+    float intensity = 1;       // directional: lux; point, spot: candela
+    float range = std::numeric_limits<float>::infinity();  // m
+    float inner_cone = 0;                   // rad, from the axis
+    float outer_cone = 0.78539816339744831f;  // rad, pi/4
+    int node = -1;
+    glm::dvec3 position{0, 0, 0};
+    glm::dvec3 direction{0, 0, -1};  // unit, in which it shines
+};
+
+// Looks along -Z of its node, +Y up.
+struct Camera {
+    std::string name;
+    bool orthographic = false;
+    double yfov = 1.0471975511965976;  // rad, vertical
+    double ymag = 1;                   // orthographic: half the height, m
+    double near = 0.1;                 // m
+    double far = std::numeric_limits<double>::infinity();
+    int node = -1;
+    glm::dmat4 world_from_camera{1.0};  // without a node
+};
+
+struct Scene {
+    std::string name;  // as the user wrote it
+    std::vector<Node> nodes;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<TextureImage> images;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    glm::vec3 background{0, 0, 0};   // what pictures show where nothing is; channels hold 0 there
+    std::vector<std::string> notes;  // what was read otherwise than the file says
+};
+
+// A mesh's primitive where the node tree puts it.
+struct Instance {
+    int mesh = 0, primitive = 0, node = 0;
+    glm::dmat4 world_from_object{1.0};
+};
+
+// The scene at one time: everything in world space.
+struct Pose {
+    std::vector<Instance> instances;  // in node order, primitives in order
+    std::vector<Light> lights;        // node = -1, world position and direction, directional ones first
+    std::vector<Camera> cameras;      // node = -1
+};
+
+struct Bounds {
+    glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
+    bool empty() const { return !(min.x <= max.x); }
+    glm::dvec3 centre() const { return (min + max) * 0.5; }
+    double radius() const;  // of the sphere around centre(); 0 where empty
+};
+
+Pose poseAt(const Scene& scene, double seconds);
+Bounds worldBounds(const Scene& scene, const Pose& pose);  // over every vertex of every instance
+
+// `where` is "builtin:NAME[?key=value&...]" or the file name of a .gltf or .glb. Throws
+// std::runtime_error: one line that names file, object and fault.
+Scene loadScene(const std::string& where);
+
+}  // namespace diptych

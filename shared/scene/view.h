@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// From a camera and a picture's size to what the shaders need, in double.
+#pragma once
+
+#include "shared/contract/view.h"
+#include "shared/scene/scene.h"
+
+namespace diptych {
+
+struct View {
+    Camera camera;  // world
+    int width = 0, height = 0;
+
+    glm::dvec3 eye() const;
+    glm::dvec3 right() const;     // unit
+    glm::dvec3 up() const;        // unit
+    glm::dvec3 backward() const;  // unit, from what is seen to the camera
+
+    // Reversed depth, Vulkan's clip space (y down), world axes with the camera as origin.
+    glm::dmat4 clipFromWorld() const;
+
+    gpu::View gpuView() const;  // light counts are left 0
+};
+
+// `choice` is Settings::camera; `pose` and `scene` give the scene's own cameras and the default view: from
+// the direction (+1, +0.6, +1) around the bounds, from the other side if nothing faces it. Throws
+// std::runtime_error naming --camera and what is accepted.
+View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height);
+
+}  // namespace diptych
