@@ -129,4 +129,9 @@ Settings settingsFromJson(const std::string& text, const Settings& base = {});
 // std::runtime_error naming option, value and what is accepted.
 void set(Settings& settings, std::string_view option, const std::string& value);
 
+// The way back, and what set() accepts in short: "deferred|forward_plus|reference", "WxH", "F". Both throw
+// std::runtime_error where there is no such option.
+std::string valueOf(const Settings& settings, std::string_view option);
+std::string acceptedValues(std::string_view option);
+
 }  // namespace diptych

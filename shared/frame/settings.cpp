@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "shared/frame/settings.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+
+namespace diptych {
+
+template <>
+const std::vector<std::pair<Path, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<Path, std::string_view>> names{
+        {Path::deferred, "deferred"}, {Path::forward_plus, "forward_plus"}, {Path::reference, "reference"}};
+    return names;
+}
+template <>
+const std::vector<std::pair<Assignment, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<Assignment, std::string_view>> names{
+        {Assignment::every, "every"},
+        {Assignment::tiled, "tiled"},
+        {Assignment::clustered, "clustered"},
+        {Assignment::per_object, "per_object"}};
+    return names;
+}
+template <>
+const std::vector<std::pair<Switch, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<Switch, std::string_view>> names{
+        {Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}};
+    return names;
+}
+template <>
+const std::vector<std::pair<GBufferEncoding, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<GBufferEncoding, std::string_view>> names{
+        {GBufferEncoding::compact, "compact"},
+        {GBufferEncoding::standard, "standard"},
+        {GBufferEncoding::full, "full"}};
+    return names;
+}
+template <>
+const std::vector<std::pair<AreaLights, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<AreaLights, std::string_view>> names{
+        {AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}};
+    return names;
+}
+template <>
+const std::vector<std::pair<Shadows, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<Shadows, std::string_view>> names{
+        {Shadows::off, "off"}, {Shadows::pcf, "pcf"}, {Shadows::evsm, "evsm"}, {Shadows::clipmap, "clipmap"}};
+    return names;
+}
+template <>
+const std::vector<std::pair<EvsmPrecision, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<EvsmPrecision, std::string_view>> names{
+        {EvsmPrecision::automatic, "auto"}, {EvsmPrecision::fp32, "fp32"}, {EvsmPrecision::fp16, "fp16"}};
+    return names;
+}
+template <>
+const std::vector<std::pair<ReferenceMode, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<ReferenceMode, std::string_view>> names{
+        {ReferenceMode::surface, "surface"}, {ReferenceMode::scene, "scene"}};
+    return names;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// One kind of value: the words of the command line, JSON, and what is accepted. read() and fromJson() say
+// whether they understood; the value is then whole, else untouched or meaningless.
+template <class T>
+struct Codec;
+
+template <class T>
+requires std::is_enum_v<T>
+struct Codec<T> {
+    static std::string accepted() {
+        std::string all;
+        for (const auto& [value, name] : enumNames<T>()) all.append(all.empty() ? "" : "|").append(name);
+        return all;
+    }
+    static std::string words(T value) { return std::string(nameOf(value)); }
+    static bool read(T& value, std::string_view text) {
+        for (const auto& [candidate, name] : enumNames<T>())
+            if (name == text) return value = candidate, true;
+        return false;
+    }
+    static Json json(T value) { return words(value); }
+    static bool fromJson(T& value, const Json& json) {
+        return json.is_string() && read(value, json.get_ref<const std::string&>());
+    }
+};
+
+template <class T>
+requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) struct Codec<T> {
+    static std::string accepted() { return std::is_integral_v<T> ? "N" : "F"; }
+    static std::string words(T value) { return fmt::format("{}", value); }
+    static bool read(T& value, std::string_view text) {
+        const char* end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, value);
+        return error == std::errc() && rest == end && !text.empty() &&
+               std::isfinite(static_cast<double>(value));
+    }
+    // A float goes through its shortest decimal, so that a report prints 0.1 and not 0.10000000149011612.
+    static Json json(T value) {
+        if constexpr (!std::is_same_v<T, float>) return value;
+        double shortest = 0;
+        Codec<double>::read(shortest, words(value));
+        return shortest;
+    }
+    static bool fromJson(T& value, const Json& json) {
+        return (std::is_integral_v<T> ? json.is_number_integer() : json.is_number()) &&
+               read(value, json.dump());
+    }
+};
+
+template <>
+struct Codec<bool> {
+    static std::string accepted() { return "on|off"; }
+    static std::string words(bool value) { return value ? "on" : "off"; }
+    static bool read(bool& value, std::string_view text) {
+        value = text == "on";
+        return value || text == "off";
+    }
+    static Json json(bool value) { return value; }
+    static bool fromJson(bool& value, const Json& json) {
+        if (json.is_boolean()) return value = json.get<bool>(), true;
+        return json.is_string() && read(value, json.get_ref<const std::string&>());
+    }
+};
+
+template <>
+struct Codec<std::string> {
+    static std::string accepted() { return "TEXT"; }
+    static std::string words(const std::string& value) { return value; }
+    static bool read(std::string& value, std::string_view text) { return value = text, true; }
+    static Json json(const std::string& value) { return value; }
+    static bool fromJson(std::string& value, const Json& json) {
+        return json.is_string() && read(value, json.get_ref<const std::string&>());
+    }
+};
+
+// Several numbers: one word with `separator` between them, in JSON an array (or that word).
+template <class T, std::size_t n>
+bool readList(T* (&parts)[n], std::string_view text, char separator) {
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t end = i + 1 < n ? text.find(separator) : text.size();
+        if (end == std::string_view::npos || !Codec<T>::read(*parts[i], text.substr(0, end))) return false;
+        if (i + 1 < n) text.remove_prefix(end + 1);
+    }
+    return true;
+}
+template <class T, std::size_t n>
+bool listFromJson(T* (&parts)[n], const Json& json, char separator) {
+    if (json.is_string()) return readList(parts, json.get_ref<const std::string&>(), separator);
+    if (!json.is_array() || json.size() != n) return false;
+    for (std::size_t i = 0; i < n; ++i)
+        if (!Codec<T>::fromJson(*parts[i], json[i])) return false;
+    return true;
+}
+
+template <>
+struct Codec<Size> {
+    static std::string accepted() { return "WxH"; }
+    static std::string words(Size value) { return fmt::format("{}x{}", value.width, value.height); }
+    static bool read(Size& value, std::string_view text) {
+        int* parts[] = {&value.width, &value.height};
+        return readList(parts, text, 'x');
+    }
+    static Json json(Size value) { return Json::array({value.width, value.height}); }
+    static bool fromJson(Size& value, const Json& json) {
+        int* parts[] = {&value.width, &value.height};
+        return listFromJson(parts, json, 'x');
+    }
+};
+
+template <>
+struct Codec<Rgb> {
+    static std::string accepted() { return "F,F,F"; }
+    static std::string words(Rgb value) { return fmt::format("{},{},{}", value.r, value.g, value.b); }
+    static bool read(Rgb& value, std::string_view text) {
+        float* parts[] = {&value.r, &value.g, &value.b};
+        return readList(parts, text, ',');
+    }
+    static Json json(Rgb value) {
+        return Json::array(
+            {Codec<float>::json(value.r), Codec<float>::json(value.g), Codec<float>::json(value.b)});
+    }
+    static bool fromJson(Rgb& value, const Json& json) {
+        float* parts[] = {&value.r, &value.g, &value.b};
+        return listFromJson(parts, json, ',');
+    }
+};
+
+template <class T>
+using CodecOf = Codec<std::remove_cvref_t<T>>;
+
+std::string inWords(const std::string& accepted) {
+    return accepted == "N" ? "a whole number in range" : accepted == "F" ? "a number" : accepted;
+}
+
+std::string keyOf(std::string_view option) {
+    std::string key(option);
+    for (char& c : key)
+        if (c == '-') c = '_';
+    return key;
+}
+
+// "none" is how a light rig is called off, on the command line and in a file.
+void simplify(Settings& settings) {
+    if (settings.lights == "none") settings.lights.clear();
+}
+
+// Calls visit(member) for the one field called `option`; throws where there is none.
+template <class Self, class Visit>
+void visitField(Self& settings, std::string_view option, Visit&& visit) {
+    bool found = false;
+    Settings::fields(settings, [&](const Field& field, auto& member) {
+        if (field.option != option) return;
+        found = true;
+        visit(member);
+    });
+    if (!found) throw std::runtime_error(fmt::format("--{}: no such setting", option));
+}
+
+}  // namespace
+
+std::string toJson(const Settings& settings, int indent) {
+    Json object = Json::object();
+    Settings::fields(settings, [&](const Field& field, const auto& member) {
+        object[keyOf(field.option)] = CodecOf<decltype(member)>::json(member);
+    });
+    return object.dump(indent);
+}
+
+Settings settingsFromJson(const std::string& text, const Settings& base) {
+    Json object;
+    try {
+        object = Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        throw std::runtime_error(fmt::format("settings: not JSON at byte {}", error.byte));
+    } catch (const Json::out_of_range&) {
+        throw std::runtime_error("settings: a number beyond a double's range");
+    }
+    if (!object.is_object()) throw std::runtime_error("settings: not a JSON object");
+
+    Settings settings = base;
+    std::set<std::string> unknown;
+    for (const auto& [key, value] : object.items()) unknown.insert(key);
+    Settings::fields(settings, [&](const Field& field, auto& member) {
+        const std::string key = keyOf(field.option);
+        if (unknown.erase(key) == 0) return;
+        using Value = CodecOf<decltype(member)>;
+        if (!Value::fromJson(member, object[key]))
+            throw std::runtime_error(
+                fmt::format("settings: \"{}\": {} is not {}", key,
+                            object[key].dump(-1, ' ', false, Json::error_handler_t::replace),
+                            inWords(Value::accepted())));
+    });
+    if (!unknown.empty())
+        throw std::runtime_error(fmt::format("settings: unknown key \"{}\"", *unknown.begin()));
+    simplify(settings);
+    return settings;
+}
+
+void set(Settings& settings, std::string_view option, const std::string& value) {
+    visitField(settings, option, [&](auto& member) {
+        using Value = CodecOf<decltype(member)>;
+        if (!Value::read(member, value))
+            throw std::runtime_error(
+                fmt::format("--{} {}: not {}", option, value, inWords(Value::accepted())));
+    });
+    simplify(settings);
+}
+
+std::string valueOf(const Settings& settings, std::string_view option) {
+    std::string words;
+    visitField(settings, option,
+               [&](const auto& member) { words = CodecOf<decltype(member)>::words(member); });
+    return words;
+}
+
+std::string acceptedValues(std::string_view option) {
+    Settings settings;
+    std::string accepted;
+    visitField(settings, option,
+               [&](const auto& member) { accepted = CodecOf<decltype(member)>::accepted(); });
+    return accepted;
+}
+
+}  // namespace diptych
