@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "compare/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+std::string whatIsThrown(const std::vector<std::string>& words) {
+    try {
+        parseCommandLine(words);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+const std::vector<std::string> rendering{"compare", "render", "plan"};
+
+TEST(CommandLine, WithoutWordsTheGalleryIsMeant) {
+    const Options options = parseCommandLine({"compare"});
+    EXPECT_EQ(options.command, "compare");
+    EXPECT_EQ(options.scenes, std::vector<std::string>{"builtin:gallery"});
+    EXPECT_EQ(options.cameras, std::vector<std::string>{""});
+    EXPECT_EQ(options.settings, Settings());
+    EXPECT_EQ(options.baseline, Path::deferred);
+    EXPECT_TRUE(options.channels.empty());
+    EXPECT_TRUE(options.out.empty());
+}
+
+TEST(CommandLine, EverySettingIsAnOptionOfEveryRenderingCommand) {
+    const Settings usual;
+    for (const std::string& command : rendering)
+        Settings::fields(usual, [&](const Field& field, const auto&) {
+            const std::string option(field.option);
+            EXPECT_EQ(parseCommandLine({command, "--" + option, valueOf(usual, option)}).settings, usual)
+                << option;
+        });
+}
+
+// The options of the contract that are no settings.
+TEST(CommandLine, TheOtherSharedOptionsParse) {
+    for (const std::string& command : rendering) {
+        const Options options = parseCommandLine(
+            {command,        "a.glb",    "--debug",  "normals",    "--channels", "2,lit,albedo,2",
+             "--frames",     "1",        "--fps",    "25",         "--ev100",    "-2.5",
+             "--no-tonemap", "--device", "llvmpipe", "--validate", "-o",         "out",
+             "--force",      "--json",   "-v",       "--runs",     "3"});
+        EXPECT_EQ(options.scenes, std::vector<std::string>{"a.glb"});
+        EXPECT_EQ(options.shown, 2);
+        EXPECT_EQ(options.channels, (std::vector<int>{0, 1, 2}));
+        EXPECT_EQ(options.picture.ev100, -2.5);
+        EXPECT_FALSE(options.picture.tonemap);
+        EXPECT_EQ(options.device, "llvmpipe");
+        EXPECT_TRUE(options.validate && options.force && options.json && options.verbose);
+        EXPECT_EQ(options.out, "out");
+        EXPECT_EQ(options.runs, 3);
+        EXPECT_TRUE(parseCommandLine({command, "-q", "--exposure", "2"}).quiet);
+    }
+}
+
+TEST(CommandLine, SeveralScenesAndCameras) {
+    const Options options = parseCommandLine({"compare", "a.glb", "--camera", "1", "b.glb",
+                                              "--camera=eye=1,2,3 target=0,0,0", "--size", "8x4", "c.glb"});
+    EXPECT_EQ(options.scenes, (std::vector<std::string>{"a.glb", "b.glb", "c.glb"}));
+    EXPECT_EQ(options.cameras, (std::vector<std::string>{"1", "eye=1,2,3 target=0,0,0"}));
+    EXPECT_EQ(options.settings.camera, "1");
+}
+
+TEST(CommandLine, ASettingsFileComesFirstWhereverItStands) {
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / "diptych_settings_test.json";
+    std::ofstream(file) << R"({"seed": 7, "size": [8, 4], "path": "deferred", "camera": "2"})";
+    const Options options = parseCommandLine({"render", "--size", "3x2", "--settings", file.string()});
+    EXPECT_EQ(options.settings.size, (Size{3, 2}));
+    EXPECT_EQ(options.settings.seed, 7u);
+    EXPECT_EQ(options.settings.path, Path::deferred);
+    EXPECT_FALSE(options.path_given);
+    EXPECT_EQ(options.cameras, std::vector<std::string>{"2"});
+
+    std::ofstream(file) << R"({"sed": 7})";
+    const std::string what = whatIsThrown({"render", "--settings", file.string()});
+    EXPECT_NE(what.find("sed"), std::string::npos) << what;
+    EXPECT_NE(what.find(file.string()), std::string::npos) << what;
+    std::filesystem::remove(file);
+}
+
+TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
+    for (const std::string command :
+         {"compare", "render", "diff", "tradeoff", "choose", "audit", "plan", "view", "bench", "devices"}) {
+        const std::string help = parseCommandLine({command, "--help"}).help;
+        EXPECT_NE(help.find("Example: diptych " + command), std::string::npos) << help;
+        EXPECT_NE(parseCommandLine({"--help"}).help.find("  " + command + " "), std::string::npos);
+    }
+    EXPECT_EQ(parseCommandLine({"--version"}).help.find("diptych "), 0u);
+}
+
+TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
+    const std::pair<std::vector<std::string>, const char*> later[] = {
+        {{"diff", "a.exr", "b.exr", "--metric", "rmse", "--tolerance", "0.1", "--ppd", "67", "--channels",
+          "lit", "-o", "d", "--json"},
+         "diff"},
+        {{"tradeoff", "a.glb", "--lights", "point:9"}, "tradeoff"},
+        {{"choose", "--max-error", "0.1"}, "choose"},
+        {{"choose", "--max-ms", "4", "--max-bytes", "100"}, "choose"},
+        {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},
+        {{"view", "a.glb", "--size", "64x64"}, "view"},
+        {{"bench", "--paths", "deferred,forward_plus", "--assign", "every,tiled", "--runs", "3"}, "bench"},
+        {{"compare", "--baseline", "reference"}, "--baseline reference"},
+        {{"compare", "--baseline", "left.exr"}, "--baseline left.exr"},
+        {{"compare", "--update-baseline"}, "--update-baseline"},
+        {{"compare", "--mask", "m.png"}, "--mask m.png"},
+        {{"compare", "--pixel", "3,4"}, "--pixel 3,4"},
+        {{"render", "--heat"}, "--heat"},
+        {{"render", "--frames", "2", "--fps", "30"}, "--frames 2"},
+    };
+    for (const auto& [words, name] : later) {
+        const std::string what = whatIsThrown(words);
+        EXPECT_EQ(what.find(name), 0u) << what;
+        EXPECT_NE(what.find("not built yet"), std::string::npos) << what;
+    }
+}
+
+TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
+    const std::pair<std::vector<std::string>, const char*> wrong[] = {
+        {{}, "--help"},
+        {{"paint"}, "paint"},
+        {{"--paint"}, "--help"},
+        {{"compare", "--paint"}, "--paint"},
+        {{"compare", "--siz", "4x4"}, "--siz"},
+        {{"compare", "--size"}, "--size"},
+        {{"compare", "--size", "big"}, "--size big"},
+        {{"compare", "--gbuffer", "huge"}, "--gbuffer huge"},
+        {{"compare", "--size", "1x1", "--size", "2x2"}, "--size"},
+        {{"compare", "--runs", "x"}, "--runs"},
+        {{"compare", "--runs", "-1"}, "--runs -1"},
+        {{"compare", "--exposure", "1", "--ev100", "1"}, "--ev100"},
+        {{"compare", "--exposure", "0"}, "--exposure 0"},
+        {{"compare", "--ev100", "inf"}, "--ev100"},
+        {{"compare", "--fps", "0"}, "--fps 0"},
+        {{"compare", "--debug", "lits"}, "--debug lits"},
+        {{"compare", "--channels", "lit,99"}, "--channels 99"},
+        {{"compare", "--settings", "no/such/file.json"}, "no/such/file.json"},
+        {{"compare", "--settings", "/"}, "folder"},
+        {{"compare", "-q", "-v"}, "--verbose"},
+        {{"diff", "a.exr"}, "images"},
+        {{"devices", "scene.glb"}, "scene.glb"},
+    };
+    for (const auto& [words, name] : wrong) {
+        const std::string what = whatIsThrown(words);
+        EXPECT_NE(what.find(name), std::string::npos) << what;
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+        EXPECT_EQ(what.find("not built yet"), std::string::npos) << what;
+    }
+}
+
+TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
+    const std::string what = whatIsThrown({"render", "--channels", "gloss"});
+    for (const DebugMode& mode : debugModes())
+        EXPECT_NE(what.find(std::to_string(mode.number) + " " + std::string(mode.name)), std::string::npos)
+            << what;
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "shared/frame/settings.h"
+
+#include "shared/frame/debug_modes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+#include <set>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+// Every member changed; a member that is added to Settings and not to fields() keeps its usual value here.
+Settings everythingChanged() {
+    Settings s;
+    s.path = Path::deferred;
+    s.assign = Assignment::per_object;
+    s.prepass = Switch::off;
+    s.gbuffer = GBufferEncoding::full;
+    s.size = {1920, 17};
+    s.camera = "eye=1,2,3 target=0,0,0 \"quoted\"";
+    s.time = 1.0 / 3.0;
+    s.env = "sky \\ \xc3\xa9.exr";
+    s.ibl_intensity = 0.1f;
+    s.ambient = {1e-30f, 0.3f, 16777217.0f};
+    s.lights = "point:64,spot:16";
+    s.seed = 4294967295u;
+    s.light_cutoff = 1e-3f;
+    s.pixel_lights = 0;
+    s.area_lights = AreaLights::representative;
+    s.shadows = Shadows::clipmap;
+    s.shadow_lights = 7;
+    s.evsm_precision = EvsmPrecision::fp16;
+    s.evsm_exponent = 5.5f;
+    s.evsm_bleed = 0.2f;
+    s.evsm_min_variance = 1e-6f;
+    s.msaa = 4;
+    s.sort = false;
+    s.haze = true;
+    s.spp = 256;
+    s.reference_mode = ReferenceMode::scene;
+    return s;
+}
+
+std::string whatIsThrown(const auto& call) {
+    try {
+        call();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+TEST(Settings, JsonRoundTripIsExact) {
+    EXPECT_EQ(settingsFromJson(toJson(Settings())), Settings());
+    EXPECT_EQ(settingsFromJson(toJson(everythingChanged())), everythingChanged());
+    EXPECT_NE(settingsFromJson(toJson(everythingChanged())), Settings());
+}
+
+TEST(Settings, JsonRoundTripIsExactForEveryKindOfFloat) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 20000; ++i) {
+        Settings s;
+        const auto bits = static_cast<std::uint32_t>(random());
+        std::memcpy(&s.evsm_exponent, &bits, sizeof bits);
+        if (s.evsm_exponent - s.evsm_exponent != 0) continue;  // infinite or no number
+        const std::uint64_t wide = (std::uint64_t(random()) << 32) | random();
+        std::memcpy(&s.time, &wide, sizeof wide);
+        if (s.time - s.time != 0) s.time = 0;
+        const Settings back = settingsFromJson(toJson(s, -1));
+        ASSERT_EQ(std::memcmp(&back.evsm_exponent, &s.evsm_exponent, sizeof(float)), 0) << s.evsm_exponent;
+        ASSERT_EQ(std::memcmp(&back.time, &s.time, sizeof(double)), 0) << s.time;
+    }
+}
+
+TEST(Settings, WordsRoundTrip) {
+    const Settings changed = everythingChanged();
+    Settings back;
+    Settings::fields(changed, [&](const Field& field, const auto&) {
+        EXPECT_NE(valueOf(changed, field.option), valueOf(back, field.option)) << field.option;
+        set(back, field.option, valueOf(changed, field.option));
+    });
+    EXPECT_EQ(back, changed);
+}
+
+TEST(Settings, FieldsNameEachMemberOnce) {
+    std::set<std::string_view> names;
+    const Settings s;
+    Settings::fields(s, [&](const Field& field, const auto&) {
+        EXPECT_TRUE(names.insert(field.option).second) << field.option;
+        EXPECT_FALSE(field.help.empty()) << field.option;
+        EXPECT_FALSE(acceptedValues(field.option).empty()) << field.option;
+    });
+}
+
+TEST(Settings, AbsentKeysKeepTheBase) {
+    Settings base;
+    base.seed = 7;
+    const Settings s = settingsFromJson(R"({"size": [8, 4], "haze": true})", base);
+    EXPECT_EQ(s.seed, 7u);
+    EXPECT_EQ(s.size, (Size{8, 4}));
+    EXPECT_TRUE(s.haze);
+}
+
+TEST(Settings, JsonAcceptsTheWordsOfTheCommandLine) {
+    const Settings s =
+        settingsFromJson(R"({"size": "8x4", "ambient": "1,2,3", "sort": "off", "lights": "none"})");
+    EXPECT_EQ(s.size, (Size{8, 4}));
+    EXPECT_EQ(s.ambient, (Rgb{1, 2, 3}));
+    EXPECT_FALSE(s.sort);
+    EXPECT_EQ(s.lights, "");
+}
+
+TEST(Settings, BadJsonIsRefusedByName) {
+    const std::pair<const char*, const char*> bad[] = {
+        {R"({"gamma": 2})", "gamma"},
+        {R"({"light-cutoff": 2})", "light-cutoff"},
+        {R"({"msaa": "four"})", "msaa"},
+        {R"({"msaa": 1.5})", "msaa"},
+        {R"({"seed": -1})", "seed"},
+        {R"({"seed": 4294967296})", "seed"},
+        {R"({"size": [1, 2, 3]})", "size"},
+        {R"({"size": {"w": 1}})", "size"},
+        {R"({"ambient": [1, "x", 0]})", "ambient"},
+        {R"({"path": 1})", "path"},
+        {R"({"path": "raster"})", "path"},
+        {R"({"evsm_bleed": 1e300})", "evsm_bleed"},
+        {R"({"haze": 1})", "haze"},
+        {R"({"camera": 0})", "camera"},
+        {R"({"time": null})", "time"},
+        {"[1]", "object"},
+        {"{", "JSON"},
+        {"", "JSON"},
+        {R"({"time": 1e999})", "range"},
+    };
+    for (const auto& [text, name] : bad) {
+        const std::string what = whatIsThrown([&] { settingsFromJson(text); });
+        EXPECT_NE(what.find(name), std::string::npos) << text << " -> " << what;
+        EXPECT_EQ(what.find('\n'), std::string::npos) << text << " -> " << what;
+    }
+}
+
+TEST(Settings, BadWordsAreRefusedByOptionAndValue) {
+    const std::pair<const char*, const char*> bad[] = {
+        {"size", "640"},        {"size", "x"},          {"size", "640x"},  {"size", "640x360x1"},
+        {"size", "6.5x3"},      {"msaa", ""},           {"msaa", "4 "},    {"seed", "-1"},
+        {"seed", "1e3"},        {"time", "nan"},        {"time", "inf"},   {"time", "1s"},
+        {"ambient", "1,2"},     {"ambient", "1,2,3,4"}, {"haze", "maybe"}, {"path", "Deferred"},
+        {"evsm-bleed", "1e99"},
+    };
+    for (const auto& [option, value] : bad) {
+        Settings s;
+        const std::string what = whatIsThrown([&, o = option, v = value] { set(s, o, v); });
+        EXPECT_EQ(what.find(std::string("--") + option + " " + value), 0u) << what;
+    }
+    Settings s;
+    EXPECT_NE(whatIsThrown([&] { set(s, "gamma", "2"); }).find("gamma"), std::string::npos);
+}
+
+TEST(Settings, TheUsualOnesHaveNoProblem) {
+    EXPECT_EQ(Settings().problem(), std::nullopt);
+}
+
+TEST(Settings, WhatIsBuiltHasNoProblem) {
+    const std::pair<const char*, const char*> built[] = {
+        {"path", "deferred"}, {"path", "forward_plus"}, {"assign", "every"},
+        {"prepass", "on"},    {"prepass", "off"},       {"gbuffer", "compact"},
+        {"gbuffer", "full"},  {"size", "1x1"},          {"size", "16384x1"},
+        {"camera", "0"},      {"lights", "point:3"},    {"lights", "none"},
+        {"seed", "9"},        {"env", "none"},          {"shadows", "off"},
+        {"haze", "off"},      {"sort", "off"},          {"msaa", "1"},
+        {"spp", "1"},         {"ibl-intensity", "1"},
+    };
+    for (const auto& [option, value] : built) {
+        Settings s;
+        set(s, option, value);
+        EXPECT_EQ(s.problem().value_or("none"), "none");
+    }
+}
+
+TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
+    const std::pair<const char*, const char*> rest[] = {
+        {"path", "reference"},
+        {"assign", "tiled"},
+        {"assign", "clustered"},
+        {"assign", "per_object"},
+        {"size", "0x5"},
+        {"size", "5x16385"},
+        {"size", "-1x5"},
+        {"time", "2"},
+        {"env", "sky.exr"},
+        {"ibl-intensity", "2"},
+        {"ambient", "0,0.1,0"},
+        {"light-cutoff", "0.01"},
+        {"pixel-lights", "8"},
+        {"area-lights", "representative"},
+        {"shadows", "pcf"},
+        {"shadows", "evsm"},
+        {"shadows", "clipmap"},
+        {"shadow-lights", "1"},
+        {"evsm-precision", "fp16"},
+        {"evsm-exponent", "5.5"},
+        {"evsm-bleed", "0.2"},
+        {"evsm-min-variance", "0.1"},
+        {"msaa", "4"},
+        {"msaa", "2"},
+        {"haze", "on"},
+        {"spp", "16"},
+        {"reference-mode", "scene"},
+    };
+    for (const auto& [option, value] : rest) {
+        Settings s;
+        set(s, option, value);
+        const std::string problem = s.problem().value_or("none");
+        EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
+    }
+}
+
+TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
+    std::set<std::string_view> names;
+    int last = -1;
+    for (const DebugMode& mode : debugModes()) {
+        EXPECT_GT(mode.number, last) << mode.name;
+        last = mode.number;
+        EXPECT_TRUE(names.insert(mode.name).second) << mode.name;
+        EXPECT_FALSE(mode.shows.empty()) << mode.name;
+        EXPECT_EQ(findDebugMode(mode.name), &mode);
+        EXPECT_EQ(findDebugMode(std::to_string(mode.number)), &mode);
+        EXPECT_EQ(&debugMode(mode.number), &mode);
+    }
+}
+
+// What others' files and scripts rely on: these never change.
+TEST(DebugModes, ZeroToNineAreFixed) {
+    const char* const names[] = {"lit",      "albedo",    "normals",  "metallic",    "roughness",
+                                 "emission", "occlusion", "specular", "material_id", "texcoords"};
+    for (int number = 0; number < 10; ++number) EXPECT_EQ(debugMode(number).name, names[number]);
+}
+
+TEST(DebugModes, WhatIsNotThereIsNotFound) {
+    for (const char* word : {"", "Lit", "lit ", "-1", "9999", "1x", "+1"})
+        EXPECT_EQ(findDebugMode(word), nullptr) << word;
+    EXPECT_THROW(debugMode(9999), std::out_of_range);
+}
+
+TEST(DebugModes, ExrChannelsAreNamedByKindAndUnique) {
+    EXPECT_EQ(exrChannels(debugMode(0)), (std::vector<std::string>{"R", "G", "B"}));
+    EXPECT_EQ(exrChannels(debugMode(2)), (std::vector<std::string>{"normals.X", "normals.Y", "normals.Z"}));
+    EXPECT_EQ(exrChannels(debugMode(4)), (std::vector<std::string>{"roughness.Y"}));
+    EXPECT_EQ(exrChannels(debugMode(8)), (std::vector<std::string>{"material_id.Y"}));
+    EXPECT_EQ(exrChannels(debugMode(9)), (std::vector<std::string>{"texcoords.X", "texcoords.Y"}));
+    EXPECT_EQ(exrChannels(*findDebugMode("depth")), (std::vector<std::string>{"Z"}));
+    std::set<std::string> all;
+    for (const DebugMode& mode : debugModes()) {
+        const std::vector<std::string> channels = exrChannels(mode);
+        EXPECT_EQ(channels.size(), static_cast<std::size_t>(mode.width)) << mode.name;
+        for (const std::string& channel : channels) EXPECT_TRUE(all.insert(channel).second) << channel;
+    }
+}
+
+}  // namespace
+}  // namespace diptych
