@@ -6,6 +6,7 @@
 #include "shared/scene/scene.h"
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,28 @@ namespace diptych {
 class Device;
 
 struct RenderOptions {
-    std::vector<int> channels;  // debug modes; a forward-only one is left out of a deferred Frame
-    int runs = 5;               // timed frames; 0: no times, no profile
-    bool through_gbuffer = false;  // forward+: also lit through the G-buffer's encoding
+    std::vector<int> channels;     // debug modes; a forward-only one is left out of a deferred Frame
+    int runs = 5;                  // timed frames; 0: no times, no profile
+    bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding
+    // Called before each step with a word on it, for a progress line.
+    std::function<void(const std::string&)> progress;
 };
 
 // One Frame per Settings, in order. Everything is uploaded once for all of them and every pipeline is
 // compiled once. Throws std::runtime_error: one line.
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
                              const RenderOptions& options);
+
+// What a frame would be made of, without drawing it.
+struct PathPlan {
+    std::string path;
+    std::vector<std::string> passes;
+    unsigned bytes_per_pixel = 0;  // attachments that carry geometry: G-buffer and depth; without lit
+    std::vector<std::string> notes;
+};
+std::vector<PathPlan> planPaths(Device& device, const Scene& scene, const std::vector<Settings>& settings);
+
+// The lights that Settings put into a scene: its own, the rig's, or a sun where there are none.
+std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& settings);
 
 }  // namespace diptych

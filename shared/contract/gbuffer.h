@@ -9,11 +9,12 @@
 //   params    R32  geom. oct 8.8,          R32  roughness 12,              RGBA32 geom. normal, metallic
 //                  metallic 6, id 10            metallic 8, id 12
 //   emission  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 emission, id
-//   specular  R32  F0 8.8.8, F90 8         R32  F0 8.8.8, F90 8            RGBA32 F0, F90
+//   specular  R32  sqrt 8.8.8, F90 8       R32  sqrt 8.8.8, F90 8          RGBA32 dielectric F0, F90
 //   ids       R32  (only where 10 bits     R32  (only where 12 bits
 //                   do not suffice)              do not suffice)
 //   bytes     12 to 20, + 4 depth          16 to 24, + 4 depth             64 to 80, + 4 depth
 //
+// sqrt: the square root is stored and squared again: 0.04, the usual F0, is exactly 51/255.
 // emission exists where the scene emits (full: always, it carries the id), and is RGBA32 float where its
 // radiance leaves the range of 9.9.9.e5; specular where a material has KHR_materials_specular or _ior.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H

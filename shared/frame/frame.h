@@ -5,6 +5,7 @@
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -52,6 +53,7 @@ struct Frame {
     // Forward+: lit, lit_diffuse and lit_specular of a surface that went through the encoding of
     // settings.gbuffer and back: what the deferred path must show. It explains a difference of lit.
     std::map<int, Image> through_gbuffer;
+    std::array<float, 3> background{};  // what pictures show there, W/(sr m^2)
     FrameTime time;
     std::vector<PassTime> passes;
     FrameBytes bytes;

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render.h"
+
+#include "deferred/deferred.h"
+#include "forward_plus/forward_plus.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/scene/requirements.h"
+#include "shared/scene/rig.h"
+#include "shared/scene/view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+// What all Settings share: uploaded and compiled once.
+struct SharedResources {
+    SharedResources(Device& d, const Scene& scene)
+        : uploader(d),
+          geometry(d, uploader, scene),
+          materials(d, uploader, scene),
+          layouts(d, materials.layout()),
+          pipelines(d, layouts.pipeline) {
+        uploader.flush();
+    }
+    Uploader uploader;
+    Geometry geometry;
+    Materials materials;
+    Layouts layouts;
+    Pipelines pipelines;
+};
+
+// One view of the scene under one Settings, ready for passes.
+class Shot {
+public:
+    Shot(Device& device, SharedResources& shared, const Scene& scene, const Settings& settings)
+        : pose(poseAt(scene, settings.time)),
+          view(makeView(scene, pose, settings.camera, settings.size.width, settings.size.height)),
+          needs(requirements(scene, pose)),
+          lights(gpuLights(litBy(scene, pose, settings), view.eye())),
+          draws(makeDrawList(pose, shared.geometry, shared.materials, view)),
+          buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights),
+          gbuffer(gbufferLayout(settings.gbuffer, needs)),
+          inputs{device,           shared.layouts,
+                 shared.pipelines, shared.geometry,
+                 shared.materials, draws,
+                 buffers.set(),    sceneVariant(needs, lights, view, gbuffer),
+                 gbuffer,          settings.prepass != Switch::off} {}
+    Shot(const Shot&) = delete;
+    Shot& operator=(const Shot&) = delete;
+
+    Pose pose;
+    View view;
+    Requirements needs;
+    GpuLights lights;
+    DrawList draws;
+    FrameBuffers buffers;
+    GBufferLayout gbuffer;
+    FrameInputs inputs;
+};
+
+// The paths, one row each.
+struct PathFunctions {
+    Path path;
+    FrameImages (*add)(PassList&, const FrameInputs&);
+    std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, std::span<const int>);
+    std::uint32_t (*bytesPerPixel)(const FrameInputs&);
+};
+
+const PathFunctions paths[] = {
+    {Path::deferred, addDeferred, addDeferredCapture,
+     [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; }},
+    {Path::forward_plus, addForwardPlus,
+     [](PassList& passes, const FrameInputs& inputs, std::span<const int> modes) {
+         return addForwardPlusCapture(passes, inputs, modes, false);
+     },
+     [](const FrameInputs&) { return std::uint32_t{4}; }},
+};
+
+const PathFunctions& functionsOf(Path path) {
+    for (const PathFunctions& functions : paths)
+        if (functions.path == path) return functions;
+    throw std::runtime_error(fmt::format("--path {} is not built yet", nameOf(path)));
+}
+
+void checkSize(const Device& device, const Size& size) {
+    const auto limit = static_cast<int>(std::min(device.limits().maxImageDimension2D, 1u << 24));
+    if (size.width > limit || size.height > limit)
+        throw std::runtime_error(fmt::format("--size {}x{}: {} draws up to {}x{}", size.width, size.height,
+                                             device.info().name, limit, limit));
+}
+
+Image readImage(PassList& passes, ImageRef ref, int components) {
+    Image image;
+    image.width = static_cast<int>(passes.width());
+    image.height = static_cast<int>(passes.height());
+    image.components = components;
+    passes.readBack(ref, components, image.data);
+    return image;
+}
+
+FrameTime timeOf(std::vector<double> ms) {
+    FrameTime time;
+    time.runs = static_cast<int>(ms.size());
+    if (ms.empty()) return time;
+    std::sort(ms.begin(), ms.end());
+    time.min = ms.front();
+    time.max = ms.back();
+    time.median = 0.5 * (ms[(ms.size() - 1) / 2] + ms[ms.size() / 2]);
+    return time;
+}
+
+std::uint64_t nonfinitePixels(const Image& image) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* p = image.pixel(i);
+        count += !std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); });
+    }
+    return count;
+}
+
+// Pixels that are not the same bits; a GPU's compiler may contract the two shaders differently, so there
+// 16 ULP of the pixel's largest component are the same.
+std::uint64_t differentPixels(const Image& a, const Image& b, bool cpu) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+        const float *p = a.pixel(i), *q = b.pixel(i);
+        if (std::memcmp(p, q, sizeof(float) * static_cast<std::size_t>(a.components)) == 0) continue;
+        float largest = 0, difference = 0;
+        for (int c = 0; c < a.components; ++c) {
+            largest = std::max({largest, std::abs(p[c]), std::abs(q[c])});
+            difference = std::max(difference, std::abs(p[c] - q[c]));
+        }
+        count += cpu || !(difference <= 16 * 0x1p-23f * largest);
+    }
+    return count;
+}
+
+FrameCamera cameraOf(const View& view) {
+    FrameCamera camera;
+    camera.name = view.camera.name;
+    const glm::dvec3 eye = view.eye(), target = eye - view.backward(), up = view.up();
+    for (int i = 0; i < 3; ++i) {
+        camera.eye[i] = eye[i];
+        camera.target[i] = target[i];
+        camera.up[i] = up[i];
+    }
+    constexpr double degrees = 57.295779513082323;
+    camera.fov_degrees = view.camera.orthographic ? 0.0 : view.camera.yfov * degrees;
+    camera.near = view.camera.near;
+    camera.far = view.camera.far;
+    return camera;
+}
+
+class FrameMaker {
+public:
+    FrameMaker(Device& device, SharedResources& shared, const Scene& scene, const Settings& settings,
+               const RenderOptions& options)
+        : device_(device),
+          shared_(shared),
+          scene_(scene),
+          settings_(settings),
+          options_(options),
+          shot_(device, shared, scene, settings),
+          path_(functionsOf(settings.path)) {}
+
+    Frame make() {
+        frame_.name = std::string(nameOf(settings_.path));
+        frame_.scene = scene_.name;
+        frame_.settings = settings_;
+        frame_.camera = cameraOf(shot_.view);
+        frame_.background = {scene_.background.r, scene_.background.g, scene_.background.b};
+        frame_.notes = scene_.notes;
+        frame_.counters.lights = shot_.lights.lights.size();
+        drawTimed();
+        capture();
+        if (options_.through_gbuffer && settings_.path == Path::forward_plus) explain();
+        return std::move(frame_);
+    }
+
+private:
+    void say(const std::string& step) const {
+        if (options_.progress) options_.progress(frame_.name + ": " + step);
+    }
+    bool asked(int mode) const {
+        return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
+    }
+
+    PassList passList() const {
+        return {device_, static_cast<std::uint32_t>(settings_.size.width),
+                static_cast<std::uint32_t>(settings_.size.height)};
+    }
+
+    // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
+    void drawTimed() {
+        say("draw");
+        PassList passes = passList();
+        const FrameImages images = path_.add(passes, shot_.inputs);
+        passes.run();
+        std::vector<double> ms;
+        for (int i = 0; i < options_.runs; ++i) ms.push_back(passes.run());
+        frame_.time = timeOf(std::move(ms));
+        if (options_.runs > 0)
+            for (const PassMs& pass : passes.profile()) frame_.passes.push_back({pass.name, pass.ms});
+        lit_ = readImage(passes, images.lit, 3);
+        frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
+        frame_.bytes.images = passes.imageBytes() + shared_.materials.imageBytes();
+        frame_.bytes.buffers =
+            shared_.geometry.bytes() + shared_.materials.bufferBytes() + shot_.buffers.bytes();
+        frame_.bytes.gbuffer_per_pixel = path_.bytesPerPixel(shot_.inputs);
+    }
+
+    // Every channel; lit itself stays the timed pipeline's, and the capture's is held against it.
+    void capture() {
+        say("capture");
+        std::vector<int> modes{static_cast<int>(gpu::DEBUG_lit)};
+        for (const int mode : options_.channels)
+            if (mode != modes.front() &&
+                (settings_.path == Path::forward_plus || debugMode(mode).maker == MadeBy::both))
+                modes.push_back(mode);
+        for (auto& [mode, image] : captureImages(modes, path_.capture))
+            frame_.channels[mode] = std::move(image);
+        Image& captured = frame_.channels[static_cast<int>(gpu::DEBUG_lit)];
+        frame_.counters.unreproduced_pixels = differentPixels(captured, lit_, device_.info().isCpu());
+        captured = std::move(lit_);
+        if (!asked(static_cast<int>(gpu::DEBUG_lit))) frame_.channels.erase(static_cast<int>(gpu::DEBUG_lit));
+    }
+
+    void explain() {
+        say("shade through the G-buffer's encoding");
+        std::vector<int> modes;
+        for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
+            if (asked(static_cast<int>(mode))) modes.push_back(static_cast<int>(mode));
+        if (modes.empty()) return;
+        frame_.through_gbuffer =
+            captureImages(modes, [](PassList& passes, const FrameInputs& inputs, std::span<const int> m) {
+                return addForwardPlusCapture(passes, inputs, m, true);
+            });
+    }
+
+    std::map<int, Image> captureImages(const std::vector<int>& modes,
+                                       std::vector<CapturedImage> (*add)(PassList&, const FrameInputs&,
+                                                                         std::span<const int>)) {
+        PassList passes = passList();
+        const std::vector<CapturedImage> captured = add(passes, shot_.inputs, modes);
+        passes.run();
+        std::map<int, Image> images;
+        for (const auto& [mode, ref] : captured) images[mode] = readImage(passes, ref, debugMode(mode).width);
+        return images;
+    }
+
+    Device& device_;
+    SharedResources& shared_;
+    const Scene& scene_;
+    const Settings& settings_;
+    const RenderOptions& options_;
+    Shot shot_;
+    const PathFunctions& path_;
+    Frame frame_;
+    Image lit_;
+};
+
+}  // namespace
+
+std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& settings) {
+    std::vector<Light> lights = pose.lights;
+    if (!settings.lights.empty())
+        for (Light& light : makeLights(settings.lights, settings.seed, worldBounds(scene, pose)))
+            lights.push_back(std::move(light));
+    if (lights.empty()) lights.push_back(defaultSun());
+    return lights;
+}
+
+std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
+                             const RenderOptions& options) {
+    for (const Settings& s : settings) checkSize(device, s.size);
+    SharedResources shared(device, scene);
+    std::vector<Frame> frames;
+    for (const Settings& s : settings) frames.push_back(FrameMaker(device, shared, scene, s, options).make());
+    return frames;
+}
+
+std::vector<PathPlan> planPaths(Device& device, const Scene& scene, const std::vector<Settings>& settings) {
+    SharedResources shared(device, scene);
+    std::vector<PathPlan> plans;
+    for (const Settings& s : settings) {
+        checkSize(device, s.size);
+        const Shot shot(device, shared, scene, s);
+        const PathFunctions& path = functionsOf(s.path);
+        PassList passes(device, 1, 1);
+        path.add(passes, shot.inputs);
+        PathPlan plan{std::string(nameOf(s.path)), passes.names(), path.bytesPerPixel(shot.inputs), {}};
+        plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", shot.draws.items.size(),
+                                         shot.draws.culled, shared.pipelines.count()));
+        plans.push_back(std::move(plan));
+    }
+    return plans;
+}
+
+}  // namespace diptych

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The forward+ path: depth pre-pass (by choice), then every surface is shaded as it is drawn.
+#pragma once
+
+#include "shared/draw/frame_inputs.h"
+
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+// The passes of a frame as it is timed. `inputs` must outlive the list.
+FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs);
+
+// The passes that write channels. With `throughGBuffer` every surface is encoded as inputs.gbuffer does and
+// decoded again before it is shaded: what the deferred path has to show.
+std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
+                                                 std::span<const int> modes, bool throughGBuffer);
+
+}  // namespace diptych

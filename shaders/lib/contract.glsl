@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Everything the two languages share, the features as specialization constants, and what a frame reads.
+#ifndef CONTRACT_GLSL
+#define CONTRACT_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+
+#include "shared/contract/bindings.h"
+#include "shared/contract/constants.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/features.h"
+#include "shared/contract/gbuffer.h"
+#include "shared/contract/geometry.h"
+#include "shared/contract/light.h"
+#include "shared/contract/material.h"
+#include "shared/contract/view.h"
+
+#define FEATURE_CONSTANT(id, name) layout(constant_id = id) const uint feature_##name = 0;
+FEATURES(FEATURE_CONSTANT)
+#undef FEATURE_CONSTANT
+
+bool on(uint feature) { return feature != 0; }
+
+layout(set = SET_FRAME, binding = BINDING_VIEW, scalar) uniform ViewBlock { View view; };
+layout(set = SET_FRAME, binding = BINDING_DRAWS, scalar) readonly buffer Draws { Draw draws[]; };
+layout(set = SET_FRAME, binding = BINDING_MATERIALS, scalar) readonly buffer Materials { Material materials[]; };
+layout(set = SET_FRAME, binding = BINDING_LIGHTS, scalar) readonly buffer Lights { Light lights[]; };
+
+#endif

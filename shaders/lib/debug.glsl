@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#ifndef DEBUG_GLSL
+#define DEBUG_GLSL
+
+#include "shaders/lib/shade.glsl"
+
+// The numbers of a channel (shared/contract/debug_mode.h), never a colour map. z: the reversed depth.
+vec4 debugValue(uint mode, Surface s, Radiance radiance, float z) {
+    switch (mode) {
+        case DEBUG_lit: return vec4(lit(radiance), 1.0);
+        case DEBUG_albedo: return vec4(s.albedo, 1.0);
+        case DEBUG_normals: return vec4(s.normal, 1.0);
+        case DEBUG_metallic: return vec4(s.metallic);
+        case DEBUG_roughness: return vec4(s.roughness);
+        case DEBUG_emission: return vec4(s.emission, 1.0);
+        case DEBUG_occlusion: return vec4(s.occlusion);
+        case DEBUG_specular: return vec4(specularF0(s), 1.0);
+        case DEBUG_material_id: return vec4(float(s.material_id));
+        case DEBUG_texcoords: return vec4(s.texcoord, 0.0, 1.0);
+        case DEBUG_depth: return vec4(viewDepth(z));
+        case DEBUG_position: return vec4(s.position, 1.0);
+        case DEBUG_geometric_normal: return vec4(s.geometric_normal, 1.0);
+        case DEBUG_lit_diffuse: return vec4(radiance.diffuse, 1.0);
+        case DEBUG_lit_specular: return vec4(radiance.specular, 1.0);
+    }
+    return vec4(0.0);
+}
+
+#endif

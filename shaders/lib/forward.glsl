@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The Surface that the forward+ path shades.
+#ifndef FORWARD_GLSL
+#define FORWARD_GLSL
+
+#include "shaders/lib/gbuffer.glsl"
+#include "shaders/lib/material.glsl"
+
+// With quantise_surface: what the deferred path would read back, which explains its picture bit for bit.
+Surface forwardSurface() {
+    vec4 base_color = baseColor();
+    if (isCutOut(base_color)) discard;
+    Surface s = surfaceFromMaterial(base_color);
+    if (on(feature_quantise_surface)) return decodeGBuffer(encodeGBuffer(s), s.position);
+    s.geometric_normal = quantiseGeometricNormal(s.geometric_normal);
+    return s;
+}
+
+#endif

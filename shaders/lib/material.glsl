@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The forward maker of a Surface: from the material's factors and textures at a fragment. The G-buffer pass
+// makes its Surface here too. Everything that needs screen-space derivatives (mip levels, the triangle's
+// normal) happens here and nowhere later.
+#ifndef MATERIAL_GLSL
+#define MATERIAL_GLSL
+
+#include "shaders/lib/position.glsl"
+#include "shaders/lib/surface.glsl"
+
+layout(location = 0) in vec3 in_world;  // interpolated: only for its derivatives
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec2 in_texcoord0;
+layout(location = 4) in vec2 in_texcoord1;
+layout(location = 5) in vec4 in_color;
+layout(location = 6) flat in uint in_material;
+
+layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
+layout(set = SET_MATERIAL, binding = SLOT_metallic_roughness) uniform sampler2D metallic_roughness_texture;
+layout(set = SET_MATERIAL, binding = SLOT_normal) uniform sampler2D normal_texture;
+layout(set = SET_MATERIAL, binding = SLOT_occlusion) uniform sampler2D occlusion_texture;
+layout(set = SET_MATERIAL, binding = SLOT_emissive) uniform sampler2D emissive_texture;
+layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_texture;
+layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
+
+vec2 slotTexcoord(uint slot) {
+    vec2 uv = in_texcoord0;
+    if (on(feature_second_texcoord) && (materials[in_material].second_texcoord & (1u << slot)) != 0) uv = in_texcoord1;
+    if (on(feature_texture_transform)) {
+        TextureTransform t = materials[in_material].transforms[slot];
+        uv = vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0)));
+    }
+    return uv;
+}
+
+vec4 baseColor() {
+    vec4 color = materials[in_material].base_color;
+    if (on(feature_base_color_texture)) color *= texture(base_color_texture, slotTexcoord(SLOT_base_color));
+    if (on(feature_vertex_color)) color *= in_color;
+    return color;
+}
+
+// Alpha mask. Every pass that draws the material asks here, so a pre-pass cuts what shading cuts.
+bool isCutOut(vec4 base_color) {
+    return on(feature_alpha_mask) && base_color.a < materials[in_material].alpha_cutoff;
+}
+
+// glTF 2.0: tangent space is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as MikkTSpace
+// asks; a back face of a double-sided material turns the result round.
+vec3 shadingNormal() {
+    vec3 n = in_normal;
+    if (on(feature_normal_texture)) {
+        vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
+        t.xy *= materials[in_material].normal_scale;
+        vec3 bitangent = in_tangent.w * cross(in_normal, in_tangent.xyz);
+        n = t.x * in_tangent.xyz + t.y * bitangent + t.z * in_normal;
+    }
+    if (on(feature_double_sided) && !gl_FrontFacing) n = -n;
+    return normalize(n);
+}
+
+// Of the triangle, towards the viewer.
+vec3 triangleNormal(vec3 v) {
+    vec3 n = normalize(cross(dFdx(in_world), dFdy(in_world)));
+    return dot(n, v) < 0.0 ? -n : n;
+}
+
+Surface surfaceFromMaterial(vec4 base_color) {
+    Material m = materials[in_material];
+    Surface s;
+    s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
+    s.normal = shadingNormal();
+    s.geometric_normal = triangleNormal(viewVector(s.position));
+    s.albedo = base_color.rgb;
+    s.metallic = m.metallic;
+    s.roughness = m.roughness;
+    if (on(feature_metallic_roughness_texture)) {
+        vec4 texel = texture(metallic_roughness_texture, slotTexcoord(SLOT_metallic_roughness));
+        s.roughness *= texel.g;
+        s.metallic *= texel.b;
+    }
+    s.occlusion = 1.0;
+    if (on(feature_occlusion_texture)) {
+        float texel = texture(occlusion_texture, slotTexcoord(SLOT_occlusion)).r;
+        s.occlusion = 1.0 + m.occlusion_strength * (texel - 1.0);
+    }
+    s.emission = vec3(0.0);
+    if (on(feature_emission)) {
+        s.emission = m.emission;
+        if (on(feature_emissive_texture)) s.emission *= texture(emissive_texture, slotTexcoord(SLOT_emissive)).rgb;
+    }
+    s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
+    s.dielectric_f90 = 1.0;
+    if (on(feature_dielectric_specular)) {
+        s.dielectric_f0 = m.dielectric_f0;
+        s.dielectric_f90 = m.specular;
+        if (on(feature_specular_color_texture))
+            s.dielectric_f0 *= texture(specular_color_texture, slotTexcoord(SLOT_specular_color)).rgb;
+        if (on(feature_specular_texture))
+            s.dielectric_f90 *= texture(specular_texture, slotTexcoord(SLOT_specular)).a;
+        s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
+    }
+    s.material_id = in_material;
+    s.texcoord = in_texcoord0;
+    return s;
+}
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What shading knows of a point. Two makers: forward+ from the material (material.glsl), deferred from the
+// G-buffer (gbuffer.glsl). Everything after that is shared.
+#ifndef SURFACE_GLSL
+#define SURFACE_GLSL
+
+#include "shaders/lib/contract.glsl"
+
+struct Surface {
+    vec3 position;          // world axes, camera as origin, m
+    vec3 normal;            // unit, shading
+    vec3 geometric_normal;  // unit, of the triangle, towards the viewer
+    vec3 albedo;            // base colour, linear Rec.709
+    float metallic;
+    float roughness;        // perceptual
+    float occlusion;        // 1: open; for ambient light alone
+    vec3 emission;          // W/(sr m^2)
+    vec3 dielectric_f0;     // KHR_materials_ior, _specular
+    float dielectric_f90;
+    uint material_id;
+    vec2 texcoord;          // forward+ only
+};
+
+// Specular colour at normal incidence.
+vec3 specularF0(Surface s) { return mix(s.dielectric_f0, s.albedo, s.metallic); }
+
+#endif

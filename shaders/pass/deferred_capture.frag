@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/capture.glsl"
+#include "shaders/lib/gbuffer_read.glsl"
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    float z = depthAt(p);
+    Surface s = surfaceFromGBuffer(p, z);
+    capture(s, shade(s), z);
+}

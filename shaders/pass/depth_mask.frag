@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Depth of an alpha-masked material: what is cut out leaves none.
+#include "shaders/lib/material.glsl"
+
+void main() {
+    if (isCutOut(baseColor())) discard;
+}

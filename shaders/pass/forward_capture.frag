@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/capture.glsl"
+#include "shaders/lib/forward.glsl"
+
+void main() {
+    Surface s = forwardSurface();
+    capture(s, shade(s), gl_FragCoord.z);
+}

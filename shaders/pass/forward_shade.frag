@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/forward.glsl"
+#include "shaders/lib/shade.glsl"
+
+layout(location = 0) out vec4 out_lit;
+
+void main() { out_lit = vec4(lit(shade(forwardSurface())), 1.0); }

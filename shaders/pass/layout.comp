@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Never run: every struct of the contract in a buffer of its own, so that the compiled SPIR-V holds the
+// offsets that the build proves equal to C++'s.
+#include "shaders/lib/contract.glsl"
+
+layout(set = 3, binding = 0, scalar) buffer ViewArray { View view_array[]; };
+layout(set = 3, binding = 1, scalar) buffer DrawArray { Draw draw_array[]; };
+layout(set = 3, binding = 2, scalar) buffer MaterialArray { Material material_array[]; };
+layout(set = 3, binding = 3, scalar) buffer LightArray { Light light_array[]; };
+layout(set = 3, binding = 4, scalar) buffer VertexAttributesArray { VertexAttributes vertex_attributes_array[]; };
+layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
+
+void main() {
+    view_array[0] = view_array[1];
+    draw_array[0] = draw_array[1];
+    material_array[0] = material_array[1];
+    light_array[0] = light_array[1];
+    vertex_attributes_array[0] = vertex_attributes_array[1];
+    texture_transform_array[0] = texture_transform_array[1];
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/vertex.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 texcoord0;
+layout(location = 4) in vec2 texcoord1;
+layout(location = 5) in vec4 color;
+
+layout(location = 0) out vec3 out_world;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec4 out_tangent;
+layout(location = 3) out vec2 out_texcoord0;
+layout(location = 4) out vec2 out_texcoord1;
+layout(location = 5) out vec4 out_color;
+layout(location = 6) flat out uint out_material;
+
+void main() {
+    Draw draw = draws[gl_InstanceIndex];
+    out_world = worldFromVertex(draw, position);
+    gl_Position = clipFromVertex(out_world);
+    out_normal = normalize(draw.normal_from_object * normal);
+    out_tangent = vec4(normalize(mat3(draw.world_from_object) * tangent.xyz), tangent.w * draw.handedness);
+    out_texcoord0 = texcoord0;
+    out_texcoord1 = texcoord1;
+    out_color = color;
+    out_material = draw.material;
+}

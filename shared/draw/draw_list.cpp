@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/draw_list.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace diptych {
+
+namespace {
+
+// Columns of the cofactor matrix are the inverse transpose times the determinant, and exist for singular
+// transforms too.
+glm::dmat3 normalFromObject(const glm::dmat3& m) {
+    glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const double length =
+        std::max({glm::length(cofactors[0]), glm::length(cofactors[1]), glm::length(cofactors[2])});
+    if (!(length > 0)) return glm::dmat3(1.0);
+    return cofactors * ((glm::determinant(m) < 0 ? -1.0 : 1.0) / length);
+}
+
+gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye, std::uint32_t material) {
+    const glm::dmat3 linear(worldFromObject);
+    glm::dmat4 fromCamera = worldFromObject;
+    fromCamera[3] -= glm::dvec4(eye, 0.0);
+    return {glm::mat4x3(fromCamera), glm::mat3(normalFromObject(linear)), material,
+            glm::determinant(linear) < 0 ? -1.0f : 1.0f};
+}
+
+// Whether all corners of the box are beyond one of the clip planes (far excepted where it is at infinity:
+// there z = 0 is reached by nothing). The slack keeps a box that float32 might still touch.
+bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
+    std::array<glm::dvec4, 8> corners;
+    double scale = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = clipFromObject * glm::dvec4(i & 1 ? range.bounds_max.x : range.bounds_min.x,
+                                                 i & 2 ? range.bounds_max.y : range.bounds_min.y,
+                                                 i & 4 ? range.bounds_max.z : range.bounds_min.z, 1.0);
+        for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(corners[i][c]));
+    }
+    const double slack = 1e-5 * scale;
+    const auto allBeyond = [&](auto distance) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](const glm::dvec4& c) { return distance(c) < -slack; });
+    };
+    return allBeyond([](const glm::dvec4& c) { return c.w + c.x; }) ||
+           allBeyond([](const glm::dvec4& c) { return c.w - c.x; }) ||
+           allBeyond([](const glm::dvec4& c) { return c.w + c.y; }) ||
+           allBeyond([](const glm::dvec4& c) { return c.w - c.y; }) ||
+           allBeyond([](const glm::dvec4& c) { return c.w - c.z; }) ||
+           allBeyond([](const glm::dvec4& c) { return c.z; });
+}
+
+}  // namespace
+
+DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
+                      const View& view) {
+    DrawList list;
+    const glm::dvec3 eye = view.eye();
+    const glm::dmat4 clipFromWorld = view.clipFromWorld();
+    for (const Instance& instance : pose.instances) {
+        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+        if (range.index_count == 0) continue;
+        glm::dmat4 fromCamera = instance.world_from_object;
+        fromCamera[3] -= glm::dvec4(eye, 0.0);
+        if (outside(clipFromWorld * fromCamera, range)) {
+            ++list.culled;
+            continue;
+        }
+        DrawItem item;
+        item.range = range;
+        item.draw = static_cast<std::uint32_t>(list.draws.size());
+        item.variant = materials.variant(range.material);
+        if (range.vertex_color) item.variant.set(gpu::FEATURE_vertex_color);
+        list.draws.push_back(gpuDraw(instance.world_from_object, eye, range.material));
+        item.mirrored = list.draws.back().handedness < 0;
+        list.items.push_back(item);
+    }
+    std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
+        return std::tuple(a.variant.get(gpu::FEATURE_alpha_mask), a.variant, a.range.material) <
+               std::tuple(b.variant.get(gpu::FEATURE_alpha_mask), b.variant, b.range.material);
+    });
+    return list;
+}
+
+}  // namespace diptych

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What is drawn from one view, in the one order that every pass of both paths keeps.
+#pragma once
+
+#include "shared/contract/geometry.h"
+#include "shared/draw/geometry.h"
+#include "shared/material/materials.h"
+#include "shared/scene/view.h"
+
+#include <vector>
+
+namespace diptych {
+
+struct DrawItem {
+    PrimitiveRange range;
+    std::uint32_t draw = 0;  // into DrawList::draws
+    Variant variant;         // the material's features and the primitive's
+    bool mirrored = false;   // the transform turns front faces round
+};
+
+struct DrawList {
+    std::vector<gpu::Draw> draws;
+    std::vector<DrawItem> items;
+    std::uint32_t culled = 0;  // instances outside the view
+};
+
+// Opaque before masked, then by variant and material, then in the scene's order. An instance is left out
+// only where its bounding box is wholly beyond one plane of the view.
+DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
+                      const View& view);
+
+}  // namespace diptych

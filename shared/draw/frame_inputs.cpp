@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/frame_inputs.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/vulkan/check.h"
+
+#include <algorithm>
+#include <array>
+
+namespace diptych {
+
+namespace {
+
+// In the order of BINDING_* of SET_FRAME.
+constexpr std::array frameTypes{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+bool needsLight(int mode) {
+    const auto number = static_cast<gpu::uint>(mode);
+    return number == gpu::DEBUG_lit || number == gpu::DEBUG_lit_diffuse || number == gpu::DEBUG_lit_specular;
+}
+
+VkFormat formatFor(const DebugMode& mode) {
+    return mode.width == 1   ? VK_FORMAT_R32_SFLOAT
+           : mode.width == 2 ? VK_FORMAT_R32G32_SFLOAT
+                             : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+}  // namespace
+
+Layouts::Layouts(Device& device, VkDescriptorSetLayout material) : frame(makeSetLayout(device, frameTypes)) {
+    std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> gbufferTypes;
+    gbufferTypes.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    gbuffer = makeSetLayout(device, gbufferTypes);
+    const std::array<VkDescriptorSetLayout, 3> sets{frame, material, gbuffer};
+    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .pNext = nullptr,
+                                          .flags = 0,
+                                          .setLayoutCount = sets.size(),
+                                          .pSetLayouts = sets.data(),
+                                          .pushConstantRangeCount = 0,
+                                          .pPushConstantRanges = nullptr};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    pipeline = OwnedPipelineLayout(device.handle(), layout);
+}
+
+FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts,
+                           const Materials& materials, const View& view, const DrawList& draws,
+                           const GpuLights& lights)
+    : sets_(device, layouts.frame, frameTypes, 1) {
+    gpu::View gpuView = view.gpuView();
+    gpuView.directional_light_count = lights.directional;
+    gpuView.local_light_count = lights.local;
+    view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
+                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    draws_ =
+        makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    lights_ =
+        makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    uploader.flush();
+    sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
+    sets_.buffer(0, gpu::BINDING_DRAWS, draws_.handle());
+    sets_.buffer(0, gpu::BINDING_MATERIALS, materials.buffer());
+    sets_.buffer(0, gpu::BINDING_LIGHTS, lights_.handle());
+}
+
+Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
+                     const GBufferLayout& gbuffer) {
+    Variant variant;
+    variant.set(gpu::FEATURE_emission, needs.emission)
+        .set(gpu::FEATURE_dielectric_specular, needs.dielectric_specular)
+        .set(gpu::FEATURE_directional_lights, lights.directional > 0)
+        .set(gpu::FEATURE_local_lights, lights.local > 0)
+        .set(gpu::FEATURE_orthographic, view.camera.orthographic);
+    gbuffer.specialise(variant);
+    return variant;
+}
+
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const PipelineOf& pipelineOf) {
+    std::vector<VkPipeline> pipelines;
+    for (const DrawItem& item : inputs.draws.items) pipelines.push_back(pipelineOf(item));
+    return [&inputs, pipelines = std::move(pipelines)](VkCommandBuffer commands) {
+        const auto bind = [&](gpu::uint set, VkDescriptorSet descriptors) {
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline, set,
+                                    1, &descriptors, 0, nullptr);
+        };
+        bind(gpu::SET_FRAME, inputs.frame_set);
+        inputs.geometry.bind(commands);
+        const DrawItem* last = nullptr;
+        VkPipeline lastPipeline = VK_NULL_HANDLE;
+        for (std::size_t i = 0; i < pipelines.size(); ++i) {
+            const DrawItem& item = inputs.draws.items[i];
+            if (pipelines[i] != lastPipeline)
+                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
+            if (last == nullptr || item.range.material != last->range.material)
+                bind(gpu::SET_MATERIAL, inputs.materials.set(item.range.material));
+            const bool twoSided = item.variant.get(gpu::FEATURE_double_sided) != 0;
+            vkCmdSetCullMode(commands, twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+            // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
+            vkCmdSetFrontFace(commands,
+                              item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+            vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
+                             item.range.vertex_offset, item.draw);
+            last = &item;
+            lastPipeline = pipelines[i];
+        }
+    };
+}
+
+void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
+                      VkDescriptorSet gbuffer) {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
+                            gpu::SET_FRAME, 1, &inputs.frame_set, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
+                            gpu::SET_GBUFFER, 1, &gbuffer, 0, nullptr);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+PipelineKey depthKey(const DrawItem& item) {
+    PipelineKey key;
+    key.depth = depthFormat;
+    key.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    key.depth_write = true;
+    if (item.variant.get(gpu::FEATURE_alpha_mask) == 0) {
+        key.vertex = "depth.vert";
+        key.input = VertexInput::positions;
+        return key;
+    }
+    key.vertex = "surface.vert";
+    key.fragment = "depth_mask.frag";
+    key.input = VertexInput::all;
+    for (const gpu::uint feature :
+         {gpu::FEATURE_alpha_mask, gpu::FEATURE_base_color_texture, gpu::FEATURE_texture_transform,
+          gpu::FEATURE_second_texcoord, gpu::FEATURE_vertex_color})
+        key.variant.set(feature, item.variant.get(feature));
+    return key;
+}
+
+void CaptureGroup::specialise(Variant& variant) const {
+    for (gpu::uint i = 0; i < gpu::CAPTURE_ATTACHMENTS; ++i)
+        variant.set(gpu::FEATURE_capture_0 + i,
+                    i < modes.size() ? static_cast<gpu::uint>(modes[i]) : gpu::DEBUG_none);
+}
+
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
+    std::vector<int> ordered(modes.begin(), modes.end());
+    std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !needsLight(mode); });
+    std::vector<CaptureGroup> groups;
+    for (std::size_t i = 0; i < ordered.size(); ++i) {
+        if (i % gpu::CAPTURE_ATTACHMENTS == 0) groups.emplace_back();
+        groups.back().modes.push_back(ordered[i]);
+        groups.back().formats.push_back(formatFor(debugMode(ordered[i])));
+    }
+    return groups;
+}
+
+std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group) {
+    std::vector<CapturedImage> images;
+    for (std::size_t i = 0; i < group.modes.size(); ++i) {
+        const ImageRef image = passes.image(std::string(debugMode(group.modes[i]).name), group.formats[i]);
+        const float background = group.modes[i] == static_cast<int>(gpu::DEBUG_material_id) ? -1.0f : 0.0f;
+        pass.color(image, Load::clear, {.float32 = {background, 0, 0, 0}});
+        images.push_back({group.modes[i], image});
+    }
+    return images;
+}
+
+}  // namespace diptych

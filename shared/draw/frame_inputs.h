@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What a path is given, and what it gives.
+#pragma once
+
+#include "shared/draw/draw_list.h"
+#include "shared/light/lights.h"
+#include "shared/material/gbuffer_layout.h"
+#include "shared/vulkan/pass_list.h"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// The pipeline layout of every pass: SET_FRAME, SET_MATERIAL, SET_GBUFFER.
+struct Layouts {
+    Layouts(Device& device, VkDescriptorSetLayout material);
+    OwnedDescriptorSetLayout frame, gbuffer;
+    OwnedPipelineLayout pipeline;
+};
+
+// The buffers of one view: camera, draws, lights; bound as SET_FRAME.
+class FrameBuffers {
+public:
+    FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const Materials& materials,
+                 const View& view, const DrawList& draws, const GpuLights& lights);
+    VkDescriptorSet set() const { return sets_[0]; }
+    std::uint64_t bytes() const { return view_.size() + draws_.size() + lights_.size(); }
+
+private:
+    GpuBuffer view_, draws_, lights_;
+    DescriptorSets sets_;
+};
+
+struct FrameInputs {
+    Device& device;
+    const Layouts& layouts;
+    Pipelines& pipelines;
+    const Geometry& geometry;
+    const Materials& materials;
+    const DrawList& draws;
+    VkDescriptorSet frame_set;
+    Variant variant;  // of the scene and the view: lights there, emission, projection, G-buffer encoding
+    GBufferLayout gbuffer;
+    bool prepass = true;  // forward+
+};
+
+struct FrameImages {
+    ImageRef lit;    // RGBA32F, linear scene-referred radiance
+    ImageRef depth;  // D32F, reversed
+};
+
+constexpr VkFormat litFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
+
+// The features of the scene that a pass's shaders can see; the rest would only make more pipelines.
+Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
+                     const GBufferLayout& gbuffer);
+
+// Draws every item in order with the pipeline that `pipelineOf` names for its variant.
+using PipelineOf = std::function<VkPipeline(const DrawItem&)>;
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const PipelineOf& pipelineOf);
+
+// One triangle over the screen.
+void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
+                      VkDescriptorSet gbuffer);
+
+// The depth pipeline's key: only what can cut a hole matters to it.
+PipelineKey depthKey(const DrawItem& item);
+
+// A capture pass: up to CAPTURE_ATTACHMENTS channels. Channels that need no light come first, so that as
+// few passes as the attachments allow hold them all and only the last ones shade.
+struct CaptureGroup {
+    std::vector<int> modes;         // debug modes, one an attachment
+    std::vector<VkFormat> formats;  // float32, as wide as the channel
+    void specialise(Variant& variant) const;
+};
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes);
+
+struct CapturedImage {
+    int mode = 0;
+    ImageRef image;
+};
+
+// Adds the group's attachments to a pass, cleared to what the background holds (0; material_id -1).
+std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group);
+
+}  // namespace diptych

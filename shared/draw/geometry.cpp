@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/geometry.h"
+
+#include "shared/contract/geometry.h"
+
+#include <array>
+
+namespace diptych {
+
+namespace {
+
+gpu::VertexAttributes attributesOf(const Primitive& p, std::size_t i) {
+    return {p.normals[i], p.tangents[i], p.texcoords[0].empty() ? glm::vec2(0) : p.texcoords[0][i],
+            p.texcoords[1].empty() ? glm::vec2(0) : p.texcoords[1][i],
+            p.colors.empty() ? glm::vec4(1) : p.colors[i]};
+}
+
+}  // namespace
+
+Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
+    std::vector<glm::vec3> positions;
+    std::vector<gpu::VertexAttributes> attributes;
+    std::vector<std::uint32_t> indices;
+    for (const Mesh& mesh : scene.meshes) {
+        ranges_.emplace_back();
+        for (const Primitive& p : mesh.primitives) {
+            PrimitiveRange range;
+            range.first_index = static_cast<std::uint32_t>(indices.size());
+            range.index_count = static_cast<std::uint32_t>(p.indices.size());
+            range.vertex_offset = static_cast<std::int32_t>(positions.size());
+            range.material = static_cast<std::uint32_t>(p.material);
+            range.vertex_color = !p.colors.empty();
+            if (!p.positions.empty()) range.bounds_min = range.bounds_max = p.positions[0];
+            for (std::size_t i = 0; i < p.positions.size(); ++i) {
+                attributes.push_back(attributesOf(p, i));
+                range.bounds_min = glm::min(range.bounds_min, glm::dvec3(p.positions[i]));
+                range.bounds_max = glm::max(range.bounds_max, glm::dvec3(p.positions[i]));
+            }
+            positions.insert(positions.end(), p.positions.begin(), p.positions.end());
+            indices.insert(indices.end(), p.indices.begin(), p.indices.end());
+            ranges_.back().push_back(range);
+        }
+    }
+    positions_ =
+        makeBuffer<glm::vec3>(device, uploader, "positions", positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    attributes_ = makeBuffer<gpu::VertexAttributes>(device, uploader, "vertex attributes", attributes,
+                                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    indices_ =
+        makeBuffer<std::uint32_t>(device, uploader, "indices", indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+}
+
+void Geometry::bind(VkCommandBuffer commands) const {
+    const std::array buffers{positions_.handle(), attributes_.handle()};
+    const std::array<VkDeviceSize, 2> offsets{};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), offsets.data());
+    vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+}  // namespace diptych

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Every primitive of a scene in three buffers: positions, other attributes, indices.
+#pragma once
+
+#include "shared/scene/scene.h"
+#include "shared/vulkan/resources.h"
+
+#include <vector>
+
+namespace diptych {
+
+struct PrimitiveRange {
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t vertex_offset = 0;
+    std::uint32_t material = 0;
+    bool vertex_color = false;
+    glm::dvec3 bounds_min{0}, bounds_max{0};  // object
+};
+
+class Geometry {
+public:
+    Geometry(Device& device, Uploader& uploader, const Scene& scene);
+
+    const PrimitiveRange& range(int mesh, int primitive) const {
+        return ranges_[static_cast<std::size_t>(mesh)][static_cast<std::size_t>(primitive)];
+    }
+    void bind(VkCommandBuffer commands) const;
+    std::uint64_t bytes() const { return positions_.size() + attributes_.size() + indices_.size(); }
+
+private:
+    std::vector<std::vector<PrimitiveRange>> ranges_;
+    GpuBuffer positions_, attributes_, indices_;
+};
+
+}  // namespace diptych

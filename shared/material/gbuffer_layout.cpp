@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "shared/material/gbuffer_layout.h"
+
+#include "shared/vulkan/resources.h"
+
+namespace diptych {
+
+const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames{
+    "albedo", "normals", "params", "emission", "specular", "material ids"};
+
+std::uint32_t GBufferLayout::bytesPerPixel() const {
+    std::uint32_t bytes = 0;
+    for (const VkFormat format : formats)
+        if (format != VK_FORMAT_UNDEFINED) bytes += bytesPerTexel(format);
+    return bytes;
+}
+
+void GBufferLayout::specialise(Variant& variant) const {
+    variant.set(gpu::FEATURE_gbuffer_encoding, encoding)
+        .set(gpu::FEATURE_gbuffer_wide_emission, wide_emission)
+        .set(gpu::FEATURE_gbuffer_wide_material_id, wide_material_id);
+}
+
+GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs) {
+    GBufferLayout layout;
+    const bool full = encoding == GBufferEncoding::full, compact = encoding == GBufferEncoding::compact;
+    layout.encoding = full ? gpu::GBUFFER_full : compact ? gpu::GBUFFER_compact : gpu::GBUFFER_standard;
+    layout.wide_emission = !full && needs.emission &&
+                           (needs.max_emission > gpu::EMISSION_MAX || needs.min_emission < gpu::EMISSION_MIN);
+    layout.wide_material_id =
+        !full && needs.materials > 1u << (compact ? gpu::COMPACT_ID_BITS : gpu::STANDARD_ID_BITS);
+
+    const VkFormat word = full ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT;
+    auto& f = layout.formats;
+    f[gpu::GBUFFER_ALBEDO] = word;
+    f[gpu::GBUFFER_NORMALS] = full || compact ? word : VK_FORMAT_R32G32_UINT;
+    f[gpu::GBUFFER_PARAMS] = word;
+    if (full || needs.emission)  // full keeps the material id beside the emission
+        f[gpu::GBUFFER_EMISSION] = layout.wide_emission ? VK_FORMAT_R32G32B32A32_UINT : word;
+    if (needs.dielectric_specular) f[gpu::GBUFFER_SPECULAR] = word;
+    if (layout.wide_material_id) f[gpu::GBUFFER_IDS] = VK_FORMAT_R32_UINT;
+    return layout;
+}
+
+}  // namespace diptych

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Which attachments a scene's materials need in the G-buffer; the bits are in shared/contract/gbuffer.h.
+#pragma once
+
+#include "shared/contract/gbuffer.h"
+#include "shared/frame/settings.h"
+#include "shared/scene/requirements.h"
+#include "shared/vulkan/pipelines.h"
+
+#include <array>
+#include <string>
+
+namespace diptych {
+
+struct GBufferLayout {
+    gpu::uint encoding = gpu::GBUFFER_standard;
+    bool wide_emission = false;                                // float32: radiance beyond what 9.9.9.e5 holds
+    bool wide_material_id = false;                             // more materials than the packed bits can name
+    std::array<VkFormat, gpu::GBUFFER_ATTACHMENTS> formats{};  // undefined: not there
+
+    std::uint32_t bytesPerPixel() const;  // without depth
+    void specialise(Variant& variant) const;
+};
+
+GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs);
+
+extern const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames;
+
+}  // namespace diptych

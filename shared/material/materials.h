@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A scene's materials on the device: one buffer, one descriptor set of textures each, one Variant each.
+#pragma once
+
+#include "shared/scene/scene.h"
+#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/resources.h"
+
+#include <vector>
+
+namespace diptych {
+
+class Materials {
+public:
+    // Uploads every texture that a material reads, once for each way it is read (sRGB or linear).
+    Materials(Device& device, Uploader& uploader, const Scene& scene);
+
+    VkDescriptorSetLayout layout() const { return layout_; }
+    VkDescriptorSet set(std::uint32_t material) const { return sets_[material]; }
+    VkBuffer buffer() const { return buffer_.handle(); }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(variants_.size()); }
+
+    // The features that this material needs, all others off.
+    const Variant& variant(std::uint32_t material) const { return variants_[material]; }
+
+    std::uint64_t imageBytes() const;
+    std::uint64_t bufferBytes() const { return buffer_.size(); }
+
+private:
+    OwnedDescriptorSetLayout layout_;
+    std::vector<GpuImage> images_;
+    std::vector<OwnedSampler> samplers_;
+    GpuBuffer buffer_;
+    DescriptorSets sets_;
+    std::vector<Variant> variants_;
+};
+
+}  // namespace diptych

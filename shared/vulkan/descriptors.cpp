@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/descriptors.h"
+
+#include "shared/vulkan/check.h"
+
+#include <map>
+
+namespace diptych {
+
+OwnedDescriptorSetLayout makeSetLayout(Device& device, std::span<const VkDescriptorType> types) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (std::uint32_t i = 0; i < types.size(); ++i)
+        bindings.push_back({i, types[i], 1, VK_SHADER_STAGE_ALL, nullptr});
+    const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                               .pNext = nullptr,
+                                               .flags = 0,
+                                               .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                               .pBindings = bindings.data()};
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
+          "vkCreateDescriptorSetLayout");
+    return {device.handle(), layout};
+}
+
+DescriptorSets::DescriptorSets(Device& device, VkDescriptorSetLayout layout,
+                               std::span<const VkDescriptorType> types, std::uint32_t count)
+    : device_(device.handle()), types_(types.begin(), types.end()) {
+    if (count == 0) return;
+    std::map<VkDescriptorType, std::uint32_t> needed;
+    for (const VkDescriptorType type : types) needed[type] += count;
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const auto& [type, number] : needed) sizes.push_back({type, number});
+    const VkDescriptorPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                              .pNext = nullptr,
+                                              .flags = 0,
+                                              .maxSets = count,
+                                              .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                              .pPoolSizes = sizes.data()};
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device_, &poolInfo, nullptr, &pool), "vkCreateDescriptorPool");
+    pool_ = OwnedDescriptorPool(device_, pool);
+    const std::vector<VkDescriptorSetLayout> layouts(count, layout);
+    const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                           .pNext = nullptr,
+                                           .descriptorPool = pool,
+                                           .descriptorSetCount = count,
+                                           .pSetLayouts = layouts.data()};
+    sets_.resize(count);
+    check(vkAllocateDescriptorSets(device_, &info, sets_.data()), "vkAllocateDescriptorSets");
+}
+
+void DescriptorSets::buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer) {
+    const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .pNext = nullptr,
+                                     .dstSet = sets_.at(set),
+                                     .dstBinding = binding,
+                                     .dstArrayElement = 0,
+                                     .descriptorCount = 1,
+                                     .descriptorType = types_.at(binding),
+                                     .pImageInfo = nullptr,
+                                     .pBufferInfo = &info,
+                                     .pTexelBufferView = nullptr};
+    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+}
+
+void DescriptorSets::image(std::size_t set, std::uint32_t binding, VkImageView view, VkSampler sampler,
+                           VkImageLayout layout) {
+    const VkDescriptorImageInfo info{sampler, view, layout};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .pNext = nullptr,
+                                     .dstSet = sets_.at(set),
+                                     .dstBinding = binding,
+                                     .dstArrayElement = 0,
+                                     .descriptorCount = 1,
+                                     .descriptorType = types_.at(binding),
+                                     .pImageInfo = &info,
+                                     .pBufferInfo = nullptr,
+                                     .pTexelBufferView = nullptr};
+    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+}
+
+}  // namespace diptych

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/vulkan/device.h"
+
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+OwnedDescriptorSetLayout makeSetLayout(
+    Device& device, std::span<const VkDescriptorType> types);  // bindings 0..n-1, all stages
+
+// Sets of one layout from one pool; they live as long as it.
+class DescriptorSets {
+public:
+    DescriptorSets() = default;
+    DescriptorSets(Device& device, VkDescriptorSetLayout layout, std::span<const VkDescriptorType> types,
+                   std::uint32_t count);
+
+    VkDescriptorSet operator[](std::size_t i) const { return sets_[i]; }
+
+    void buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer);
+    void image(std::size_t set, std::uint32_t binding, VkImageView view, VkSampler sampler,
+               VkImageLayout layout);
+
+private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorType> types_;
+    OwnedDescriptorPool pool_;
+    std::vector<VkDescriptorSet> sets_;
+};
+
+}  // namespace diptych

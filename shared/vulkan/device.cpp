@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/device.h"
+
+#include "shared/vulkan/check.h"
+#include "shared/vulkan/physical_device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
+
+// What the validation layers said. Their callback may come from any thread.
+struct ValidationLog {
+    std::atomic<std::uint64_t> messages{0};
+    std::mutex mutex;
+    std::string first;
+};
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                         VkDebugUtilsMessageTypeFlagsEXT types,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    // General messages are the loader's own remarks on layers and drivers it found.
+    if ((types & ~VkDebugUtilsMessageTypeFlagsEXT{VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT}) == 0)
+        return VK_FALSE;
+    auto& log = *static_cast<ValidationLog*>(user);
+    const std::scoped_lock lock(log.mutex);
+    if (log.messages++ == 0) log.first = data->pMessage;
+    return VK_FALSE;
+}
+
+bool layerThere(const char* name) {
+    std::uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    return std::any_of(layers.begin(), layers.end(),
+                       [&](const auto& l) { return std::string_view(l.layerName) == name; });
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog& log) {
+    return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+            .pNext = nullptr,
+            .flags = 0,
+            .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+            .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+            .pfnUserCallback = onMessage,
+            .pUserData = &log};
+}
+
+class Instance {
+public:
+    explicit Instance(ValidationLog* log) {
+        if (log != nullptr && !layerThere(validationLayer))
+            throw std::runtime_error(
+                "--validate: the Khronos validation layer is missing; install vulkan-validationlayers");
+        const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                            .pNext = nullptr,
+                                            .pApplicationName = "diptych",
+                                            .applicationVersion = 1,
+                                            .pEngineName = "diptych",
+                                            .engineVersion = 1,
+                                            .apiVersion = VK_API_VERSION_1_3};
+        VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                  .pNext = nullptr,
+                                  .flags = 0,
+                                  .pApplicationInfo = &application,
+                                  .enabledLayerCount = 0,
+                                  .ppEnabledLayerNames = nullptr,
+                                  .enabledExtensionCount = 0,
+                                  .ppEnabledExtensionNames = nullptr};
+        const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+        const VkValidationFeatureEnableEXT enable =
+            VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+        VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                         .pNext = nullptr,
+                                         .enabledValidationFeatureCount = 1,
+                                         .pEnabledValidationFeatures = &enable,
+                                         .disabledValidationFeatureCount = 0,
+                                         .pDisabledValidationFeatures = nullptr};
+        VkDebugUtilsMessengerCreateInfoEXT messages{};
+        if (log != nullptr) {
+            messages = messengerInfo(*log);
+            features.pNext = &messages;
+            info.pNext = &features;
+            info.enabledLayerCount = 1;
+            info.ppEnabledLayerNames = &validationLayer;
+            info.enabledExtensionCount = 1;
+            info.ppEnabledExtensionNames = &extension;
+        }
+        const VkResult result = vkCreateInstance(&info, nullptr, &handle_);
+        if (result != VK_SUCCESS)
+            throw std::runtime_error(
+                fmt::format("Vulkan: no instance: {}; install mesa-vulkan-drivers", nameOf(result)));
+        if (log == nullptr) return;
+        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
+        messages.pNext = nullptr;
+        check(create(handle_, &messages, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+    }
+    ~Instance() {
+        if (messenger_ != VK_NULL_HANDLE)
+            reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
+                handle_, "vkDestroyDebugUtilsMessengerEXT"))(handle_, messenger_, nullptr);
+        vkDestroyInstance(handle_, nullptr);
+    }
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    operator VkInstance() const { return handle_; }
+
+    std::vector<VkPhysicalDevice> devices() const {
+        std::uint32_t count = 0;
+        check(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "vkEnumeratePhysicalDevices");
+        std::vector<VkPhysicalDevice> found(count);
+        check(vkEnumeratePhysicalDevices(handle_, &count, found.data()), "vkEnumeratePhysicalDevices");
+        return found;
+    }
+
+private:
+    VkInstance handle_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+struct DeviceDeleter {
+    using pointer = VkDevice;
+    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
+};
+
+}  // namespace
+
+std::vector<DeviceInfo> listDevices() {
+    const Instance instance(nullptr);
+    std::vector<DeviceInfo> infos;
+    for (const VkPhysicalDevice device : instance.devices())
+        infos.push_back(describe(device, static_cast<int>(infos.size())));
+    return infos;
+}
+
+struct Device::State {
+    ValidationLog log;
+    std::optional<Instance> instance;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    DeviceInfo info;
+    VkPhysicalDeviceLimits limits{};
+    std::unique_ptr<VkDevice, DeviceDeleter> device;
+    std::unique_ptr<Memory> memory;
+    VkQueue queue = VK_NULL_HANDLE;
+    OwnedCommandPool pool;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    OwnedFence fence;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
+};
+
+Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    s.instance.emplace(options.validate ? &s.log : nullptr);
+    const std::vector<VkPhysicalDevice> devices = s.instance->devices();
+    std::vector<DeviceInfo> infos;
+    for (const VkPhysicalDevice device : devices)
+        infos.push_back(describe(device, static_cast<int>(infos.size())));
+    const std::size_t chosen = chooseDevice(infos, options.choice);
+    s.physical = devices[chosen];
+    s.info = infos[chosen];
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(s.physical, &properties);
+    s.limits = properties.limits;
+
+    const std::uint32_t family = *graphicsFamily(s.physical);  // a required fact: chooseDevice saw to it
+    s.device.reset(createDevice(s.physical, family));
+    s.memory = std::make_unique<Memory>(s.physical, s.device.get());
+    vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
+    const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                           .pNext = nullptr,
+                                           .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+                                           .queueFamilyIndex = family};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    check(vkCreateCommandPool(s.device.get(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
+    s.pool = OwnedCommandPool(s.device.get(), pool);
+    const VkCommandBufferAllocateInfo bufferInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                 .pNext = nullptr,
+                                                 .commandPool = pool,
+                                                 .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                 .commandBufferCount = 1};
+    check(vkAllocateCommandBuffers(s.device.get(), &bufferInfo, &s.commands), "vkAllocateCommandBuffers");
+    const VkFenceCreateInfo fenceInfo{
+        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
+    VkFence fence = VK_NULL_HANDLE;
+    check(vkCreateFence(s.device.get(), &fenceInfo, nullptr, &fence), "vkCreateFence");
+    s.fence = OwnedFence(s.device.get(), fence);
+    if (options.validate) {
+        const auto load = [&](const char* name) { return vkGetDeviceProcAddr(s.device.get(), name); };
+        s.begin_label =
+            reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(load("vkCmdBeginDebugUtilsLabelEXT"));
+        s.end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(load("vkCmdEndDebugUtilsLabelEXT"));
+        s.set_name = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
+    }
+}
+
+Device::~Device() {
+    if (state_->device) vkDeviceWaitIdle(state_->device.get());
+}
+
+const DeviceInfo& Device::info() const {
+    return state_->info;
+}
+const VkPhysicalDeviceLimits& Device::limits() const {
+    return state_->limits;
+}
+VkDevice Device::handle() const {
+    return state_->device.get();
+}
+VkPhysicalDevice Device::physical() const {
+    return state_->physical;
+}
+Memory& Device::memory() {
+    return *state_->memory;
+}
+
+double Device::submit(const std::function<void(VkCommandBuffer)>& record) {
+    State& s = *state_;
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .pNext = nullptr,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
+                                         .pInheritanceInfo = nullptr};
+    check(vkBeginCommandBuffer(s.commands, &begin), "vkBeginCommandBuffer");
+    record(s.commands);
+    check(vkEndCommandBuffer(s.commands), "vkEndCommandBuffer");
+    const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                             .pNext = nullptr,
+                                             .commandBuffer = s.commands,
+                                             .deviceMask = 0};
+    const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                               .pNext = nullptr,
+                               .flags = 0,
+                               .waitSemaphoreInfoCount = 0,
+                               .pWaitSemaphoreInfos = nullptr,
+                               .commandBufferInfoCount = 1,
+                               .pCommandBufferInfos = &commands,
+                               .signalSemaphoreInfoCount = 0,
+                               .pSignalSemaphoreInfos = nullptr};
+    const auto start = std::chrono::steady_clock::now();
+    check(vkQueueSubmit2(s.queue, 1, &submit, s.fence), "vkQueueSubmit2");
+    const VkFence fence = s.fence;
+    check(vkWaitForFences(s.device.get(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    check(vkResetFences(s.device.get(), 1, &fence), "vkResetFences");
+    return elapsed.count();
+}
+
+void Device::beginLabel(VkCommandBuffer commands, const std::string& name) {
+    if (state_->begin_label == nullptr) return;
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                     .pNext = nullptr,
+                                     .pLabelName = name.c_str(),
+                                     .color = {}};
+    state_->begin_label(commands, &label);
+}
+
+void Device::endLabel(VkCommandBuffer commands) {
+    if (state_->end_label != nullptr) state_->end_label(commands);
+}
+
+void Device::setName(VkObjectType type, std::uint64_t handle, const std::string& name) {
+    if (state_->set_name == nullptr) return;
+    const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                             .pNext = nullptr,
+                                             .objectType = type,
+                                             .objectHandle = handle,
+                                             .pObjectName = name.c_str()};
+    check(state_->set_name(state_->device.get(), &info), "vkSetDebugUtilsObjectNameEXT");
+}
+
+std::uint64_t Device::validationMessages() const {
+    return state_->log.messages;
+}
+
+std::string Device::firstValidationMessage() const {
+    const std::scoped_lock lock(state_->log.mutex);
+    return state_->log.first;
+}
+
+}  // namespace diptych

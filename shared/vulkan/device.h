@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// One logical device with one queue. Knows no scene and no window.
+#pragma once
+
+#include "shared/vulkan/memory.h"
+#include "shared/vulkan/owned.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+
+struct DeviceOptions {
+    std::string choice;     // "" a real GPU first; an index of listDevices(); part of a name
+    bool validate = false;  // Khronos validation with synchronization validation
+};
+
+// One thing that a device can or cannot do here.
+struct DeviceFact {
+    std::string what;
+    bool there = false;
+    bool required = false;
+    std::string note;
+};
+
+struct DeviceInfo {
+    int index = 0;
+    std::string name, driver;  // "Mesa 22.3.6 (LLVM 15.0.6)"
+    std::string type;          // cpu, integrated, discrete, virtual, other
+    std::string api_version;   // "1.3.230"
+    std::vector<DeviceFact> facts;
+
+    bool usable() const;  // every required fact is there
+    bool isCpu() const { return type == "cpu"; }
+};
+
+// How a device rounds a float to a render target's format when a fragment shader writes it, measured by
+// drawing: the largest error in units of the format's step (0.5 to nearest, 1 truncating).
+struct TargetRounding {
+    std::string format;
+    double steps = 0;
+    std::string kind;  // "to nearest", "towards zero", ...
+};
+
+// Every device, in the loader's order. Throws std::runtime_error where there is no Vulkan at all.
+std::vector<DeviceInfo> listDevices();
+
+class Device {
+public:
+    // Throws std::runtime_error naming --device where the choice fits none, or the missing feature.
+    explicit Device(const DeviceOptions& options);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceInfo& info() const;
+    const VkPhysicalDeviceLimits& limits() const;
+    VkDevice handle() const;
+    VkPhysicalDevice physical() const;
+    Memory& memory();
+
+    // Records, submits, and waits until the device is done. Returns the wall clock from submit to fence, ms.
+    double submit(const std::function<void(VkCommandBuffer)>& record);
+
+    // Brackets what follows with a name for debuggers; nothing without --validate.
+    void beginLabel(VkCommandBuffer commands, const std::string& name);
+    void endLabel(VkCommandBuffer commands);
+    void setName(VkObjectType type, std::uint64_t handle, const std::string& name);
+
+    // Messages of the validation layers so far (always 0 without --validate), and the first one.
+    std::uint64_t validationMessages() const;
+    std::string firstValidationMessage() const;
+
+    // How many iterations of its loops one shader invocation is granted, up to 100,000.
+    std::uint32_t probeLoopLimit();
+
+    // Draws known values to each format of interest and reads them back.
+    std::vector<TargetRounding> probeRounding();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace diptych

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/physical_device.h"
+
+#include "shared/contract/features.h"
+#include "shared/vulkan/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+struct Features {
+    VkPhysicalDeviceVulkan13Features v13{};
+    VkPhysicalDeviceVulkan12Features v12{};
+    VkPhysicalDeviceVulkan11Features v11{};
+    VkPhysicalDeviceFeatures2 v10{};
+
+    Features() {
+        v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+        v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+        v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
+        v10.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        v12.pNext = &v13;
+        v11.pNext = &v12;
+        v10.pNext = &v11;
+    }
+    Features(const Features&) = delete;
+    Features& operator=(const Features&) = delete;
+};
+
+std::string typeName(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "cpu";
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual";
+        default:
+            return "other";
+    }
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+    return fmt::format("{} MiB", bytes >> 20);
+}
+
+std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
+    Features f;
+    if (properties.apiVersion >= VK_API_VERSION_1_3)
+        vkGetPhysicalDeviceFeatures2(device, &f.v10);  // below 1.3 the chained structs are unknown
+    const VkPhysicalDeviceLimits& l = properties.limits;
+    const bool cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const auto range = [](std::uint32_t bytes) { return bytes == ~0u ? "4 GiB" : mebibytes(bytes); };
+    std::vector<DeviceFact> list;
+    const auto need = [&](const char* what, bool there, std::string note = "") {
+        list.push_back({what, there, true, std::move(note)});
+    };
+    const auto note = [&](const char* what, bool there, std::string text = "") {
+        list.push_back({what, there, false, std::move(text)});
+    };
+
+    need("a queue that draws and computes", graphicsFamily(device).has_value());
+    need("dynamic rendering", f.v13.dynamicRendering == VK_TRUE);
+    need("synchronization2", f.v13.synchronization2 == VK_TRUE);
+    need("scalar block layout", f.v12.scalarBlockLayout == VK_TRUE);
+    need("colour attachments", l.maxColorAttachments >= gpu::CAPTURE_ATTACHMENTS,
+         fmt::format("{}, {} needed", l.maxColorAttachments, gpu::CAPTURE_ATTACHMENTS));
+    note("picture size", true, fmt::format("up to {} x {}", l.maxImageDimension2D, l.maxImageDimension2D));
+    note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
+    note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));
+    note("4 samples a pixel",
+         (l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0);
+    note(
+        "descriptor indexing",
+        f.v12.shaderSampledImageArrayNonUniformIndexing == VK_TRUE && f.v12.runtimeDescriptorArray == VK_TRUE,
+        "bindless textures; here every material has a descriptor set instead");
+    note("multiview", !cpu && f.v11.multiview == VK_TRUE,
+         cpu && f.v11.multiview == VK_TRUE
+             ? "offered, but on lavapipe triangles across the edge land in layer 0"
+             : "");
+    note("time stamps a pass", !cpu && l.timestampComputeAndGraphics == VK_TRUE,
+         cpu ? "work runs late: passes are timed by submit, fence and clock" : "");
+    note("branches skip work", !cpu, cpu ? "both sides run: variants are specialised instead" : "");
+    note("anisotropic filtering", f.v10.features.samplerAnisotropy == VK_TRUE,
+         "not used: mip levels alone, the same on every device");
+    return list;
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::string listOf(const std::vector<DeviceInfo>& infos) {
+    std::string text;
+    for (const DeviceInfo& info : infos)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", info.index, info.name);
+    return text.empty() ? "none" : text;
+}
+
+void requireUsable(const DeviceInfo& info) {
+    for (const DeviceFact& fact : info.facts)
+        if (fact.required && !fact.there)
+            throw std::runtime_error(fmt::format("device {} ({}) lacks {}{}; choose another with --device",
+                                                 info.index, info.name, fact.what,
+                                                 fact.note.empty() ? "" : " (" + fact.note + ")"));
+}
+
+}  // namespace
+
+bool DeviceInfo::usable() const {
+    return std::all_of(facts.begin(), facts.end(),
+                       [](const DeviceFact& f) { return f.there || !f.required; });
+}
+
+std::optional<std::uint32_t> graphicsFamily(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if ((families[i].queueFlags & wanted) == wanted) return i;
+    return std::nullopt;
+}
+
+DeviceInfo describe(VkPhysicalDevice device, int index) {
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    const VkPhysicalDeviceProperties& p = properties.properties;
+    DeviceInfo info;
+    info.index = index;
+    info.name = p.deviceName;
+    info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    info.type = typeName(p.deviceType);
+    info.api_version = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(p.apiVersion),
+                                   VK_API_VERSION_MINOR(p.apiVersion), VK_API_VERSION_PATCH(p.apiVersion));
+    info.facts = facts(device, p);
+    return info;
+}
+
+std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice) {
+    if (infos.empty())
+        throw std::runtime_error(
+            "no Vulkan device; install mesa-vulkan-drivers, which brings the software device lavapipe");
+    if (choice.empty()) {
+        constexpr std::array order{"discrete", "integrated", "virtual", "cpu", "other"};
+        for (const char* type : order)
+            for (std::size_t i = 0; i < infos.size(); ++i)
+                if (infos[i].type == type && infos[i].usable()) return i;
+        requireUsable(infos.front());
+    }
+    int number = -1;
+    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), number);
+    const bool isNumber = error == std::errc{} && end == choice.data() + choice.size();
+    for (std::size_t i = 0; i < infos.size(); ++i)
+        if (isNumber ? infos[i].index == number
+                     : lower(infos[i].name).find(lower(choice)) != std::string::npos) {
+            requireUsable(infos[i]);
+            return i;
+        }
+    throw std::runtime_error(fmt::format("--device {}: no such device; there are {}", choice, listOf(infos)));
+}
+
+VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
+    Features wanted;
+    wanted.v13.dynamicRendering = VK_TRUE;
+    wanted.v13.synchronization2 = VK_TRUE;
+    wanted.v12.scalarBlockLayout = VK_TRUE;
+    const float priority = 1.0f;
+    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                        .pNext = nullptr,
+                                        .flags = 0,
+                                        .queueFamilyIndex = family,
+                                        .queueCount = 1,
+                                        .pQueuePriorities = &priority};
+    const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &wanted.v10,
+                                  .flags = 0,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledLayerCount = 0,
+                                  .ppEnabledLayerNames = nullptr,
+                                  .enabledExtensionCount = 0,
+                                  .ppEnabledExtensionNames = nullptr,
+                                  .pEnabledFeatures = nullptr};
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
+    return device;
+}
+
+}  // namespace diptych

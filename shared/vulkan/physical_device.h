@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/vulkan/device.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What a device is and what it can and cannot do for us: features and limits, asked, not versions.
+DeviceInfo describe(VkPhysicalDevice device, int index);
+
+// The first queue family that draws and computes.
+std::optional<std::uint32_t> graphicsFamily(VkPhysicalDevice device);
+
+// An index into `infos`; "" takes the best usable one, discrete before integrated before virtual before
+// cpu. Throws std::runtime_error naming --device and what there is, or the feature that is missing.
+std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
+
+// With exactly the features that we use.
+VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family);
+
+}  // namespace diptych

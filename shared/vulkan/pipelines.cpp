@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/pipelines.h"
+
+#include "shared/contract/geometry.h"
+#include "shared/vulkan/check.h"
+#include "shared/vulkan/spirv.h"
+
+#include <cstddef>
+#include <stdexcept>
+
+namespace diptych {
+
+OwnedShaderModule makeShaderModule(Device& device, const std::string& name) {
+    const auto words = findSpirv(name);
+    if (words.empty()) throw std::logic_error("no shader " + name + " in shaders/pass");
+    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                        .pNext = nullptr,
+                                        .flags = 0,
+                                        .codeSize = words.size_bytes(),
+                                        .pCode = words.data()};
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
+    return {device.handle(), module};
+}
+
+VkShaderModule Pipelines::module(const std::string& name) {
+    const auto found = modules_.find(name);
+    if (found != modules_.end()) return found->second;
+    return modules_.emplace(name, makeShaderModule(device_, name)).first->second;
+}
+
+VkPipeline Pipelines::get(const PipelineKey& key) {
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
+
+    std::array<VkSpecializationMapEntry, gpu::FEATURE_COUNT> entries;
+    for (std::uint32_t id = 0; id < gpu::FEATURE_COUNT; ++id) entries[id] = {id, id * 4, 4};
+    const VkSpecializationInfo specialization{gpu::FEATURE_COUNT, entries.data(), sizeof key.variant.values(),
+                                              key.variant.values().data()};
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    const auto addStage = [&](VkShaderStageFlagBits stage, const std::string& name) {
+        stages.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                          .pNext = nullptr,
+                          .flags = 0,
+                          .stage = stage,
+                          .module = module(name),
+                          .pName = "main",
+                          .pSpecializationInfo = &specialization});
+    };
+    addStage(VK_SHADER_STAGE_VERTEX_BIT, key.vertex);
+    if (!key.fragment.empty()) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, key.fragment);
+
+    using Attributes = gpu::VertexAttributes;
+    constexpr std::array bindings{
+        VkVertexInputBindingDescription{0, sizeof(gpu::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
+        VkVertexInputBindingDescription{1, sizeof(Attributes), VK_VERTEX_INPUT_RATE_VERTEX}};
+    constexpr std::array attributes{
+        VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+        VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Attributes, normal)},
+        VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Attributes, tangent)},
+        VkVertexInputAttributeDescription{3, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(Attributes, texcoord0)},
+        VkVertexInputAttributeDescription{4, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(Attributes, texcoord1)},
+        VkVertexInputAttributeDescription{5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Attributes, color)}};
+    const std::uint32_t bindingCount = key.input == VertexInput::none        ? 0
+                                       : key.input == VertexInput::positions ? 1
+                                                                             : 2;
+    const std::uint32_t attributeCount = key.input == VertexInput::none        ? 0
+                                         : key.input == VertexInput::positions ? 1
+                                                                               : 6;
+    const VkPipelineVertexInputStateCreateInfo input{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .vertexBindingDescriptionCount = bindingCount,
+        .pVertexBindingDescriptions = bindings.data(),
+        .vertexAttributeDescriptionCount = attributeCount,
+        .pVertexAttributeDescriptions = attributes.data()};
+    const VkPipelineInputAssemblyStateCreateInfo assembly{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+        .primitiveRestartEnable = VK_FALSE};
+    const VkPipelineViewportStateCreateInfo viewport{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .viewportCount = 1,
+        .pViewports = nullptr,
+        .scissorCount = 1,
+        .pScissors = nullptr};
+    VkPipelineRasterizationStateCreateInfo raster{};
+    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.lineWidth = 1.0f;
+    VkPipelineMultisampleStateCreateInfo samples{};
+    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    depth.depthTestEnable = key.depth_compare != VK_COMPARE_OP_ALWAYS || key.depth_write;
+    depth.depthWriteEnable = key.depth_write;
+    depth.depthCompareOp = key.depth_compare;
+    VkPipelineColorBlendAttachmentState opaque{};
+    opaque.colorWriteMask = 0xf;
+    const std::vector<VkPipelineColorBlendAttachmentState> blends(key.colors.size(), opaque);
+    VkPipelineColorBlendStateCreateInfo blend{};
+    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
+    blend.pAttachments = blends.data();
+    constexpr std::array dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                 VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+    const VkPipelineDynamicStateCreateInfo dynamics{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .dynamicStateCount = dynamic.size(),
+        .pDynamicStates = dynamic.data()};
+    const VkPipelineRenderingCreateInfo rendering{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+        .pNext = nullptr,
+        .viewMask = 0,
+        .colorAttachmentCount = static_cast<std::uint32_t>(key.colors.size()),
+        .pColorAttachmentFormats = key.colors.data(),
+        .depthAttachmentFormat = key.depth,
+        .stencilAttachmentFormat = VK_FORMAT_UNDEFINED};
+    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .pNext = &rendering,
+                                            .flags = 0,
+                                            .stageCount = static_cast<std::uint32_t>(stages.size()),
+                                            .pStages = stages.data(),
+                                            .pVertexInputState = &input,
+                                            .pInputAssemblyState = &assembly,
+                                            .pTessellationState = nullptr,
+                                            .pViewportState = &viewport,
+                                            .pRasterizationState = &raster,
+                                            .pMultisampleState = &samples,
+                                            .pDepthStencilState = &depth,
+                                            .pColorBlendState = &blend,
+                                            .pDynamicState = &dynamics,
+                                            .layout = layout_,
+                                            .renderPass = VK_NULL_HANDLE,
+                                            .subpass = 0,
+                                            .basePipelineHandle = VK_NULL_HANDLE,
+                                            .basePipelineIndex = 0};
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+          "vkCreateGraphicsPipelines");
+    return pipelines_.emplace(key, OwnedPipeline(device_.handle(), pipeline)).first->second;
+}
+
+}  // namespace diptych

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Graphics pipelines by what they are made of; each is compiled once.
+#pragma once
+
+#include "shared/contract/features.h"
+#include "shared/vulkan/device.h"
+
+#include <array>
+#include <compare>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// The values of all features, 0 where not set: the key of a shader's variant.
+class Variant {
+public:
+    Variant& set(gpu::uint feature, gpu::uint value = 1) {
+        values_.at(feature) = value;
+        return *this;
+    }
+    gpu::uint get(gpu::uint feature) const { return values_.at(feature); }
+    const std::array<gpu::uint, gpu::FEATURE_COUNT>& values() const { return values_; }
+    auto operator<=>(const Variant&) const = default;
+
+private:
+    std::array<gpu::uint, gpu::FEATURE_COUNT> values_{};
+};
+
+enum class VertexInput { none, positions, all };
+
+struct PipelineKey {
+    std::string vertex, fragment;  // files of shaders/pass; no fragment shader: ""
+    Variant variant;
+    VertexInput input = VertexInput::none;
+    std::vector<VkFormat> colors;
+    VkFormat depth = VK_FORMAT_UNDEFINED;
+    VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;  // always and no write: no depth test
+    bool depth_write = false;
+    auto operator<=>(const PipelineKey&) const = default;
+};
+
+// Triangles; viewport, scissor, cull mode and front face are dynamic.
+class Pipelines {
+public:
+    // `layout` must outlive the pipelines.
+    Pipelines(Device& device, VkPipelineLayout layout) : device_(device), layout_(layout) {}
+
+    VkPipeline get(const PipelineKey& key);
+    VkPipelineLayout layout() const { return layout_; }
+    std::size_t count() const { return pipelines_.size(); }
+
+private:
+    VkShaderModule module(const std::string& name);
+
+    Device& device_;
+    VkPipelineLayout layout_;
+    std::map<std::string, OwnedShaderModule> modules_;
+    std::map<PipelineKey, OwnedPipeline> pipelines_;
+};
+
+OwnedShaderModule makeShaderModule(Device& device, const std::string& name);
+
+}  // namespace diptych

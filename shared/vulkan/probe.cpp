@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Measurements of what no feature bit tells.
+#include "shared/vulkan/check.h"
+#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/pipelines.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+namespace diptych {
+
+namespace {
+
+OwnedPipelineLayout emptyLayout(Device& device) {
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    return {device.handle(), layout};
+}
+
+// The first 32 bits of every texel after a full-screen draw of `fragment`.
+std::vector<std::uint32_t> drawProbe(Device& device, const char* fragment, VkFormat format,
+                                     std::uint32_t width) {
+    const OwnedPipelineLayout layout = emptyLayout(device);
+    Pipelines pipelines(device, layout);
+    PassList passes(device, width, 1);
+    const ImageRef target = passes.image("probe", format);
+    const VkPipeline pipeline = pipelines.get({.vertex = "full_screen.vert",
+                                               .fragment = fragment,
+                                               .variant = {},
+                                               .input = VertexInput::none,
+                                               .colors = {format}});
+    passes.draw("probe").color(target, Load::clear).record([&](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+        vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        vkCmdDraw(commands, 3, 1, 0, 0);
+    });
+    passes.run();
+    std::vector<float> texels;
+    passes.readBack(target, 1, texels);
+    std::vector<std::uint32_t> bits(texels.size());
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = std::bit_cast<std::uint32_t>(texels[i]);
+    return bits;
+}
+
+// Small floats of `mantissa` bits and exponent bias 15, without sign.
+double smallFloat(std::uint32_t code, int mantissa) {
+    const auto m = static_cast<double>(code & ((1u << mantissa) - 1u)),
+               scale = static_cast<double>(1u << mantissa);
+    const int e = static_cast<int>(code >> mantissa);
+    return e == 0 ? std::ldexp(m / scale, -14) : std::ldexp(1.0 + m / scale, e - 15);
+}
+
+struct Target {
+    const char* name;
+    VkFormat format;
+    std::function<double(std::uint32_t)> decode;  // the red component
+    std::function<double(double)> step;           // between two codes around a value
+};
+
+double floatStep(double value, int mantissa) {
+    return std::ldexp(1.0, std::ilogb(value) - mantissa);
+}
+
+const std::array<Target, 5>& targets() {
+    static const std::array<Target, 5> list{{
+        {"R8G8B8A8_UNORM", VK_FORMAT_R8G8B8A8_UNORM, [](std::uint32_t b) { return (b & 0xff) / 255.0; },
+         [](double) { return 1 / 255.0; }},
+        {"A2B10G10R10_UNORM", VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+         [](std::uint32_t b) { return (b & 0x3ff) / 1023.0; }, [](double) { return 1 / 1023.0; }},
+        {"R16G16_SNORM", VK_FORMAT_R16G16_SNORM, [](std::uint32_t b) { return (b & 0x7fff) / 32767.0; },
+         [](double) { return 1 / 32767.0; }},
+        {"R16G16B16A16_SFLOAT", VK_FORMAT_R16G16B16A16_SFLOAT,
+         [](std::uint32_t b) { return smallFloat(b & 0x7fff, 10); },
+         [](double v) { return floatStep(v, 10); }},
+        {"B10G11R11_UFLOAT", VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+         [](std::uint32_t b) { return smallFloat(b & 0x7ff, 6); }, [](double v) { return floatStep(v, 6); }},
+    }};
+    return list;
+}
+
+}  // namespace
+
+std::vector<TargetRounding> Device::probeRounding() {
+    constexpr std::uint32_t samples = 4096;
+    const std::vector<std::uint32_t> exact =
+        drawProbe(*this, "probe_rounding.frag", VK_FORMAT_R32G32B32A32_SFLOAT, samples);
+    std::vector<TargetRounding> result;
+    for (const Target& target : targets()) {
+        const std::vector<std::uint32_t> bits =
+            drawProbe(*this, "probe_rounding.frag", target.format, samples);
+        double largest = 0, above = 0;
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            const auto value = static_cast<double>(std::bit_cast<float>(exact[i]));
+            const double error = (target.decode(bits[i]) - value) / target.step(value);
+            largest = std::max(largest, std::abs(error));
+            above = std::max(above, error);
+        }
+        // To nearest stays within half a step (and float32's own rounding of value x steps).
+        const char* kind = largest < 0.51 ? "to nearest" : above < 0.01 ? "towards zero" : "not to nearest";
+        result.push_back({target.name, largest, kind});
+    }
+    return result;
+}
+
+std::uint32_t Device::probeLoopLimit() {
+    return static_cast<std::uint32_t>(
+        std::bit_cast<float>(drawProbe(*this, "probe_loop.frag", VK_FORMAT_R32_SFLOAT, 1).front()));
+}
+
+}  // namespace diptych

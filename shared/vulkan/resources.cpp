@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/resources.h"
+
+#include "shared/vulkan/check.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace diptych {
+
+VkImageAspectFlags aspectOf(VkFormat format) {
+    return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+std::uint32_t bytesPerTexel(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_R8G8B8A8_UNORM:
+        case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
+        case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
+        case VK_FORMAT_R16G16_SNORM:
+        case VK_FORMAT_R16G16_UNORM:
+        case VK_FORMAT_R32_UINT:
+        case VK_FORMAT_R32_SFLOAT:
+        case VK_FORMAT_D32_SFLOAT:
+            return 4;
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case VK_FORMAT_R32G32_UINT:
+        case VK_FORMAT_R32G32_SFLOAT:
+            return 8;
+        case VK_FORMAT_R32G32B32A32_UINT:
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            return 16;
+        default:
+            throw std::logic_error("bytesPerTexel: format " + std::to_string(format) + " is not in the list");
+    }
+}
+
+GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
+                     MemoryUse use)
+    : size_(std::max<VkDeviceSize>(size, 1)) {
+    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                  .pNext = nullptr,
+                                  .flags = 0,
+                                  .size = size_,
+                                  .usage = usage,
+                                  .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+                                  .queueFamilyIndexCount = 0,
+                                  .pQueueFamilyIndices = nullptr};
+    VkBuffer buffer = VK_NULL_HANDLE;
+    check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer), "vkCreateBuffer");
+    buffer_ = OwnedBuffer(device.handle(), buffer);
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    memory_ = device.memory().allocate(needs, use, false);
+    check(vkBindBufferMemory(device.handle(), buffer, memory_.memory(), memory_.offset()),
+          "vkBindBufferMemory");
+    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
+}
+
+GpuImage::GpuImage(Device& device, const GpuImageInfo& info) : info_(info) {
+    const VkImageCreateInfo create{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                   .pNext = nullptr,
+                                   .flags = 0,
+                                   .imageType = VK_IMAGE_TYPE_2D,
+                                   .format = info.format,
+                                   .extent = {info.width, info.height, 1},
+                                   .mipLevels = info.levels,
+                                   .arrayLayers = 1,
+                                   .samples = VK_SAMPLE_COUNT_1_BIT,
+                                   .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                   .usage = info.usage,
+                                   .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+                                   .queueFamilyIndexCount = 0,
+                                   .pQueueFamilyIndices = nullptr,
+                                   .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+    VkImage image = VK_NULL_HANDLE;
+    check(vkCreateImage(device.handle(), &create, nullptr, &image), "vkCreateImage");
+    image_ = OwnedImage(device.handle(), image);
+    VkMemoryRequirements needs;
+    vkGetImageMemoryRequirements(device.handle(), image, &needs);
+    memory_ = device.memory().allocate(needs, MemoryUse::device, true);
+    check(vkBindImageMemory(device.handle(), image, memory_.memory(), memory_.offset()), "vkBindImageMemory");
+    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), info.name);
+    constexpr VkImageUsageFlags viewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                         VK_IMAGE_USAGE_STORAGE_BIT;
+    if ((info.usage & viewed) == 0) return;
+    const VkImageViewCreateInfo viewInfo{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                         .pNext = nullptr,
+                                         .flags = 0,
+                                         .image = image,
+                                         .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                         .format = info.format,
+                                         .components = {},
+                                         .subresourceRange = {aspect(), 0, info.levels, 0, 1}};
+    VkImageView view = VK_NULL_HANDLE;
+    check(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view), "vkCreateImageView");
+    view_ = OwnedImageView(device.handle(), view);
+}
+
+VkImageAspectFlags GpuImage::aspect() const {
+    return aspectOf(info_.format);
+}
+
+VkImageMemoryBarrier2 barrier(VkImage image, VkImageAspectFlags aspect, const ImageState& from,
+                              const ImageState& to) {
+    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+            .pNext = nullptr,
+            .srcStageMask = from.stage,
+            .srcAccessMask = from.access,
+            .dstStageMask = to.stage,
+            .dstAccessMask = to.access,
+            .oldLayout = from.layout,
+            .newLayout = to.layout,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = image,
+            .subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+}
+
+void submitBarriers(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> barriers) {
+    if (barriers.empty()) return;
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .pNext = nullptr,
+                                .dependencyFlags = 0,
+                                .memoryBarrierCount = 0,
+                                .pMemoryBarriers = nullptr,
+                                .bufferMemoryBarrierCount = 0,
+                                .pBufferMemoryBarriers = nullptr,
+                                .imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size()),
+                                .pImageMemoryBarriers = barriers.data()};
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+namespace {
+constexpr VkDeviceSize stagingSize = VkDeviceSize{32} << 20;
+constexpr VkDeviceSize stagingAlignment = 16;  // of every texel we upload
+}  // namespace
+
+struct Uploader::State {
+    Device& device;
+    GpuBuffer staging;
+    VkDeviceSize used = 0;
+    std::vector<std::function<void(VkCommandBuffer)>> copies;
+
+    // Room for up to `bytes`, at least one: data goes in pieces where it is larger than the staging buffer.
+    std::byte* reserve(Uploader& self, VkDeviceSize bytes, VkDeviceSize& offset) {
+        if (used + bytes > staging.size()) self.flush();
+        if (bytes > staging.size())
+            staging =
+                GpuBuffer(device, "staging", bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
+        offset = used;
+        used += (bytes + stagingAlignment - 1) / stagingAlignment * stagingAlignment;
+        return static_cast<std::byte*>(staging.mapped()) + offset;
+    }
+};
+
+Uploader::Uploader(Device& device)
+    : state_(new State{
+          device,
+          GpuBuffer(device, "staging", stagingSize, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload),
+          0,
+          {}}) {}
+
+Uploader::~Uploader() = default;
+
+void Uploader::buffer(const GpuBuffer& target, std::span<const std::byte> data) {
+    for (VkDeviceSize done = 0; done < data.size();) {
+        const VkDeviceSize bytes = std::min<VkDeviceSize>(data.size() - done, stagingSize);
+        VkBufferCopy copy{.srcOffset = 0, .dstOffset = done, .size = bytes};
+        std::copy_n(data.data() + done, bytes, state_->reserve(*this, bytes, copy.srcOffset));
+        state_->copies.push_back([this, copy, to = target.handle()](VkCommandBuffer commands) {
+            vkCmdCopyBuffer(commands, state_->staging.handle(), to, 1, &copy);
+        });
+        done += bytes;
+    }
+}
+
+void Uploader::level(const GpuImage& target, std::uint32_t level, std::span<const std::byte> data) {
+    VkDeviceSize offset = 0;
+    std::copy(data.begin(), data.end(), state_->reserve(*this, data.size(), offset));
+    const GpuImageInfo& info = target.info();
+    const VkBufferImageCopy copy{
+        .bufferOffset = offset,
+        .bufferRowLength = 0,
+        .bufferImageHeight = 0,
+        .imageSubresource = {target.aspect(), level, 0, 1},
+        .imageOffset = {},
+        .imageExtent = {std::max(info.width >> level, 1u), std::max(info.height >> level, 1u), 1}};
+    const bool first = level == 0, last = level + 1 == info.levels;
+    state_->copies.push_back([this, copy, first, last, image = target.handle(),
+                              aspect = target.aspect()](VkCommandBuffer commands) {
+        const ImageState written{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                                 VK_ACCESS_2_TRANSFER_WRITE_BIT};
+        const ImageState read{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                              VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+        if (first) submitBarriers(commands, std::array{barrier(image, aspect, {}, written)});
+        vkCmdCopyBufferToImage(commands, state_->staging.handle(), image, written.layout, 1, &copy);
+        if (last) submitBarriers(commands, std::array{barrier(image, aspect, written, read)});
+    });
+}
+
+void Uploader::flush() {
+    if (!state_->copies.empty())
+        state_->device.submit([&](VkCommandBuffer commands) {
+            for (const auto& copy : state_->copies) copy(commands);
+        });
+    state_->copies.clear();
+    state_->used = 0;
+}
+
+}  // namespace diptych

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Buffers and images with their memory. Move-only; they die with their last owner, so keep them until the
+// device is idle (Device::submit waits, so that is after every submit).
+#pragma once
+
+#include "shared/vulkan/device.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace diptych {
+
+class GpuBuffer {
+public:
+    GpuBuffer() = default;
+    // At least one byte is made, so that an empty array can be bound.
+    GpuBuffer(Device& device, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
+              MemoryUse use = MemoryUse::device);
+
+    VkBuffer handle() const { return buffer_; }
+    VkDeviceSize size() const { return size_; }
+    void* mapped() const { return memory_.mapped(); }
+
+private:
+    Allocation memory_;  // outlives the buffer: declared first
+    OwnedBuffer buffer_;
+    VkDeviceSize size_ = 0;
+};
+
+struct GpuImageInfo {
+    std::string name;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    std::uint32_t width = 1, height = 1, levels = 1;
+    VkImageUsageFlags usage = 0;
+};
+
+class GpuImage {
+public:
+    GpuImage() = default;
+    GpuImage(Device& device, const GpuImageInfo& info);
+
+    VkImage handle() const { return image_; }
+    VkImageView view() const { return view_; }
+    const GpuImageInfo& info() const { return info_; }
+    VkImageAspectFlags aspect() const;
+    VkDeviceSize bytes() const { return memory_.size(); }
+
+private:
+    GpuImageInfo info_;
+    Allocation memory_;
+    OwnedImage image_;
+    OwnedImageView view_;
+};
+
+VkImageAspectFlags aspectOf(VkFormat format);
+std::uint32_t bytesPerTexel(VkFormat format);  // of the formats we use; throws std::logic_error for others
+
+// One barrier for a whole image.
+struct ImageState {
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
+    VkAccessFlags2 access = VK_ACCESS_2_NONE;
+};
+VkImageMemoryBarrier2 barrier(VkImage image, VkImageAspectFlags aspect, const ImageState& from,
+                              const ImageState& to);
+void submitBarriers(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> barriers);
+
+// Copies data to device buffers and images through a staging buffer of bounded size; what was given is
+// there when flush() returns.
+class Uploader {
+public:
+    explicit Uploader(Device& device);
+    ~Uploader();
+    Uploader(const Uploader&) = delete;
+    Uploader& operator=(const Uploader&) = delete;
+
+    void buffer(const GpuBuffer& target, std::span<const std::byte> data);
+    // One mip level, tightly packed rows; the image ends in SHADER_READ_ONLY_OPTIMAL when its last level
+    // has been given in ascending order.
+    void level(const GpuImage& target, std::uint32_t level, std::span<const std::byte> data);
+    void flush();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+template <class T>
+GpuBuffer makeBuffer(Device& device, Uploader& uploader, const std::string& name, std::span<const T> data,
+                     VkBufferUsageFlags usage) {
+    GpuBuffer buffer(device, name, data.size_bytes(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    if (!data.empty()) uploader.buffer(buffer, std::as_bytes(data));
+    return buffer;
+}
+
+}  // namespace diptych

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace diptych {
+
+// The embedded module of an entry point by its file's name in shaders/pass, e.g. "depth.vert"; empty where
+// there is none.
+std::span<const std::uint32_t> findSpirv(std::string_view name);
+
+}  // namespace diptych
