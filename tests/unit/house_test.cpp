@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// The rules of the house, read from its own files. Each check has a twin that plants a fault and must find
+// it.
+#include "shared/frame/debug_modes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Files = std::map<std::string, std::string>;  // path from the repository's root -> contents
+using Faults = std::vector<std::string>;
+
+// Every source, shader, script and page that belongs to the repository.
+const Files& house() {
+    static const Files files = [] {
+        const fs::path root = DIPTYCH_SOURCE_DIR;
+        Files found;
+        const auto add = [&](const fs::path& file) {
+            std::ifstream stream(file, std::ios::binary);
+            found[fs::relative(file, root).generic_string()] = {std::istreambuf_iterator<char>(stream), {}};
+        };
+        for (const auto& entry : fs::directory_iterator(root))
+            if (entry.is_regular_file()) add(entry.path());
+        for (const char* folder :
+             {"shared", "shaders", "forward_plus", "deferred", "compare", "tests", ".ci"})
+            if (fs::is_directory(root / folder))
+                for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+                    if (entry.is_regular_file()) add(entry.path());
+        return found;
+    }();
+    return files;
+}
+
+bool endsIn(const std::string& path, std::initializer_list<const char*> endings) {
+    return std::ranges::any_of(endings, [&](const char* ending) { return path.ends_with(ending); });
+}
+bool isCode(const std::string& path) {
+    return endsIn(path, {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"});
+}
+
+std::string joined(const Faults& faults) {
+    std::string all;
+    for (const std::string& fault : faults) all += fault + "\n";
+    return all;
+}
+
+// A room may include itself and rooms on lower floors; where `only` is not empty, no others than those.
+struct Room {
+    std::string path;
+    int floor;
+    std::vector<std::string> only{};
+};
+const std::vector<Room> rooms = {
+    {"shared/contract", 0},
+    {"shaders/lib", 1, {"shared/contract"}},
+    {"shaders/pass", 2, {"shared/contract", "shaders/lib"}},
+    {"shared/image", 10},
+    {"shared/frame", 20},
+    {"shared/scene", 20},
+    {"shared/vulkan", 20},
+    {"shared/material", 30},
+    {"shared/light", 30},
+    {"shared/environment", 30},
+    {"shared/draw", 31},
+    {"shared/shadow", 32},
+    {"shared/transparent", 33},
+    {"forward_plus", 40},
+    {"deferred", 40},
+    {"compare/reference", 40, {"shared/contract", "shared/image", "shared/frame", "shared/scene"}},
+    {"compare", 50},
+    {"tests", 60},
+};
+
+// The innermost room that holds the file; nullptr: none.
+const Room* roomOf(const std::string& path) {
+    const Room* best = nullptr;
+    for (const Room& room : rooms)
+        if (path.starts_with(room.path + "/") && (!best || room.path.size() > best->path.size()))
+            best = &room;
+    return best;
+}
+
+// Includes between quotes that climb a floor, cross to a stranger, or leave the contract.
+Faults climbingIncludes(const Files& files) {
+    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const Room* from = isCode(path) ? roomOf(path) : nullptr;
+        if (!from) continue;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::smatch match;
+            if (!std::regex_search(line, match, include)) continue;
+            const std::string beside =
+                (fs::path(path).parent_path() / match[1].str()).lexically_normal().generic_string();
+            const std::string target = files.contains(beside)
+                                           ? beside
+                                           : fs::path(match[1].str()).lexically_normal().generic_string();
+            const Room* to = roomOf(target);
+            if (from->floor == 0 && to != from) {
+                faults.push_back(path + " includes " + target + ", outside the contract");
+            } else if (to && to != from) {
+                const bool listed = from->only.empty() || std::ranges::count(from->only, to->path) > 0;
+                if (to->floor >= from->floor || !listed) faults.push_back(path + " includes " + target);
+            }
+        }
+    }
+    return faults;
+}
+
+TEST(House, IncludesOnlyGoDown) {
+    EXPECT_EQ(joined(climbingIncludes(house())), "");
+}
+
+TEST(House, APlantedClimbIsFound) {
+    const auto plant = [](const std::string& path, const std::string& include) {
+        Files files = house();
+        files[path] = "// SPDX-License-Identifier: MIT\n#include \"" + include + "\"\n";
+        return climbingIncludes(files).size() - climbingIncludes(house()).size();
+    };
+    EXPECT_EQ(plant("shared/image/planted.h", "shared/scene/scene.h"), 1u);
+    EXPECT_EQ(plant("shared/scene/planted.h", "shared/frame/frame.h"), 1u);
+    EXPECT_EQ(plant("shared/scene/builtin/planted.h", "../../vulkan/device.h"), 1u);
+    EXPECT_EQ(plant("shared/vulkan/planted.cpp", "shared/scene/scene.h"), 1u);
+    EXPECT_EQ(plant("shared/light/planted.h", "shared/material/materials.h"), 1u);
+    EXPECT_EQ(plant("shared/light/planted.h", "shared/draw/draws.h"), 1u);
+    EXPECT_EQ(plant("shared/contract/planted.h", "shared/image/image.h"), 1u);
+    EXPECT_EQ(plant("shared/contract/planted.h", "elsewhere.h"), 1u);
+    EXPECT_EQ(plant("deferred/planted.cpp", "forward_plus/forward_plus.h"), 1u);
+    EXPECT_EQ(plant("compare/reference/planted.cpp", "shared/vulkan/device.h"), 1u);
+    EXPECT_EQ(plant("shaders/lib/planted.glsl", "shaders/pass/surface.vert"), 1u);
+    EXPECT_EQ(plant("shared/draw/planted.h", "compare/render.h"), 1u);
+    // and what goes down is left alone
+    EXPECT_EQ(plant("shared/contract/planted.h", "types.h"), 0u);
+    EXPECT_EQ(plant("compare/planted.cpp", "deferred/deferred.h"), 0u);
+    EXPECT_EQ(plant("shared/draw/planted.h", "shared/light/lights.h"), 0u);
+}
+
+// pi, 2 pi, pi/2, pi/4, 1/pi by their digits, and the macro that is no standard C++. Hand-computed values in
+// tests may hold them.
+Faults otherPis(const Files& files) {
+    static const std::regex pi("3\\.1415|6\\.2831|1\\.5707|0\\.7853|0\\.3183|M_PI");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) && path != "shared/contract/constants.h" && !path.starts_with("tests/") &&
+            std::regex_search(text, pi))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(House, ThereIsOnePi) {
+    EXPECT_EQ(joined(otherPis(house())), "");
+}
+
+TEST(House, APlantedPiIsFound) {
+    for (const char* pi : {"3.14159f", "3.1415628", "6.28318530718", "M_PI_2", "0.31830988"}) {
+        EXPECT_EQ(otherPis({{"shaders/lib/planted.glsl", std::string("const float p = ") + pi + ";"}}).size(),
+                  1u)
+            << pi;
+    }
+    EXPECT_TRUE(
+        otherPis({{"shared/scene/a.cpp", "std::numbers::pi"}, {"shared/contract/constants.h", "3.14159"}})
+            .empty());
+}
+
+Faults withoutLicence(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const bool wanted = isCode(path) || endsIn(path, {"CMakeLists.txt", ".cmake"}) || path == "diptych" ||
+                            path == ".ci/run";
+        const std::size_t second = text.find('\n', text.find('\n') + 1);
+        if (wanted && text.substr(0, second).find("SPDX-License-Identifier: MIT") == std::string::npos)
+            faults.push_back(path);
+    }
+    return faults;
+}
+
+TEST(House, EverySourceStartsWithItsLicence) {
+    EXPECT_EQ(joined(withoutLicence(house())), "");
+}
+
+TEST(House, AMissingLicenceIsFound) {
+    EXPECT_EQ(withoutLicence(
+                  {{"compare/a.cpp", "int a;\n"}, {"diptych", "#!/bin/sh\nset -e\n"}, {"README.md", "#"}}),
+              (Faults{"compare/a.cpp", "diptych"}));
+    EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
+}
+
+// Folders of the machine that a file was written on have no place in it.
+Faults pathsOfAMachine(const Files& files) {
+    static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) || endsIn(path, {".md", ".txt", ".json", "diptych", "run"}))
+            if (std::smatch match; std::regex_search(text, match, absolute))
+                faults.push_back(path + ": " + match.str());
+    return faults;
+}
+
+TEST(House, NoFileNamesAFolderOfOneMachine) {
+    EXPECT_EQ(joined(pathsOfAMachine(house())), "");
+}
+
+TEST(House, APlantedFolderIsFound) {
+    EXPECT_EQ(pathsOfAMachine({{"README.md", std::string("see /home") + "/jo/scene.glb"}}).size(), 1u);
+    EXPECT_TRUE(pathsOfAMachine({{"README.md", "see https://example.org/homework/a"}}).empty());
+}
+
+// A forgotten channel fails by name.
+Faults channelsWithoutShader(const std::string& shader) {
+    Faults faults;
+    for (const DebugMode& mode : debugModes())
+        if (!std::regex_search(shader, std::regex("\\bDEBUG_" + std::string(mode.name) + "\\b")))
+            faults.emplace_back(mode.name);
+    return faults;
+}
+
+TEST(House, EveryChannelHasALineInTheShader) {
+    const std::string shader = house().at("shaders/lib/debug.glsl");
+    EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
+    EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
+              Faults{"roughness"});
+}
+
+}  // namespace
+}  // namespace diptych
