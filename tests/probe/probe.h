@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Runs the shipped GLSL on chosen numbers: a small compute shader of tests/probe/shaders includes a file of
+// shaders/lib and maps `in_width` floats to `out_width` floats, once for each row of the input.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+class Device;
+
+class Probes {
+public:
+    Probes();
+    ~Probes();
+
+    // `shader`: file name without ".comp". `input` holds rows of inWidth floats. Returns as many rows of
+    // outWidth floats.
+    std::vector<float> run(const std::string& shader, const std::vector<float>& input, std::size_t inWidth,
+                           std::size_t outWidth);
+
+    Device& device();
+
+private:
+    std::unique_ptr<Device> device_;
+};
+
+}  // namespace diptych
