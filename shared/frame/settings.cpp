@@ -234,7 +234,7 @@ std::string toJson(const Settings& settings, int indent) {
     Settings::fields(settings, [&](const Field& field, const auto& member) {
         object[keyOf(field.option)] = CodecOf<decltype(member)>::json(member);
     });
-    return object.dump(indent);
+    return object.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 Settings settingsFromJson(const std::string& text, const Settings& base) {

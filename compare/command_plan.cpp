@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "compare/commands.h"
+#include "shared/scene/requirements.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ScenePlan {
+    std::string scene;
+    Requirements needs;
+    std::vector<std::string> notes;  // what was read otherwise than the file says
+    std::vector<PathPlan> paths;
+};
+
+Json jsonOf(const ScenePlan& plan) {
+    Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
+    for (const auto& line : plan.needs.lines())
+        (line.modelled ? modelled : leftOut).push_back({{"what", line.what}, {"why", line.why}});
+    for (const PathPlan& path : plan.paths)
+        paths.push_back({{"path", path.path},
+                         {"passes", path.passes},
+                         {"bytes_per_pixel", path.bytes_per_pixel},
+                         {"notes", path.notes}});
+    return {{"scene", plan.scene},
+            {"draws", plan.needs.draws},
+            {"triangles", plan.needs.triangles},
+            {"materials", plan.needs.materials},
+            {"textures", plan.needs.textures},
+            {"lights", plan.needs.directional_lights + plan.needs.point_lights + plan.needs.spot_lights},
+            {"modelled", modelled},
+            {"left_out", leftOut},
+            {"notes", plan.notes},
+            {"paths", paths}};
+}
+
+void print(const ScenePlan& plan) {
+    const Requirements& needs = plan.needs;
+    fmt::print("{}: {} draws, {} triangles, {} materials, {} textures, {} lights\n", plan.scene, needs.draws,
+               needs.triangles, needs.materials, needs.textures,
+               needs.directional_lights + needs.point_lights + needs.spot_lights);
+    for (const bool modelled : {true, false}) {
+        fmt::print("  {}\n", modelled ? "modelled" : "left out");
+        for (const auto& line : needs.lines())
+            if (line.modelled == modelled) fmt::print("    {:<26} {}\n", line.what, line.why);
+    }
+    for (const PathPlan& path : plan.paths) {
+        fmt::print("  {}: {}; {} bytes per pixel\n", path.path, fmt::join(path.passes, " > "),
+                   path.bytes_per_pixel);
+        for (const std::string& line : path.notes) fmt::print("    {}\n", line);
+    }
+    for (const std::string& line : plan.notes) fmt::print("  note: {}\n", line);
+}
+
+}  // namespace
+
+int runPlan(const Options& options) {
+    std::vector<Path> paths{Path::deferred, Path::forward_plus};
+    if (options.path_given) paths = {options.settings.path};
+    const std::vector<Settings> settings = plan(options, paths);
+    Device device(deviceOptions(options));
+    Json scenes = Json::array();
+    for (const std::string& name : options.scenes) {
+        const Scene scene = loadScene(name);
+        Pose pose = poseAt(scene, options.settings.time);
+        pose.lights = litBy(scene, pose, options.settings);
+        const ScenePlan result{scene.name, requirements(scene, pose), scene.notes,
+                               planPaths(device, scene, settings)};
+        if (options.json)
+            scenes.push_back(jsonOf(result));
+        else if (!options.quiet)
+            print(result);
+    }
+    checkValidation(device);
+    if (options.json)
+        fmt::print("{}\n", Json{{"schema", 1}, {"scenes", scenes}}.dump(2, ' ', false,
+                                                                        Json::error_handler_t::replace));
+    return 0;
+}
+
+}  // namespace diptych

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "compare/commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+
+int runCommand(const Options& options) {
+    constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
+        {"compare", runCompare}, {"render", runRender}, {"plan", runPlan}, {"devices", runDevices}};
+    for (const auto& [name, run] : commands)
+        if (name == options.command) return run(options);
+    throw std::runtime_error(options.command + " is not built yet");
+}
+
+std::vector<Settings> plan(const Options& options, const std::vector<Path>& paths) {
+    std::vector<Settings> all;
+    for (const std::string& camera : options.cameras)
+        for (const Path path : paths) {
+            Settings settings = options.settings;
+            settings.camera = camera;
+            if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+            settings.path = path;
+            all.push_back(settings);
+        }
+    return all;
+}
+
+RenderOptions renderOptions(const Options& options) {
+    RenderOptions render;
+    render.channels = options.channels;
+    if (render.channels.empty())
+        for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
+    render.runs = options.runs;
+    if (options.verbose) render.progress = [&options](const std::string& step) { note(options, step); };
+    return render;
+}
+
+DeviceOptions deviceOptions(const Options& options) {
+    return {options.device, options.validate};
+}
+
+void checkValidation(const Device& device) {
+    if (const std::uint64_t count = device.validationMessages(); count > 0)
+        throw std::runtime_error(
+            fmt::format("--validate: {} messages, the first: {}", count, device.firstValidationMessage()));
+}
+
+void note(const Options& options, const std::string& line) {
+    if (!options.quiet) std::fprintf(stderr, "diptych: %s\n", line.c_str());
+}
+
+}  // namespace diptych

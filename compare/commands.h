@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The commands of the tool. Each prints its result on stdout, returns the exit code, and throws
+// std::runtime_error, one line, where it could not do what was asked.
+#pragma once
+
+#include "compare/command_line.h"
+#include "compare/render.h"
+#include "shared/vulkan/device.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+int runCommand(const Options& options);
+
+int runCompare(const Options& options);
+int runRender(const Options& options);
+int runPlan(const Options& options);
+int runDevices(const Options& options);
+
+// What the commands share.
+
+// One Settings per camera and path, the paths of one camera side by side. Throws the first problem().
+std::vector<Settings> plan(const Options& options, const std::vector<Path>& paths);
+
+RenderOptions renderOptions(const Options& options);
+DeviceOptions deviceOptions(const Options& options);
+
+// With --validate any message of the layers is a failure: throws how many there were and the first one.
+void checkValidation(const Device& device);
+
+// A line on stderr, for people, unless they want none.
+void note(const Options& options, const std::string& line);
+
+}  // namespace diptych
