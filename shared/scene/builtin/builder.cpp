@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/builtin/builder.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace diptych {
+
+int Builder::material(const std::string& name, const Surface& surface) {
+    Material made;
+    made.name = name;
+    made.base_color = glm::vec4(surface.base_color, 1);
+    made.metallic = surface.metallic;
+    made.roughness = surface.roughness;
+    made.emissive = surface.emissive;
+    scene.materials.push_back(made);
+    return static_cast<int>(scene.materials.size() - 1);
+}
+
+TextureSlot Builder::texture(TextureImage image, double tiles, const Sampler& sampler) {
+    scene.images.push_back(std::move(image));
+    scene.textures.push_back({static_cast<int>(scene.images.size() - 1), sampler});
+    TextureSlot slot;
+    slot.texture = static_cast<int>(scene.textures.size() - 1);
+    slot.u.x = slot.v.y = tiles;
+    return slot;
+}
+
+int Builder::addMesh(Primitive shape, int material, const std::string& name) {
+    shape.material = material;
+    Mesh mesh{name, {}};
+    mesh.primitives.push_back(std::move(shape));
+    scene.meshes.push_back(std::move(mesh));
+    return static_cast<int>(scene.meshes.size() - 1);
+}
+
+int Builder::addNode(const std::string& name, int mesh, const glm::dmat4& parentFromNode, int parent) {
+    scene.nodes.push_back({name, parent, parentFromNode, mesh});
+    return static_cast<int>(scene.nodes.size() - 1);
+}
+
+int Builder::add(const std::string& name, Primitive shape, int material, const glm::dmat4& worldFromShape) {
+    return addNode(name, addMesh(std::move(shape), material, name), worldFromShape);
+}
+
+int Builder::add(const std::string& name, Primitive shape, int material, const glm::dvec3& position) {
+    return add(name, std::move(shape), material, at(position.x, position.y, position.z));
+}
+
+void Builder::point(const glm::dvec3& position, const glm::vec3& color, float candela, float range) {
+    Light light;
+    light.name = "point " + std::to_string(scene.lights.size());
+    light.position = position;
+    light.color = color;
+    light.intensity = candela;
+    light.range = range;
+    scene.lights.push_back(light);
+}
+
+void Builder::spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color,
+                   float candela, float range, double innerDegrees, double outerDegrees) {
+    point(position, color, candela, range);
+    Light& light = scene.lights.back();
+    light.name = "spot " + std::to_string(scene.lights.size() - 1);
+    light.kind = LightKind::spot;
+    light.direction = glm::normalize(target - position);
+    light.inner_cone = static_cast<float>(glm::radians(innerDegrees));
+    light.outer_cone = static_cast<float>(glm::radians(outerDegrees));
+}
+
+void Builder::sun(const glm::dvec3& direction, const glm::vec3& color, float lux) {
+    Light light;
+    light.name = "sun " + std::to_string(scene.lights.size());
+    light.kind = LightKind::directional;
+    light.direction = glm::normalize(direction);
+    light.color = color;
+    light.intensity = lux;
+    scene.lights.push_back(light);
+}
+
+Camera& Builder::camera(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,
+                        double yfovDegrees, double near, double far) {
+    const glm::dvec3 forward = glm::normalize(target - eye);
+    const glm::dvec3 up = std::abs(forward.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    Camera made;
+    made.name = name;
+    made.yfov = glm::radians(yfovDegrees);
+    made.near = near;
+    made.far = far;
+    // Axes and origin are set one by one: the inverse of a view matrix would lose digits far from the origin.
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+    made.world_from_camera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(right, forward), 0),
+                                        glm::dvec4(-forward, 0), glm::dvec4(eye, 1));
+    scene.cameras.push_back(made);
+    return scene.cameras.back();
+}
+
+glm::dmat4 at(double x, double y, double z) {
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
+}
+glm::dmat4 turned(double degrees, const glm::dvec3& axis) {
+    return glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis);
+}
+glm::dmat4 scaled(double x, double y, double z) {
+    return glm::scale(glm::dmat4(1.0), glm::dvec3(x, y, z));
+}
+
+}  // namespace diptych

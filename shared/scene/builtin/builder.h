@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// How a built-in scene is put together: each call adds one thing to `scene`.
+#pragma once
+
+#include "shared/scene/builtin/shapes.h"
+#include "shared/scene/scene.h"
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <limits>
+#include <string>
+
+namespace diptych {
+
+struct Surface {
+    glm::vec3 base_color{0.8f};
+    float metallic = 0, roughness = 0.5f;
+    glm::vec3 emissive{0};  // W/(sr m^2)
+};
+
+class Builder {
+public:
+    Scene scene;
+
+    // The index of a new material; `scene.materials.back()` may be refined afterwards.
+    int material(const std::string& name, const Surface& surface);
+
+    // A slot that reads a new texture, `tiles` times over [0, 1] of the first texture coordinates.
+    TextureSlot texture(TextureImage image, double tiles = 1, const Sampler& sampler = {});
+
+    // A node with a mesh of one primitive; returns the node's index.
+    int add(const std::string& name, Primitive shape, int material,
+            const glm::dmat4& worldFromShape = glm::dmat4(1.0));
+    int add(const std::string& name, Primitive shape, int material, const glm::dvec3& position);
+    int addMesh(Primitive shape, int material, const std::string& name);
+    int addNode(const std::string& name, int mesh, const glm::dmat4& parentFromNode, int parent = -1);
+
+    // Candela and metres, half angles of the cone in degrees; lux for the sun. `direction` need not be unit.
+    void point(const glm::dvec3& position, const glm::vec3& color, float candela,
+               float range = std::numeric_limits<float>::infinity());
+    void spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float candela,
+              float range, double innerDegrees, double outerDegrees);
+    void sun(const glm::dvec3& direction, const glm::vec3& color, float lux);
+
+    // Looks from `eye` at `target`, +Y up unless that is where it looks.
+    Camera& camera(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,
+                   double yfovDegrees, double near = 0.1, double far = 1000);
+};
+
+glm::dmat4 at(double x, double y, double z);
+glm::dmat4 turned(double degrees, const glm::dvec3& axis = {0, 1, 0});
+glm::dmat4 scaled(double x, double y, double z);
+
+}  // namespace diptych

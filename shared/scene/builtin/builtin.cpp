@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/builtin/builtin.h"
+
+#include "shared/scene/builtin/scenes.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+struct Row {
+    std::string_view name, shows;
+    bool for_tests;
+    Scene (*make)();
+    Scene (*makeWithLights)(std::uint32_t) = nullptr;
+    std::uint32_t lights = 0;  // the parameter's default
+};
+
+constexpr bool PICTURE = false, TEST = true;
+constexpr std::array ROWS{
+    Row{"gallery", "an evening in a sculpture hall: every kind of material, some sixty lights (the default)",
+        PICTURE, builtin::gallery},
+    Row{"spheres", "400 spheres under a sun and N point lights, the many-light benchmark", PICTURE, nullptr,
+        builtin::spheres, 256},
+    Row{"furnace", "white spheres, metallic by roughness, in light that is the same from everywhere", PICTURE,
+        builtin::furnace},
+    Row{"normals", "every direction of normal under sharp highlights: seams of normal encodings", TEST,
+        builtin::normals},
+    Row{"emission", "emitters from 1e-6 to 1e6 W/(sr m^2), grey and saturated: packed HDR ranges", TEST,
+        builtin::emission},
+    Row{"dark_albedo", "ramps of base colour from 0 to 0.05 and to 1: albedo packed with a gamma", TEST,
+        builtin::darkAlbedo},
+    Row{"dielectrics", "ior 1 to 2.4 and 0, specular 0 to 1, tinted: what a plain G-buffer lacks", TEST,
+        builtin::dielectrics},
+    Row{"cutout", "masked, normal-mapped, double-sided cards, some at grazing angles: alpha tests per pass",
+        TEST, builtin::cutout},
+    Row{"occlusion", "deep occlusion maps under direct light alone, which they must not touch", TEST,
+        builtin::occlusion},
+    Row{"many_materials", "5000 tiles of 5000 materials: ids beyond the packed bits", TEST,
+        builtin::manyMaterials},
+    Row{"vertex_colors", "vertex colours that vary, textured and plain", TEST, builtin::vertexColors},
+    Row{"coplanar", "coincident triangles and bodies that pass through each other: depth ties", TEST,
+        builtin::coplanar},
+    Row{"deep", "0.2 m to 90 km in one view with far 1e5, seen through its corner: position from depth", TEST,
+        builtin::deep},
+    Row{"mirrored", "normal-mapped reliefs under mirroring transforms", TEST, builtin::mirrored},
+    Row{"stretched", "non-uniform scales and shears in a tree of nodes", TEST, builtin::stretched},
+    Row{"far_away", "spheres and a light a million metres from the origin", TEST, builtin::farAway},
+    Row{"ortho", "an orthographic camera", TEST, builtin::ortho},
+    Row{"triangle", "one triangle, one light", TEST, builtin::triangle},
+    Row{"empty", "no meshes at all, and no camera", TEST, builtin::empty},
+    Row{"background", "a camera that looks past the only mesh: nothing but background", TEST,
+        builtin::background},
+    Row{"range_edge", "lights whose range ends inside the view: falloff must be zero there", TEST,
+        builtin::rangeEdge},
+    Row{"suns", "directional lights alone", TEST, builtin::suns},
+    Row{"points", "point lights alone", TEST, builtin::points},
+    Row{"spots", "spot lights alone, cones of 0 to 90 degrees", TEST, builtin::spots},
+    Row{"unlit", "no lights and nothing that emits, with a camera", TEST, builtin::unlit},
+};
+
+std::string knownNames() {
+    std::string names;
+    for (const Row& row : ROWS) names += (names.empty() ? "" : ", ") + std::string(row.name);
+    return names;
+}
+
+// "lights=64"
+std::uint32_t lightsFrom(const std::string& name, const Row& row, std::string_view query) {
+    const std::string_view key = query.substr(0, query.find('='));
+    if (row.makeWithLights == nullptr)
+        throw std::runtime_error(fmt::format("builtin:{}: {} takes no parameters", name, row.name));
+    if (key != "lights" || key.size() == query.size())
+        throw std::runtime_error(
+            fmt::format("builtin:{}: unknown parameter '{}'; {} takes lights=N", name, query, row.name));
+    const std::string_view digits = query.substr(key.size() + 1);
+    std::uint32_t lights = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), lights);
+    if (error != std::errc() || end != digits.data() + digits.size() || lights > 0x7fffffffu)
+        throw std::runtime_error(
+            fmt::format("builtin:{}: '{}' is no number of lights; it takes 0 to 2147483647", name, digits));
+    return lights;
+}
+
+}  // namespace
+
+std::vector<BuiltinName> builtinNames() {
+    std::vector<BuiltinName> names;
+    for (const Row& row : ROWS)
+        names.push_back({std::string(row.name),
+                         row.makeWithLights ? fmt::format("lights={}", row.lights) : "",
+                         std::string(row.shows), row.for_tests});
+    return names;
+}
+
+Scene makeBuiltin(const std::string& name) {
+    const std::string_view base = std::string_view(name).substr(0, name.find('?'));
+    for (const Row& row : ROWS) {
+        if (row.name != base) continue;
+        std::uint32_t lights = row.lights;
+        if (base.size() < name.size())
+            lights = lightsFrom(name, row, std::string_view(name).substr(base.size() + 1));
+        Scene scene = row.makeWithLights ? row.makeWithLights(lights) : row.make();
+        scene.name = "builtin:" + name;
+        return scene;
+    }
+    throw std::runtime_error(
+        fmt::format("builtin:{}: there is no such scene; there are {}", name, knownNames()));
+}
+
+}  // namespace diptych

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Test scenes about lights.
+#include "shared/scene/builtin/builder.h"
+#include "shared/scene/builtin/scenes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace diptych::builtin {
+namespace {
+
+// A floor, a wall and six balls for the lights to fall on.
+Builder stage() {
+    Builder b;
+    b.camera("front", {0, 2.2, 7}, {0, 0.8, 0}, 40, 0.1, 100);
+    const int grey = b.material("floor and wall", {glm::vec3(0.6f), 0, 0.6f});
+    b.add("floor", quad({-5, 0, 4}, {10, 0, 0}, {0, 0, -6}), grey, glm::dvec3(0.0));
+    b.add("wall", quad({-5, 0, -2}, {10, 0, 0}, {0, 3.5, 0}), grey, glm::dvec3(0.0));
+    for (int i = 0; i < 6; ++i) {
+        const int material =
+            b.material(fmt::format("ball {}", i),
+                       {{0.7f, 0.5f, 0.3f}, static_cast<float>(i % 2), 0.1f + 0.15f * static_cast<float>(i)});
+        b.add("ball", sphere(0.45), material, glm::dvec3(1.2 * (i - 2.5), 0.45, 0.3 * (i % 2)));
+    }
+    return b;
+}
+
+}  // namespace
+
+// Strong lights with short ranges, so that any light left at the end of the range would show as a rim; some
+// touch the floor in a single point, one ends just above it, one holds the eye, one ends on a ball's foremost
+// point.
+Scene rangeEdge() {
+    Builder b = stage();
+    for (int i = 0; i < 4; ++i)
+        b.point({1.8 * (i - 1.5), 0.6 + 0.2 * i, 1.6}, {1.0f, 0.7f, 0.4f}, 40,
+                0.9f + 0.1f * static_cast<float>(i));
+    b.point({-3, 1, 2.5}, {1.0f, 0.3f, 0.3f}, 40, 1.0f);        // touches the floor
+    b.point({3, 1, 2.5}, {0.3f, 1.0f, 0.3f}, 40, 0.999f);       // ends a millimetre above it
+    b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);            // around the eye
+    b.point({-0.6, 0.45, 2.45}, {1.0f, 1.0f, 0.5f}, 40, 2.0f);  // ends on the foremost point of a ball
+    b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 60, 3.0f, 15, 25);  // ends on the floor
+    b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 60, 2.0f, 0, 40);    // ends on the wall
+    return std::move(b.scene);
+}
+
+Scene suns() {
+    Builder b = stage();
+    b.sun({-0.5, -1, -0.5}, {1.0f, 0.9f, 0.8f}, 2);
+    b.sun({0.9, -0.3, -0.3}, {0.3f, 0.5f, 1.0f}, 1);
+    b.sun({0, -1, 0}, glm::vec3(1), 0.2f);
+    b.sun({0, 1, 0}, {1.0f, 0.2f, 0.1f}, 5);  // from below: lights the balls' undersides only
+    return std::move(b.scene);
+}
+
+Scene points() {
+    Builder b = stage();
+    for (int i = 0; i < 12; ++i)
+        b.point({0.85 * (i - 5.5), 0.4 + 0.8 * (i % 3), 1.4 - 0.7 * (i % 4)},
+                {i % 2 == 0 ? 1.0f : 0.4f, 0.7f, i % 2 == 0 ? 0.4f : 1.0f}, 2.0f,
+                i % 3 == 0 ? std::numeric_limits<float>::infinity() : 3.0f);
+    b.point({0, 0.45, 0.3}, glm::vec3(1), 1, 2);    // inside a ball
+    b.point({-4, 0, 2}, {1.0f, 0.5f, 0.5f}, 1, 2);  // in the plane of the floor
+    return std::move(b.scene);
+}
+
+// Inner and outer cones from a needle to a half-space, an edge without width, and one without range.
+Scene spots() {
+    Builder b = stage();
+    const double cones[][2] = {{0, 5}, {0, 30}, {14.9, 15}, {20, 40}, {25, 25.0001}, {60, 90}};
+    for (int i = 0; i < 6; ++i) {
+        const double x = 1.5 * (i - 2.5);
+        b.spot({x, 2.6, 0.8}, {0.9 * x, 0, 0},
+               {1.0f, 0.6f + 0.06f * static_cast<float>(i), 0.4f + 0.1f * static_cast<float>(i)}, 9,
+               i == 3 ? std::numeric_limits<float>::infinity() : 6.0f, cones[i][0], cones[i][1]);
+    }
+    b.spot({-4, 0.5, 3}, {3, 0.8, -2}, {0.4f, 0.6f, 1.0f}, 40, 12, 4, 9);  // along the floor
+    return std::move(b.scene);
+}
+
+// A camera, so that no default view is made; the tool may add its sun, the paths alone must show black.
+Scene unlit() {
+    return std::move(stage().scene);
+}
+
+}  // namespace diptych::builtin

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What builtin.cpp lists; each function makes one scene, README.md says what it is for.
+#pragma once
+
+#include "shared/scene/scene.h"
+
+#include <cstdint>
+
+namespace diptych::builtin {
+
+Scene gallery();
+Scene spheres(std::uint32_t lights);
+Scene furnace();
+
+// surfaces.cpp: what a G-buffer has to carry
+Scene normals();
+Scene emission();
+Scene darkAlbedo();
+Scene dielectrics();
+Scene cutout();
+Scene occlusion();
+Scene manyMaterials();
+Scene vertexColors();
+
+// places.cpp: where things are, and what covers what
+Scene coplanar();
+Scene deep();
+Scene mirrored();
+Scene stretched();
+Scene farAway();
+Scene ortho();
+Scene triangle();
+Scene empty();
+Scene background();
+
+// lamps.cpp: lights
+Scene rangeEdge();
+Scene suns();
+Scene points();
+Scene spots();
+Scene unlit();
+
+}  // namespace diptych::builtin

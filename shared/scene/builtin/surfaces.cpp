@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Test scenes about what a G-buffer has to carry of a surface.
+#include "shared/scene/builtin/builder.h"
+#include "shared/scene/builtin/scenes.h"
+#include "shared/scene/builtin/textures.h"
+#include "shared/scene/rig.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace diptych::builtin {
+namespace {
+
+// Key, fill and rim for scenes about materials: sharp highlights in three places of every sphere.
+void studio(Builder& b) {
+    b.sun({-0.4, -0.8, -0.6}, glm::vec3(1), 2);
+    b.point({-4, 3, 5}, {1.0f, 0.75f, 0.5f}, 30, 20);
+    b.point({5, -1, 4}, {0.5f, 0.7f, 1.0f}, 20, 20);
+}
+
+}  // namespace
+
+// Octahedral seams lie in the planes x = 0, y = 0 and z = 0: every sphere is crossed by some, the inner sides
+// of the bowls show the normals that no outer side shows, and roughness 0.05 to 0.3 makes steps visible.
+Scene normals() {
+    Builder b;
+    b.camera("front", {0.7, 0.9, 7}, {0, 0, 0}, 32, 0.1, 100);
+    const Primitive ball = sphere(0.6, 96, 48);
+    Primitive bowl = ball;  // turned inside out
+    for (std::size_t i = 0; i < bowl.indices.size(); i += 3) std::swap(bowl.indices[i], bowl.indices[i + 1]);
+    for (glm::vec3& n : bowl.normals) n = -n;
+    for (glm::vec4& t : bowl.tangents) t.w = -t.w;
+    for (int i = 0; i < 5; ++i) {
+        const float roughness = 0.05f + 0.0625f * static_cast<float>(i);
+        const int material =
+            b.material(fmt::format("roughness {:.4f}", roughness), {{0.6f, 0.6f, 0.65f}, 1, roughness});
+        b.add("ball", ball, material, at(1.3 * (i - 2), 0.75, 0) * turned(17.0 * i, {1, 2, 3}));
+        b.add("bowl", bowl, material, glm::dvec3(1.3 * (i - 2), -0.75, 0));
+    }
+    b.scene.background = glm::vec3(0.05f);
+    studio(b);
+    for (int i = 0; i < 6; ++i) b.point({2.4 * (i - 2.5), 2.0 - i % 2 * 4, 3.5}, glm::vec3(1), 6, 9);
+    return std::move(b.scene);
+}
+
+// Columns: radiance 1e-6 to 1e6 by decades. Rows: grey; one strong component beside two a thousandth of it,
+// which a shared exponent cannot hold; textured, so that texels between 0 and the factor appear.
+Scene emission() {
+    Builder b;
+    b.camera("front", {0, 0, 10}, {0, 0, 0}, 24, 0.1, 100);
+    const TextureSlot signs = b.texture(glyphs("signs", 256));
+    for (int column = 0; column < 13; ++column) {
+        const auto radiance = static_cast<float>(std::pow(10.0, column - 6));
+        const double x = 0.54 * (column - 6);
+        const auto panel = [&](double y, const glm::vec3& tint) {
+            const int material = b.material(fmt::format("1e{} {}", column - 6, y),
+                                            {glm::vec3(0.1f), 0, 0.6f, tint * radiance});
+            b.add("panel", quad({x - 0.24, y - 0.5, 0}, {0.48, 0, 0}, {0, 1, 0}), material, glm::dvec3(0.0));
+        };
+        panel(1.1, glm::vec3(1));
+        panel(0, {1.0f, 0.001f, 0.03f});
+        panel(-1.1, glm::vec3(1));
+        b.scene.materials.back().emissive_texture = signs;
+    }
+    b.sun({-0.3, -0.5, -1}, glm::vec3(1), 1);
+    return std::move(b.scene);
+}
+
+// Ramps by vertex colour, so that no texture's own 8 bits get in the way: 0 to 0.05 above, where 8 linear
+// bits have 13 steps, 0 to 1 below; once for each component and once grey.
+Scene darkAlbedo() {
+    Builder b;
+    b.camera("front", {0, 0, 5}, {0, 0, 0}, 30, 0.1, 100);
+    const int white = b.material("ramps", {glm::vec3(1), 0, 0.9f});
+    for (int row = 0; row < 8; ++row) {
+        const float top = row < 4 ? 0.05f : 1.0f;
+        const glm::vec3 mask =
+            row % 4 == 3 ? glm::vec3(1) : glm::vec3(row % 4 == 0, row % 4 == 1, row % 4 == 2);
+        Primitive ramp = quad({-2.2, 0.9 - 0.3 * row, 0}, {4.4, 0, 0}, {0, 0.26, 0}, 16, 1);
+        b.add(fmt::format("ramp {}", row),
+              paint(std::move(ramp),
+                    [=](const glm::vec3& p) { return glm::vec4(mask * top * ((p.x + 2.2f) / 4.4f), 1); }),
+              white, glm::dvec3(0.0));
+    }
+    b.sun({0.2, -0.3, -1}, glm::vec3(1), 20);  // bright, so that a step of a dark colour is seen
+    b.point({-1.5, 1, 1}, {1.0f, 0.8f, 0.6f}, 10, 5);
+    return std::move(b.scene);
+}
+
+// Columns: index of refraction. Rows: specular 1, 0.5 and 0, and a tint beyond 1 that is clamped after the
+// product.
+Scene dielectrics() {
+    Builder b;
+    b.camera("front", {0, 0.2, 9}, {0, 0, 0}, 31, 0.1, 100);
+    const Primitive ball = sphere(0.46, 64, 32);
+    const float iors[] = {1.0f, 1.1f, 1.33f, 1.5f, 1.8f, 2.4f, 0.0f};  // 0: reflects everything
+    const float speculars[] = {1.0f, 0.5f, 0.0f, 1.0f};
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 7; ++column) {
+            b.material(
+                fmt::format("ior {} specular {}{}", iors[column], speculars[row], row == 3 ? " tinted" : ""),
+                {{0.25f, 0.05f, 0.08f}, 0, column % 2 == 0 ? 0.15f : 0.35f});
+            Material& material = b.scene.materials.back();
+            material.ior = iors[column];
+            material.specular = speculars[row];
+            if (row == 3) material.specular_color = {4.0f, 1.0f, 0.25f};
+            b.add(material.name, ball, row * 7 + column,
+                  glm::dvec3(1.1 * (column - 3), 1.1 * (1.5 - row), 0));
+        }
+    studio(b);
+    return std::move(b.scene);
+}
+
+// Leaves and lattices with normal maps: facing, edge-on, from behind, and one behind the other.
+Scene cutout() {
+    Builder b;
+    b.camera("low", {0, 1.1, 5}, {0, 0.8, 0}, 42, 0.05, 100);
+    b.scene.background = {0.04f, 0.05f, 0.08f};
+    const TextureSlot relief = b.texture(normalMap("relief", weaveHeights(256), 24), 2);
+    const auto masked = [&](const std::string& name, TextureImage image, double tiles, bool doubleSided) {
+        const int made = b.material(name, {glm::vec3(1), 0, 0.4f});
+        const TextureSlot slot = b.texture(std::move(image), tiles);
+        Material& material = b.scene.materials.back();
+        material.base_color_texture = slot;
+        material.normal_texture = relief;
+        material.alpha_mode = AlphaMode::mask;
+        material.double_sided = doubleSided;
+        return made;
+    };
+    const int leaves = masked("leaf", leaf("leaf", 256), 1, true);
+    const int oneSided = masked("leaf, one side", leaf("leaf, one side", 256), 1, false);
+    const int screen = masked("lattice", lattice("lattice", 256), 2, true);
+    const Primitive card = quad({-0.5, 0, 0}, {1, 0, 0}, {0, 1.5, 0});
+    for (int i = 0; i < 9; ++i) {
+        const double angle = 22.5 * i;  // through the edge at 90 degrees to the back
+        b.add("leaf", card, leaves, at(-3.2 + 0.8 * i, 0.9, -0.6) * turned(angle));
+        b.add("leaf, one side", card, oneSided,
+              at(-3.2 + 0.8 * i, -0.3, 0.6) * turned(angle) * scaled(0.7, 0.7, 0.7));
+    }
+    b.add("screen", quad({-2, 0, 0}, {4, 0, 0}, {0, 2, 0}), screen, at(0, 0, -1.6));
+    b.add("screen along the view", quad({-2.5, 0, 0}, {5, 0, 0}, {0, 2, 0}), screen,
+          at(1.4, 0, 1) * turned(84));
+    b.add("screen underfoot", quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), screen, glm::dvec3(0.0));
+    b.point({0, 1.6, -3}, {1.0f, 0.7f, 0.4f}, 14, 10);  // from behind: double-sided normals turn
+    b.point({-2, 2, 2.5}, {0.6f, 0.8f, 1.0f}, 12, 10);
+    b.sun({0.4, -0.6, -0.7}, glm::vec3(1), 1);
+    return std::move(b.scene);
+}
+
+// The upper tiles have occlusion maps of strength 0, 0.5 and 1, the lower ones none: under lights without any
+// ambient term all four are lit alike.
+Scene occlusion() {
+    Builder b;
+    b.camera("front", {0, 0, 5}, {0, 0, 0}, 34, 0.1, 100);
+    const TextureSlot map = b.texture(diptych::occlusion("depths", brickHeights(256)));
+    const Primitive tile = quad({-0.62, -0.62, 0}, {1.24, 0, 0}, {0, 1.24, 0});
+    for (int column = 0; column < 3; ++column) {
+        const int open = b.material(fmt::format("open {}", column), {{0.6f, 0.5f, 0.4f}, 0, 0.5f});
+        const int occluded = b.material(fmt::format("occluded {}", column), {{0.6f, 0.5f, 0.4f}, 0, 0.5f});
+        b.scene.materials.back().occlusion_texture = map;
+        b.scene.materials.back().occlusion_strength = 0.5f * static_cast<float>(column);
+        b.add("occluded", tile, occluded, glm::dvec3(1.35 * (column - 1), 0.68, 0));
+        b.add("open", tile, open, glm::dvec3(1.35 * (column - 1), -0.68, 0));
+    }
+    b.sun({-0.2, 0, -1}, glm::vec3(1), 2);  // in the plane of symmetry of both rows
+    b.point({0, 0, 1.5}, {1.0f, 0.8f, 0.5f}, 3, 6);
+    return std::move(b.scene);
+}
+
+// 100 x 50 tiles; 10 bits name 1024 materials, 12 bits 4096. Neighbours differ in every factor.
+Scene manyMaterials() {
+    Builder b;
+    b.camera("front", {0, 0, 10}, {0, 0, 0}, 30, 0.1, 100);
+    const Primitive tile = quad({-0.045, -0.045, 0}, {0.09, 0, 0}, {0, 0.09, 0});
+    for (std::uint32_t i = 0; i < 5000; ++i) {
+        const glm::dvec3 color(u01(4 * i), u01(4 * i + 1), u01(4 * i + 2));
+        const int material =
+            b.material(fmt::format("material {}", i), {glm::vec3(color), static_cast<float>(i % 3) / 2,
+                                                       static_cast<float>(0.1 + 0.9 * u01(4 * i + 3))});
+        b.add("tile", tile, material, glm::dvec3(0.09 * (i % 100 - 49.5), 0.1 * (24.5 - i / 100), 0));
+    }
+    studio(b);
+    return std::move(b.scene);
+}
+
+Scene vertexColors() {
+    Builder b;
+    b.camera("front", {0, 0.6, 5}, {0, 0, 0}, 34, 0.1, 100);
+    const int plain = b.material("plain", {glm::vec3(1), 0, 0.3f});
+    const int textured = b.material("textured", {{0.9f, 0.9f, 0.7f}, 0, 0.5f});
+    const TextureSlot slot =
+        b.texture(checker("checker", 128, 8, {240, 240, 240, 255}, {120, 120, 120, 255}), 2);
+    b.scene.materials.back().base_color_texture = slot;
+    const auto rainbow = [](const glm::vec3& p) { return glm::vec4(0.5f + 0.5f * p, 1); };
+    b.add("ball", paint(sphere(0.9), rainbow), plain, glm::dvec3(-1.1, 0, 0));
+    b.add("checkered ball", paint(sphere(0.9), rainbow), textured, glm::dvec3(1.1, 0, 0));
+    b.add("uncoloured ball", sphere(0.3), textured, glm::dvec3(0, 0.9, 0));
+    studio(b);
+    return std::move(b.scene);
+}
+
+}  // namespace diptych::builtin
