@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// The launcher among stand-ins for dpkg, apt and CMake: what it asks of them and what it says.
+#include "tests/tool/run.h"
+
+#include <set>
+#include <sstream>
+
+namespace diptych {
+namespace {
+
+// A checkout with the launcher, and a folder of stand-ins that goes before PATH.
+class Launcher : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directories(home_.path() / "house");
+        fs::copy(fs::path(DIPTYCH_SOURCE_DIR) / "diptych", home_ / "house/diptych");
+        home_.write("house/packages.txt", "# build\nalpha\n\nbeta-dev\n");
+        installed("alpha beta-dev");
+        home_.write("bin/id", "#!/bin/sh\necho 0\n", true);
+        home_.write("bin/apt-get", "#!/bin/sh\necho \"$@\" >>'" + (home_ / "apt.log").string() + "'\n", true);
+        home_.write("bin/ctest", "#!/bin/sh\necho \"ctest $*\"\nexit 8\n", true);
+        // Configures and builds a program that says what it was given; fails where two run at once.
+        home_.write(
+            "bin/cmake",
+            "#!/bin/sh\n"
+            "build='" +
+                build() +
+                "'\n"
+                "echo \"noise of the build\"\n"
+                "echo \"$@\" >>'" +
+                (home_ / "cmake.log").string() +
+                "'\n"
+                "[ ! -e '" +
+                (home_ / "broken").string() +
+                "' ] || { echo 'error: broken'; exit 1; }\n"
+                "mkdir \"$build/running\" || exit 1\n"
+                "sleep 0.1\n"
+                "mkdir -p \"$build/compare\"\n"
+                ": >\"$build/build.ninja\"\n"
+                "echo 'CMAKE_HOME_DIRECTORY:INTERNAL=" +
+                (home_ / "house").string() +
+                "' >\"$build/CMakeCache.txt\"\n"
+                "printf '#!/bin/sh\\nprintf \"<%%s>\" \"$@\"\\npwd\\nexit 3\\n' >\"$build/compare/diptych\"\n"
+                "chmod +x \"$build/compare/diptych\"\n"
+                "rmdir \"$build/running\"\n",
+            true);
+    }
+
+    void installed(const std::string& packages) {
+        home_.write("bin/dpkg-query",
+                    "#!/bin/sh\nfor p in " + packages + "; do echo \"installed $p\"; done\n", true);
+    }
+    std::string build() const { return (home_ / "house/build").string(); }
+    Ran run(const std::string& arguments, const std::string& from = "") {
+        return runShell(home_,
+                        "PATH='" + (home_ / "bin").string() + "':\"$PATH\" '" +
+                            (home_ / "house/diptych").string() + "' " + arguments,
+                        home_.path() / from);
+    }
+
+    Folder home_;
+};
+
+TEST_F(Launcher, WhereAllIsUpToDateOnlyTheProgramSpeaks) {
+    const Ran first = run("plan 'a b.glb'");
+    EXPECT_EQ(first.code, 3);
+    EXPECT_EQ(first.out, "<plan><a b.glb>" + home_.path().string() + "\n");
+    EXPECT_NE(first.err.find("building"), std::string::npos);
+
+    fs::create_directories(home_ / "elsewhere");
+    const Ran second = run("plan 'a b.glb'", "elsewhere");
+    EXPECT_EQ(second.code, 3);
+    EXPECT_EQ(second.out, "<plan><a b.glb>" + (home_ / "elsewhere").string() + "\n");
+    EXPECT_EQ(second.err, "");
+    EXPECT_FALSE(fs::exists(home_ / "apt.log"));
+}
+
+TEST_F(Launcher, FindsItsHouseThroughALink) {
+    fs::create_directories(home_ / "elsewhere");
+    fs::create_symlink("../house/diptych", home_ / "elsewhere/link");
+    const Ran ran = runShell(home_, "PATH='" + (home_ / "bin").string() + "':\"$PATH\" ./link devices",
+                             home_ / "elsewhere");
+    EXPECT_EQ(ran.out, "<devices>" + (home_ / "elsewhere").string() + "\n") << ran.err;
+}
+
+TEST_F(Launcher, InstallsWhatIsMissingAndSaysSo) {
+    installed("alpha");
+    const Ran ran = run("devices");
+    EXPECT_NE(ran.err.find("installing Debian packages: beta-dev\n"), std::string::npos) << ran.err;
+    EXPECT_NE(contentsOf(home_ / "apt.log").find("install beta-dev\n"), std::string::npos);
+    EXPECT_EQ(ran.out, "<devices>" + home_.path().string() + "\n");
+}
+
+TEST_F(Launcher, NoInstallOnlyNamesWhatIsMissing) {
+    installed("beta-dev");
+    EXPECT_TRUE(run("--no-install compare").failedOver("alpha"));
+    EXPECT_FALSE(fs::exists(home_ / "apt.log"));
+    EXPECT_FALSE(fs::exists(home_ / "cmake.log"));
+    installed("alpha beta-dev");
+    EXPECT_EQ(run("--no-install compare").out, "<compare>" + home_.path().string() + "\n");
+}
+
+TEST_F(Launcher, AFailedBuildIsShownAndIsExitTwo) {
+    home_.write("broken", "");
+    const Ran ran = run("compare");
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find("error: broken"), std::string::npos) << ran.err;
+    fs::remove(home_ / "broken");
+    EXPECT_EQ(run("compare").code, 3);
+}
+
+TEST_F(Launcher, TestBuildsEverythingAndHandsOnToCtest) {
+    const Ran ran = run("test -L unit");
+    EXPECT_EQ(ran.code, 8);
+    EXPECT_NE(ran.out.find("ctest --test-dir " + build()), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find(" -L unit\n"), std::string::npos) << ran.out;
+    EXPECT_NE(contentsOf(home_ / "cmake.log").find("--target all"), std::string::npos);
+}
+
+TEST_F(Launcher, AMovedHouseIsConfiguredAnew) {
+    run("compare");
+    home_.write("house/build/CMakeCache.txt", "CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n");
+    fs::remove(home_ / "cmake.log");
+    EXPECT_EQ(run("compare").code, 3);
+    EXPECT_NE(contentsOf(home_ / "cmake.log").find("--fresh"), std::string::npos);
+}
+
+TEST_F(Launcher, TwoAtOnceBuildOneAfterTheOther) {
+    const std::string one = "PATH='" + (home_ / "bin").string() + "':\"$PATH\" '" +
+                            (home_ / "house/diptych").string() +
+                            "' devices >/dev/null 2>&1; [ $? = 3 ] && echo good";
+    const Ran ran =
+        runShell(home_, "( " + one + " ) & ( " + one + " ) & ( " + one + " ) & wait", home_.path());
+    EXPECT_EQ(ran.out, "good\ngood\ngood\n");
+}
+
+// The real list: every name is a Debian package's, once, in order within its part.
+TEST(Packages, AreNamedOnce) {
+    std::istringstream lines(contentsOf(fs::path(DIPTYCH_SOURCE_DIR) / "packages.txt"));
+    std::set<std::string> names;
+    for (std::string line; std::getline(lines, line);) {
+        line = line.substr(0, line.find('#'));
+        if (line.empty()) continue;
+        EXPECT_EQ(line.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789+-."), std::string::npos)
+            << line;
+        EXPECT_TRUE(names.insert(line).second) << line;
+    }
+    EXPECT_TRUE(names.contains("g++") && names.contains("mesa-vulkan-drivers"));
+}
+
+}  // namespace
+}  // namespace diptych
