@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// The built program as users and scripts see it: exit codes, what is on stdout, what is on stderr.
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+// Small and without timing: these tests are about the tool, not about the picture.
+const std::string quick = " --size 48x27 --runs 0";
+
+// One triangle that faces the default camera, in one file.
+const char* const triangle = R"({
+  "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
+  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [ 0, 0, 0 ], "max": [ 1, 1, 0 ] } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+  "buffers": [ { "byteLength": 36,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ]
+})";
+
+Json parsed(const Ran& ran) {
+    const Json json = Json::parse(ran.out, nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << "not JSON: " << ran.out << "\nerr: " << ran.err;
+    return json;
+}
+
+bool isPng(const fs::path& file) {
+    return contentsOf(file).starts_with("\x89PNG\r\n\x1a\n");
+}
+bool isExr(const fs::path& file) {
+    return contentsOf(file).starts_with("\x76\x2f\x31\x01");
+}
+
+TEST(Command, HelpGoesToStdoutWithAnExample) {
+    const Folder folder;
+    for (const std::string command :
+         {"compare", "render", "diff", "tradeoff", "choose", "audit", "plan", "view", "bench", "devices"}) {
+        const Ran ran = runTool(folder, command + " --help");
+        EXPECT_EQ(ran.code, 0) << command;
+        EXPECT_NE(ran.out.find("Example: diptych " + command), std::string::npos) << ran.out;
+        EXPECT_EQ(ran.err, "");
+    }
+    EXPECT_EQ(runTool(folder, "--help").code, 0);
+    EXPECT_EQ(runTool(folder, "--version").code, 0);
+}
+
+TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
+    const Folder folder;
+    EXPECT_TRUE(runTool(folder, "").failedOver("--help"));
+    EXPECT_TRUE(runTool(folder, "paint").failedOver("paint"));
+    EXPECT_TRUE(runTool(folder, "compare --paint").failedOver("--paint"));
+    EXPECT_TRUE(runTool(folder, "compare --gbuffer huge").failedOver("huge"));
+    EXPECT_TRUE(runTool(folder, "compare --size 0x9").failedOver("--size 0x9"));
+    EXPECT_TRUE(runTool(folder, "compare --msaa 3").failedOver("--msaa 3"));
+    EXPECT_TRUE(runTool(folder, "render --debug gloss").failedOver("texcoords"));
+    EXPECT_TRUE(runTool(folder, "render --channels lit,gloss").failedOver("texcoords"));
+}
+
+TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
+    const Folder folder;
+    for (const std::string option :
+         {"--path reference", "--assign tiled", "--assign clustered", "--assign per_object", "--time 1",
+          "--frames 2", "--env sky.exr", "--ambient 0.1,0.1,0.1", "--light-cutoff 0.1",
+          "--area-lights representative", "--shadows pcf", "--shadows evsm", "--shadows clipmap",
+          "--shadow-lights 1", "--msaa 4", "--haze on"})
+        for (const std::string command : {"compare ", "render ", "plan "})
+            EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
+    EXPECT_TRUE(runTool(folder, "render --heat").failedOver("--heat is not built yet"));
+    EXPECT_TRUE(
+        runTool(folder, "compare --baseline reference").failedOver("--baseline reference is not built yet"));
+    EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("diff is not built yet"));
+    EXPECT_TRUE(runTool(folder, "bench --paths deferred").failedOver("bench is not built yet"));
+}
+
+TEST(Command, BadInputIsNamed) {
+    const Folder folder;
+    folder.write("empty.glb", "");
+    folder.write("bad.gltf", "{ \"asset\": ");
+    for (const std::string command : {"compare ", "render ", "plan "}) {
+        EXPECT_TRUE(runTool(folder, command + "no/such.glb").failedOver("no/such.glb"));
+        EXPECT_TRUE(runTool(folder, command + "empty.glb").failedOver("empty.glb"));
+        EXPECT_TRUE(runTool(folder, command + "bad.gltf").failedOver("bad.gltf"));
+        EXPECT_TRUE(runTool(folder, command + "builtin:nothing").failedOver("nothing"));
+        EXPECT_TRUE(runTool(folder, command + "--camera 99").failedOver("--camera"));
+        EXPECT_TRUE(runTool(folder, command + "--lights disco:3").failedOver("disco"));
+        EXPECT_TRUE(runTool(folder, command + "--device nosuchdevice").failedOver("--device"));
+    }
+    EXPECT_FALSE(fs::exists(folder / "diptych-report"));
+    EXPECT_FALSE(fs::exists(folder / "diptych-render"));
+}
+
+TEST(Command, DevicesListsFacts) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "devices --json");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const Json json = parsed(ran);
+    ASSERT_FALSE(json["devices"].empty());
+    for (const Json& device : json["devices"]) {
+        EXPECT_FALSE(device["name"].get<std::string>().empty());
+        EXPECT_TRUE((std::set<std::string>{"cpu", "discrete", "integrated", "virtual", "other"})
+                        .contains(device["type"].get<std::string>()));
+        EXPECT_FALSE(device["facts"].empty());
+    }
+    EXPECT_NE(runTool(folder, "devices").out.find(json["devices"][0]["name"].get<std::string>()),
+              std::string::npos);
+}
+
+TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "plan --json builtin:gallery");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const Json scene = parsed(ran)["scenes"][0];
+    EXPECT_EQ(scene["scene"], "builtin:gallery");
+    EXPECT_FALSE(scene["modelled"].empty());
+    ASSERT_EQ(scene["paths"].size(), 2u);
+    // depth alone against depth and a G-buffer
+    EXPECT_GT(scene["paths"][0]["bytes_per_pixel"], scene["paths"][1]["bytes_per_pixel"]);
+    EXPECT_NE(runTool(folder, "plan").out.find("bytes per pixel"), std::string::npos);
+}
+
+TEST(Command, RenderWritesWhatTheEndingSays) {
+    const Folder folder;
+    EXPECT_EQ(runTool(folder, "render -o a.exr" + quick).code, 0);
+    EXPECT_TRUE(isExr(folder / "a.exr"));
+    EXPECT_EQ(runTool(folder, "render --path deferred --debug normals -o b.png" + quick).code, 0);
+    EXPECT_TRUE(isPng(folder / "b.png"));
+    EXPECT_TRUE(runTool(folder, "render -o c.jpg" + quick).failedOver(".jpg"));
+    const Ran ran = runTool(folder, "render -o both" + quick);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    int exr = 0, png = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "both")) {
+        exr += isExr(entry.path());
+        png += isPng(entry.path());
+    }
+    EXPECT_EQ(exr, 1);
+    EXPECT_EQ(png, 1);
+    EXPECT_EQ(runTool(folder, "render -o both" + quick).code, 0) << "its own folder is replaced";
+}
+
+TEST(Command, AnothersFilesAreLeftAloneWithoutForce) {
+    const Folder folder;
+    folder.write("theirs/thesis.txt", "years of work");
+    folder.write("theirs.exr", "not ours");
+    EXPECT_TRUE(runTool(folder, "render -o theirs" + quick).failedOver("--force"));
+    EXPECT_TRUE(runTool(folder, "compare -o theirs" + quick).failedOver("--force"));
+    EXPECT_TRUE(runTool(folder, "render -o theirs.exr" + quick).failedOver("--force"));
+    EXPECT_EQ(contentsOf(folder / "theirs/thesis.txt"), "years of work");
+    EXPECT_EQ(contentsOf(folder / "theirs.exr"), "not ours");
+    EXPECT_EQ(runTool(folder, "render --force -o theirs.exr" + quick).code, 0);
+    EXPECT_TRUE(isExr(folder / "theirs.exr"));
+}
+
+TEST(Command, WhereNothingCanBeWrittenItIsExitTwo) {
+    const Folder folder;
+    folder.write("file", "");
+    EXPECT_TRUE(runTool(folder, "render -o file/inside/a.exr" + quick).failedOver("file/inside"));
+    EXPECT_TRUE(runTool(folder, "compare -o file/inside" + quick).failedOver("file/inside"));
+    EXPECT_EQ(runTool(folder, "devices >/dev/full").code, 2);
+}
+
+TEST(Command, AChannelThatDeferredCannotMakeNamesThePathThatCan) {
+    const Folder folder;
+    EXPECT_TRUE(
+        runTool(folder, "render --path deferred --debug texcoords" + quick).failedOver("forward_plus"));
+    EXPECT_TRUE(
+        runTool(folder, "render --path deferred --channels lit,9" + quick).failedOver("forward_plus"));
+    EXPECT_EQ(runTool(folder, "render --path deferred -o a.exr" + quick).code, 0);
+    EXPECT_EQ(runTool(folder, "render --path forward_plus --debug texcoords -o b.png" + quick).code, 0);
+}
+
+TEST(Command, CompareLeavesAReportWhoseVerdictIsTheExitCode) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "compare --json" + quick);
+    ASSERT_TRUE(ran.code == 0 || ran.code == 1) << ran.err;
+    const Json report = parsed(ran);
+    EXPECT_EQ(report["schema"], 1);
+    EXPECT_EQ(report["verdict"], ran.code == 0 ? "pass" : "fail");
+    EXPECT_EQ(report["frames"].size(), 2u);
+    EXPECT_EQ(report["comparisons"].size(), 1u);
+    EXPECT_EQ(report["frames"][0]["settings"]["size"], Json({48, 27}));
+    for (const char* file : {"index.html", "report.json", "junit.xml", "deferred.exr", "forward_plus.exr"})
+        EXPECT_TRUE(fs::exists(folder / ("diptych-report/" + std::string(file)))) << file;
+    EXPECT_EQ(Json::parse(contentsOf(folder / "diptych-report/report.json")), report);
+    EXPECT_EQ(runTool(folder, "compare -q" + quick).code, ran.code) << "our own report is replaced";
+}
+
+// Two paths that shade one surface: parity holds at every encoding of the built-in scene.
+TEST(Command, CompareHoldsParityOnTheGallery) {
+    const Folder folder;
+    for (const std::string gbuffer : {"compact", "standard", "full"}) {
+        const Ran ran = runTool(folder, "compare --gbuffer " + gbuffer + quick);
+        EXPECT_EQ(ran.code, 0) << gbuffer << "\n" << ran.out << ran.err;
+        EXPECT_EQ(ran.err, "");
+    }
+}
+
+TEST(Command, SettingsOfAReportReproduceIt) {
+    const Folder folder;
+    const Json first = parsed(runTool(folder, "render --json --seed 3 --lights point:2 -o a.exr" + quick));
+    const Json settings = first["frames"][0]["settings"];
+    folder.write("settings.json", settings.dump());
+    const Json second = parsed(runTool(folder, "render --json --runs 0 --settings settings.json -o b.exr"));
+    EXPECT_EQ(second["frames"][0]["settings"], settings);
+    EXPECT_EQ(settings["seed"], 3);
+}
+
+TEST(Command, SeveralScenesAndCamerasMakeOneReport) {
+    const Folder folder;
+    folder.write("triangle.gltf", triangle);
+    const Ran ran = runTool(folder,
+                            "compare --json builtin:gallery triangle.gltf --camera 'eye=2,1,3 target=0,0,0' "
+                            "--camera 'eye=3,1,2 target=0,0,0'" +
+                                quick);
+    ASSERT_TRUE(ran.code == 0 || ran.code == 1) << ran.err;
+    const Json report = parsed(ran);
+    EXPECT_EQ(report["frames"].size(), 8u);
+    EXPECT_EQ(report["comparisons"].size(), 4u);
+}
+
+TEST(Command, ScenesAreFoundFromTheCallersFolder) {
+    const Folder folder;
+    folder.write("scenes/triangle.gltf", triangle);
+    EXPECT_EQ(runTool(folder, "render scenes/triangle.gltf -o a.png" + quick).code, 0);
+    const Ran inside =
+        runShell(folder, "'" DIPTYCH_PROGRAM "' render triangle.gltf -o ../b.png" + quick, folder / "scenes");
+    EXPECT_EQ(inside.code, 0) << inside.err;
+    EXPECT_EQ(contentsOf(folder / "a.png"), contentsOf(folder / "b.png"));
+}
+
+TEST(Command, ListScenesNamesTheGallery) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "render --list-scenes");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.out.find("builtin:gallery"), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.err, "");
+}
+
+TEST(Command, ValidationHasNothingToSay) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "compare --validate --lights point:3,spot:2" + quick);
+    EXPECT_TRUE(ran.code == 0 || ran.code == 1) << ran.err;
+}
+
+TEST(Command, QuietPrintsNothing) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "render -q -o a.png" + quick);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out + ran.err, "");
+}
+
+}  // namespace
+}  // namespace diptych
