@@ -4,6 +4,8 @@
 #include "shared/contract/bindings.h"
 #include "shared/vulkan/check.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <memory>
 
@@ -28,11 +30,14 @@ OwnedSampler nearestSampler(Device& device) {
 }
 
 PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item) {
+    std::vector<VkFormat> formats;
+    for (const VkFormat format : inputs.gbuffer.formats)
+        if (format != VK_FORMAT_UNDEFINED) formats.push_back(format);
     PipelineKey key{.vertex = "surface.vert",
-                    .fragment = "gbuffer.frag",
+                    .fragment = fmt::format("gbuffer.frag.{}", formats.size()),
                     .variant = item.variant,
                     .input = VertexInput::all,
-                    .colors = {inputs.gbuffer.formats.begin(), inputs.gbuffer.formats.end()},
+                    .colors = formats,
                     .depth = depthFormat,
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                     .depth_write = true};
@@ -49,7 +54,8 @@ GBuffer addGBuffer(PassList& passes, const FrameInputs& inputs) {
     Pass& pass = passes.draw("G-buffer").depth(g.depth, Load::clear);
     for (std::size_t i = 0; i < g.attachments.size(); ++i) {
         const VkFormat format = inputs.gbuffer.formats[i];
-        if (format != VK_FORMAT_UNDEFINED) g.attachments[i] = passes.image(gbufferAttachmentNames[i], format);
+        if (format == VK_FORMAT_UNDEFINED) continue;
+        g.attachments[i] = passes.image(gbufferAttachmentNames[i], format);
         pass.color(g.attachments[i], Load::clear);
     }
     pass.record(recordDraws(
@@ -109,7 +115,8 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         for (const CapturedImage& image : addCaptureImages(passes, pass, group)) images.push_back(image);
         Variant variant = inputs.variant;
         group.specialise(variant);
-        addResolve(pass, inputs, g, "deferred_capture.frag", variant, group.formats);
+        addResolve(pass, inputs, g, fmt::format("deferred_capture.frag.{}", group.modes.size()), variant,
+                   group.formats);
     }
     return images;
 }

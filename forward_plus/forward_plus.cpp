@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "forward_plus/forward_plus.h"
 
+#include <fmt/format.h>
+
 namespace diptych {
 
 namespace {
@@ -25,7 +27,7 @@ PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item) {
 PipelineKey captureKey(const FrameInputs& inputs, const DrawItem& item, const CaptureGroup& group,
                        bool throughGBuffer) {
     PipelineKey key = shadeKey(inputs, item);
-    key.fragment = "forward_capture.frag";
+    key.fragment = fmt::format("forward_capture.frag.{}", group.modes.size());
     key.colors = group.formats;
     inputs.gbuffer.specialise(key.variant);
     key.variant.set(gpu::FEATURE_quantise_surface, throughGBuffer);

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+// ATTACHMENTS: 1 to 8 channels.
 #include "shaders/lib/capture.glsl"
 #include "shaders/lib/forward.glsl"
 

@@ -5,21 +5,25 @@
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
 
-layout(location = GBUFFER_ALBEDO) out uvec4 out_albedo;
-layout(location = GBUFFER_NORMALS) out uvec4 out_normals;
-layout(location = GBUFFER_PARAMS) out uvec4 out_params;
-layout(location = GBUFFER_EMISSION) out uvec4 out_emission;
-layout(location = GBUFFER_SPECULAR) out uvec4 out_specular;
-layout(location = GBUFFER_IDS) out uvec4 out_ids;
+// ATTACHMENTS: 3 to 6, as many as the scene needs. Those that it lacks leave no gap.
+layout(location = 0) out uvec4 out_texel[ATTACHMENTS];
 
 void main() {
     vec4 base_color = baseColor();
     if (isCutOut(base_color)) discard;
     GBufferTexel t = encodeGBuffer(surfaceFromMaterial(base_color));
-    out_albedo = t.attachments[GBUFFER_ALBEDO];
-    out_normals = t.attachments[GBUFFER_NORMALS];
-    out_params = t.attachments[GBUFFER_PARAMS];
-    out_emission = t.attachments[GBUFFER_EMISSION];
-    out_specular = t.attachments[GBUFFER_SPECULAR];
-    out_ids = t.attachments[GBUFFER_IDS];
+    out_texel[0] = t.attachments[GBUFFER_ALBEDO];
+    out_texel[1] = t.attachments[GBUFFER_NORMALS];
+    out_texel[2] = t.attachments[GBUFFER_PARAMS];
+    bool emission = on(feature_emission) || fullGBuffer(), specular = on(feature_dielectric_specular);
+    uvec4 last = t.attachments[GBUFFER_IDS];
+#if ATTACHMENTS > 3
+    out_texel[3] = emission ? t.attachments[GBUFFER_EMISSION] : specular ? t.attachments[GBUFFER_SPECULAR] : last;
+#endif
+#if ATTACHMENTS > 4
+    out_texel[4] = emission && specular ? t.attachments[GBUFFER_SPECULAR] : last;
+#endif
+#if ATTACHMENTS > 5
+    out_texel[5] = last;
+#endif
 }

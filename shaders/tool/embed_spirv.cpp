@@ -102,7 +102,7 @@ void run(int argc, char** argv) {
     std::string table;
     int structs = 0;
     for (int i = 3; i < argc; ++i) {
-        const std::string name = std::filesystem::path(argv[i]).stem().string();  // "surface.vert"
+        const std::string name = std::filesystem::path(argv[i]).stem().string();  // "surface.vert", "gbuffer.frag.3"
         std::string symbol = name;
         for (char& c : symbol)
             if (c == '.') c = '_';

@@ -107,8 +107,7 @@ void PassList::runPass(const Pass& pass, VkCommandBuffer commands) {
             resources_[image.index].image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT ? readDepth : sampledColor,
             false);
     for (const auto& color : pass.colors_)
-        if (color.image.valid())
-            transition(barriers, color.image, colorAttachment, color.load == Load::clear);
+        transition(barriers, color.image, colorAttachment, color.load == Load::clear);
     if (pass.depth_.image.valid())
         transition(barriers, pass.depth_.image, pass.depth_writes_ ? depthAttachment : readDepth,
                    pass.depth_writes_ && pass.depth_.load == Load::clear);
@@ -117,7 +116,6 @@ void PassList::runPass(const Pass& pass, VkCommandBuffer commands) {
     const auto attach = [&](const Pass::Attachment& a, VkImageLayout layout, bool store) {
         VkRenderingAttachmentInfo info{};
         info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-        if (!a.image.valid()) return info;
         info.imageView = view(a.image);
         info.imageLayout = layout;
         info.loadOp = a.load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;

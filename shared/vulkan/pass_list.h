@@ -22,7 +22,7 @@ enum class Load { clear, keep };  // keep: an attachment's contents from an earl
 // rendering, with viewport and scissor set to the list's size.
 class Pass {
 public:
-    // In the order of the shader's locations; an invalid image leaves that location without attachment.
+    // In the order of the shader's locations.
     Pass& color(ImageRef image, Load load, VkClearColorValue clear = {});
     Pass& depth(ImageRef image, Load load, float clear = 0.0f);  // read and written
     Pass& depthTest(ImageRef image);                             // read by the test only
