@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// What the picture tests draw, and on what.
+#pragma once
+
+#include "compare/render.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/scene/builtin/builtin.h"
+#include "shared/vulkan/device.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+
+inline Device& device() {
+    static Device theDevice{DeviceOptions{}};
+    return theDevice;
+}
+
+inline std::vector<std::string> builtinScenes() {
+    std::vector<std::string> names;
+    for (const BuiltinName& row : builtinNames()) names.push_back("builtin:" + row.name);
+    return names;
+}
+
+// Real scenes beside the repository; a test that wants one skips where it is absent.
+inline const std::vector<std::string>& assetScenes() {
+    static const std::vector<std::string> names{"sponza/Sponza.gltf",
+                                                "flight_helmet/FlightHelmet.gltf",
+                                                "pbr_spheres/PBR_Spheres.glb",
+                                                "features/box/Box.glb",
+                                                "features/lights_punctual/Lights.glb",
+                                                "features/vertex_color_test/VertexColorTest.gltf"};
+    return names;
+}
+
+inline std::filesystem::path assets() {
+    return std::filesystem::path(DIPTYCH_SOURCE_DIR) / ".." / "shared" / "assets" / "scenes";
+}
+
+// A name that GoogleTest accepts: letters and digits, the rest as _.
+inline std::string testName(const std::string& text) {
+    std::string name = text;
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return name;
+}
+
+inline std::vector<int> allChannels() {
+    std::vector<int> modes;
+    for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
+    return modes;
+}
+
+// The deferred Frame and the forward+ Frame of one scene, every channel, untimed.
+inline std::vector<Frame> bothPaths(const Scene& scene, Settings settings, Device& on = device()) {
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    options.through_gbuffer = true;
+    std::vector<Settings> list(2, settings);
+    list[0].path = Path::deferred;
+    list[1].path = Path::forward_plus;
+    return renderAll(on, scene, list, options);
+}
+
+inline Settings smallPicture(GBufferEncoding gbuffer) {
+    Settings settings;
+    settings.gbuffer = gbuffer;
+    settings.size = {160, 90};
+    return settings;
+}
+
+// Pixels that differ. On a CPU device they must be the same bits; a GPU's compiler may contract two
+// shaders differently: there 16 ULP of the pixel's largest component are the same.
+inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = device().info().isCpu()) {
+    if (a.width != b.width || a.height != b.height || a.components != b.components) return a.pixels() + 1;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+        const float *p = a.pixel(i), *q = b.pixel(i);
+        if (std::memcmp(p, q, sizeof(float) * static_cast<std::size_t>(a.components)) == 0) continue;
+        float largest = 0, difference = 0;
+        for (int c = 0; c < a.components; ++c) {
+            largest = std::max({largest, std::abs(p[c]), std::abs(q[c])});
+            difference = std::max(difference, std::abs(p[c] - q[c]));
+        }
+        count += bits || !(difference <= 16 * 0x1p-23f * largest);
+    }
+    return count;
+}
+
+// Every channel that both Frames have must be the same.
+inline void expectSameChannels(const Frame& a, const Frame& b) {
+    std::size_t compared = 0;
+    for (const auto& [mode, image] : a.channels) {
+        const auto other = b.channels.find(mode);
+        if (other == b.channels.end()) continue;
+        ++compared;
+        EXPECT_EQ(differingPixels(image, other->second), 0u) << "channel " << debugMode(mode).name;
+    }
+    EXPECT_GE(compared, 14u);
+}
+
+inline std::size_t coveredPixels(const Frame& frame) {
+    const Image& ids = frame.channels.at(8);
+    return static_cast<std::size_t>(
+        std::count_if(ids.data.begin(), ids.data.end(), [](float id) { return id >= 0; }));
+}
+
+}  // namespace diptych::tests
