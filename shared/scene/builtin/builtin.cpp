@@ -24,8 +24,9 @@ struct Row {
 
 constexpr bool PICTURE = false, TEST = true;
 constexpr std::array ROWS{
-    Row{"gallery", "an evening in a sculpture hall: every kind of material, some sixty lights (the default)",
-        PICTURE, builtin::gallery},
+    Row{"gallery",
+        "an evening in a sculpture hall: every kind of material, some seventy lights (the default)", PICTURE,
+        builtin::gallery},
     Row{"spheres", "400 spheres under a sun and N point lights, the many-light benchmark", PICTURE, nullptr,
         builtin::spheres, 256},
     Row{"furnace", "white spheres, metallic by roughness, in light that is the same from everywhere", PICTURE,

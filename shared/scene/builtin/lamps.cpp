@@ -34,14 +34,14 @@ Builder stage() {
 Scene rangeEdge() {
     Builder b = stage();
     for (int i = 0; i < 4; ++i)
-        b.point({1.8 * (i - 1.5), 0.6 + 0.2 * i, 1.6}, {1.0f, 0.7f, 0.4f}, 40,
+        b.point({1.8 * (i - 1.5), 0.6 + 0.2 * i, 1.6}, {1.0f, 0.7f, 0.4f}, 5,
                 0.9f + 0.1f * static_cast<float>(i));
-    b.point({-3, 1, 2.5}, {1.0f, 0.3f, 0.3f}, 40, 1.0f);        // touches the floor
-    b.point({3, 1, 2.5}, {0.3f, 1.0f, 0.3f}, 40, 0.999f);       // ends a millimetre above it
-    b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);            // around the eye
-    b.point({-0.6, 0.45, 2.45}, {1.0f, 1.0f, 0.5f}, 40, 2.0f);  // ends on the foremost point of a ball
-    b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 60, 3.0f, 15, 25);  // ends on the floor
-    b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 60, 2.0f, 0, 40);    // ends on the wall
+    b.point({-3, 1, 2.5}, {1.0f, 0.3f, 0.3f}, 5, 1.0f);        // touches the floor
+    b.point({3, 1, 2.5}, {0.3f, 1.0f, 0.3f}, 5, 0.999f);       // ends a millimetre above it
+    b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);           // around the eye
+    b.point({-0.6, 0.45, 2.45}, {1.0f, 1.0f, 0.5f}, 6, 2.0f);  // ends on the foremost point of a ball
+    b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 20, 3.0f, 15, 25);  // ends on the floor
+    b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 10, 2.0f, 0, 40);    // ends on the wall
     return std::move(b.scene);
 }
 

@@ -61,7 +61,7 @@ Scene deep() {
     // Each ten times (or so) as far and as large as the one before: all look equally large.
     const double distances[] = {0.2, 1, 10, 100, 1000, 1e4, 9e4};
     for (int i = 0; i < 7; ++i) {
-        const double d = distances[i], angle = -0.55 + 0.27 * i;
+        const double d = distances[i], angle = -0.3 + 0.22 * i;
         const int material = b.material(
             fmt::format("{:g} m away", d),
             {{0.7f, 0.25f + 0.1f * static_cast<float>(i % 3), 0.2f}, static_cast<float>(i % 2), 0.25f});
@@ -77,7 +77,7 @@ Scene deep() {
 // Each pair is the same relief, the right one mirrored by its node: the bricks must stand out in both.
 Scene mirrored() {
     Builder b;
-    b.camera("front", {0, 0, 6}, {0, 0, 0}, 38, 0.1, 100);
+    b.camera("front", {0.05, 0, 7}, {0.05, 0, 0}, 36, 0.1, 100);
     const int bricks = relief(b, "bricks", {0.6f, 0.3f, 0.2f}, 1);
     const int wall = b.addMesh(quad({-0.9, -0.9, 0}, {1.8, 0, 0}, {0, 1.8, 0}), bricks, "wall");
     const int ball = b.addMesh(scaleTexcoords(sphere(0.8), 2, 1), bricks, "ball");
@@ -99,10 +99,10 @@ Scene stretched() {
     Builder b;
     b.camera("front", {0, 1.2, 8}, {0, 0, 0}, 34, 0.1, 100);
     const int bricks = relief(b, "bricks", {0.55f, 0.5f, 0.45f}, 2);
-    const int metal = b.material("metal", {{0.8f, 0.6f, 0.35f}, 1, 0.2f});
+    const int enamel = b.material("enamel", {{0.7f, 0.45f, 0.2f}, 0.2f, 0.25f});
     const int stone = b.addMesh(sphere(0.5, 64, 32), bricks, "stone ball");
-    const int ball = b.addMesh(sphere(0.5, 64, 32), metal, "metal ball");
-    const int cube = b.addMesh(box({0.8, 0.8, 0.8}, 0.05), metal, "box");
+    const int ball = b.addMesh(sphere(0.5, 64, 32), enamel, "enamel ball");
+    const int cube = b.addMesh(box({0.8, 0.8, 0.8}, 0.05), enamel, "box");
     b.addNode("flat", ball, at(-3, 0.6, 0) * scaled(1.6, 0.3, 1));
     b.addNode("thin", ball, at(-1.3, 0.6, 0) * turned(35, {0, 0, 1}) * scaled(0.15, 1.8, 0.6));
     b.addNode("flat stone", stone, at(-3, -0.8, 0) * scaled(1.5, 0.6, 1.5));
@@ -140,17 +140,16 @@ Scene farAway() {
 
 Scene ortho() {
     Builder b;
-    Camera& camera = b.camera("isometric", {6, 5, 6}, {0, 0.2, 0}, 0, -2, 20);  // a near plane behind the eye
+    Camera& camera = b.camera("isometric", {6, 5, 6}, {0, 0.2, 0}, 60, 0.5, 20);
     camera.orthographic = true;
     camera.ymag = 2;
-    camera.near = 0.5;
     const int stone = relief(b, "stone", {0.6f, 0.55f, 0.5f}, 1);
     b.add("floor", quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 4, 4), stone, glm::dvec3(0.0));
     for (int i = 0; i < 9; ++i) {
         const glm::dvec3 place(1.3 * (i % 3 - 1), 0.4, 1.3 * (i / 3 - 1));
         const int material =
             b.material(fmt::format("item {}", i), {{0.3f + 0.06f * static_cast<float>(i), 0.4f, 0.7f},
-                                                   static_cast<float>(i % 2),
+                                                   i % 3 == 1 ? 0.0f : static_cast<float>(i % 2),
                                                    0.1f + 0.1f * static_cast<float>(i)});
         if (i % 3 == 1)
             b.add("box", box({0.8, 0.8, 0.8}, 0.06), material, place);

@@ -211,6 +211,22 @@ TextureImage occlusion(const std::string& name, const HeightField& field) {
     });
 }
 
+TextureImage dusk(const std::string& name, int size) {
+    return image(name, size, [size](int x, int y) {
+        constexpr std::array<Rgba8, 5> SKY{{{255, 158, 84, 255},
+                                            {196, 112, 110, 255},
+                                            {96, 90, 140, 255},
+                                            {48, 66, 122, 255},
+                                            {24, 38, 84, 255}}};
+        const int clouds = (octaves(x, 3 * y, size, 4, 4, 71) - FULL / 2) / 4;
+        const int t = std::clamp(4 * FULL / size * (size - 1 - y) + clouds, 0, 4 * FULL - 1);
+        const auto band = static_cast<std::size_t>(t / FULL);
+        const Rgba8 sky = mix(SKY[band], SKY[band + 1], smooth(t % FULL));
+        const bool star = y < size / 2 && hash(x, y, 77) % 977 == 0;
+        return star ? mix(sky, {255, 250, 240, 255}, FULL * (size / 2 - y) / size * 2) : sky;
+    });
+}
+
 TextureImage glyphs(const std::string& name, int size) {
     return image(name, size, [size](int x, int y) {
         const int cell = size / 8, dot = cell / 7, i = x / cell, j = y / cell;

@@ -39,6 +39,7 @@ TextureImage leaf(const std::string& name, int size);     // one green leaf, its
 TextureImage lattice(const std::string& name, int size);  // 4 x 4 diamonds of brass, alpha 0 in the openings
 TextureImage brushed(const std::string& name, int size);  // roughness (G) in streaks along u, metallic (B) 1
 TextureImage occlusion(const std::string& name, const HeightField& heights);  // R: darker in the depths
+TextureImage dusk(const std::string& name, int size);    // amber at the horizon to night blue, with stars
 TextureImage glyphs(const std::string& name, int size);  // 8 x 8 glowing signs of 5 x 5 squares, on black
 
 }  // namespace diptych
