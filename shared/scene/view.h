@@ -10,8 +10,10 @@ namespace diptych {
 struct View {
     Camera camera;  // world
     int width = 0, height = 0;
+    double target_distance = 1;  // m, from the eye to what it was aimed at
 
     glm::dvec3 eye() const;
+    glm::dvec3 target() const;
     glm::dvec3 right() const;     // unit
     glm::dvec3 up() const;        // unit
     glm::dvec3 backward() const;  // unit, from what is seen to the camera

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf_material.h"
+
+#include "shared/scene/gltf_accessor.h"
+#include "shared/scene/gltf_value.h"
+#include "shared/scene/image_decode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+// ---- textures ----------------------------------------------------------------------------------------
+
+Wrap wrapOf(int value, const std::string& who) {
+    switch (value) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return Wrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirrored_repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp_to_edge;
+        default:
+            fail(who, fmt::format("{} is no wrap mode", value));
+    }
+}
+
+// A filter that the file leaves open is linear, with mipmaps.
+Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
+    Sampler sampler;
+    sampler.wrap_s = wrapOf(s.wrapS, who);
+    sampler.wrap_t = wrapOf(s.wrapT, who);
+    if (s.magFilter != -1 && s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST &&
+        s.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
+        fail(who, fmt::format("{} is no magFilter", s.magFilter));
+    sampler.magnify_linear = s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
+    const auto minify = [&](bool linear, bool mipmaps, bool between) {
+        sampler.minify_linear = linear;
+        sampler.mipmaps = mipmaps;
+        sampler.mipmaps_linear = between;
+    };
+    switch (s.minFilter) {
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+            minify(false, false, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+            minify(true, false, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+            minify(false, true, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+            minify(true, true, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+            minify(false, true, true);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+        case -1:
+            minify(true, true, true);
+            break;
+        default:
+            fail(who, fmt::format("{} is no minFilter", s.minFilter));
+    }
+    return sampler;
+}
+
+void readTextures(const tinygltf::Model& model, Scene& scene) {
+    std::vector<Sampler> samplers;
+    for (std::size_t i = 0; i < model.samplers.size(); ++i)
+        samplers.push_back(readSampler(model.samplers[i], fmt::format("sampler {}", i)));
+    for (std::size_t i = 0; i < model.textures.size(); ++i) {
+        const tinygltf::Texture& t = model.textures[i];
+        const std::string who = fmt::format("texture {}", i);
+        Texture texture;
+        texture.image = checkedIndex(t.source, model.images.size(), who, "image");
+        if (checkedIndex(t.sampler, samplers.size(), who, "sampler") >= 0)
+            texture.sampler = samplers[static_cast<std::size_t>(t.sampler)];
+        scene.textures.push_back(texture);
+    }
+}
+
+// KHR_texture_transform: scale, then a rotation that is counter-clockwise where v grows downwards, then the
+// offset.
+void readTransform(const tinygltf::Value& transform, TextureSlot& slot, int& texcoord,
+                   const std::string& who) {
+    const std::vector<double> offset = numbersIn(transform, "offset", {0, 0}, who);
+    const std::vector<double> scale = numbersIn(transform, "scale", {1, 1}, who);
+    const double angle = numberIn(transform, "rotation", 0, who);
+    const double c = std::cos(angle), s = std::sin(angle);
+    slot.u = {c * scale[0], s * scale[1], offset[0]};
+    slot.v = {-s * scale[0], c * scale[1], offset[1]};
+    texcoord = indexIn(transform, "texCoord", texcoord, who);
+}
+
+// ---- materials ---------------------------------------------------------------------------------------
+
+class MaterialReader {
+public:
+    MaterialReader(const tinygltf::Model& model, Scene& scene, std::size_t index)
+        : file_(model.materials[index]), scene_(scene), who_(fmt::format("material {}", index)) {}
+
+    Material read() {
+        const tinygltf::PbrMetallicRoughness& pbr = file_.pbrMetallicRoughness;
+        Material m;
+        m.name = file_.name;
+        m.base_color = glm::clamp(glm::vec4(pbr.baseColorFactor[0], pbr.baseColorFactor[1],
+                                            pbr.baseColorFactor[2], pbr.baseColorFactor[3]),
+                                  0.0f, 1.0f);
+        m.metallic = unit(pbr.metallicFactor);
+        m.roughness = unit(pbr.roughnessFactor);
+        m.normal_scale = static_cast<float>(file_.normalTexture.scale);
+        m.occlusion_strength = unit(file_.occlusionTexture.strength);
+        m.alpha_cutoff = static_cast<float>(std::max(file_.alphaCutoff, 0.0));
+        m.alpha_mode = alphaMode();
+        m.double_sided = file_.doubleSided;
+        m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
+        m.metallic_roughness_texture = slot("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+        m.normal_texture = slot("normalTexture", file_.normalTexture);
+        m.occlusion_texture = slot("occlusionTexture", file_.occlusionTexture);
+        m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
+        readEmission(m);
+        readSpecular(m);
+        return m;
+    }
+
+private:
+    const tinygltf::Material& file_;
+    Scene& scene_;
+    std::string who_;
+
+    static float unit(double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); }
+
+    AlphaMode alphaMode() const {
+        if (file_.alphaMode == "OPAQUE") return AlphaMode::opaque;
+        if (file_.alphaMode == "MASK") return AlphaMode::mask;
+        if (file_.alphaMode == "BLEND") return AlphaMode::blend;
+        fail(who_, fmt::format("alphaMode \"{}\" is none of OPAQUE, MASK, BLEND", file_.alphaMode));
+    }
+
+    template <class Info>
+    TextureSlot slot(const char* name, const Info& info) {
+        return slot(name, info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"));
+    }
+
+    TextureSlot slot(const char* name, int texture, int texcoord, const tinygltf::Value* transform) {
+        TextureSlot result;
+        const std::string who = fmt::format("{}: {}", who_, name);
+        if (checkedIndex(texture, scene_.textures.size(), who, "texture") < 0) return result;
+        if (transform) readTransform(*transform, result, texcoord, who);
+        if (texcoord < 0 || texcoord > 1)
+            scene_.notes.push_back(
+                fmt::format("{} reads TEXCOORD_{}: left out, there are two UV sets", who, texcoord));
+        else if (scene_.textures[static_cast<std::size_t>(texture)].image < 0)
+            scene_.notes.push_back(
+                fmt::format("{}: texture {} has no PNG or JPEG image: left out", who, texture));
+        else
+            result.texture = texture;
+        result.texcoord = texcoord == 1 ? 1 : 0;
+        return result;
+    }
+
+    // A texture inside an extension, which tinygltf does not know.
+    TextureSlot slotIn(const tinygltf::Value& object, const char* name) {
+        if (!object.Has(name)) return {};
+        const std::string who = fmt::format("{}: {}", who_, name);
+        const tinygltf::Value& info = object.Get(name);
+        if (!info.IsObject() || !info.Has("index")) fail(who, "names no texture");
+        const tinygltf::Value* transform = nullptr;
+        if (info.Get("extensions").IsObject() &&
+            info.Get("extensions").Get("KHR_texture_transform").IsObject())
+            transform = &info.Get("extensions").Get("KHR_texture_transform");
+        return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
+    }
+
+    void readEmission(Material& m) {
+        double strength = 1;
+        if (const auto* e = extension(file_.extensions, "KHR_materials_emissive_strength"))
+            strength = numberIn(*e, "emissiveStrength", 1, who_);
+        for (int c = 0; c < 3; ++c) {
+            const double emitted = file_.emissiveFactor[static_cast<std::size_t>(c)] * strength;
+            if (!(emitted <= static_cast<double>(std::numeric_limits<float>::max())))
+                fail(who_, fmt::format("emits {:g}, beyond any float", emitted));
+            m.emissive[c] = static_cast<float>(std::max(emitted, 0.0));
+        }
+    }
+
+    void readSpecular(Material& m) {
+        if (const auto* e = extension(file_.extensions, "KHR_materials_ior")) {
+            const double ior = numberIn(*e, "ior", 1.5, who_);
+            if (ior != 0 && ior < 1) fail(who_, fmt::format("ior {:g} is neither 0 nor at least 1", ior));
+            m.ior = static_cast<float>(ior);
+        }
+        if (const auto* e = extension(file_.extensions, "KHR_materials_specular")) {
+            m.specular = unit(numberIn(*e, "specularFactor", 1, who_));
+            const std::vector<double> color = numbersIn(*e, "specularColorFactor", {1, 1, 1}, who_);
+            for (int c = 0; c < 3; ++c)
+                m.specular_color[c] = static_cast<float>(std::max(color[static_cast<std::size_t>(c)], 0.0));
+            m.specular_texture = slotIn(*e, "specularTexture");
+            m.specular_color_texture = slotIn(*e, "specularColorTexture");
+        }
+    }
+};
+
+// "3 materials (a, b, c) ..." for those that `test` picks.
+template <class Test>
+void noteMaterials(const tinygltf::Model& model, const Test& test, const char* what, Scene& scene) {
+    std::string names;
+    int count = 0;
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        if (!test(i)) continue;
+        const std::string& name = model.materials[i].name;
+        names += (count++ ? ", " : "") + (name.empty() ? std::to_string(i) : name);
+    }
+    if (count)
+        scene.notes.push_back(
+            fmt::format("{} material{} ({}) {}", count, count == 1 ? "" : "s", names, what));
+}
+
+// Scene::images holds what some material reads, in the file's order; textures are pointed there.
+void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
+    std::vector<bool> used(imageCount, false);
+    for (const Material& m : scene.materials)
+        for (const TextureSlot* slot :
+             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
+              &m.emissive_texture, &m.specular_texture, &m.specular_color_texture})
+            if (slot->texture >= 0)
+                used[static_cast<std::size_t>(
+                    scene.textures[static_cast<std::size_t>(slot->texture)].image)] = true;
+    std::vector<int> placeOf(imageCount, -1);
+    for (std::size_t i = 0; i < imageCount; ++i) {
+        if (!used[i]) continue;
+        placeOf[i] = static_cast<int>(imageOf.size());
+        imageOf.push_back(static_cast<int>(i));
+    }
+    for (Texture& texture : scene.textures)
+        if (texture.image >= 0) texture.image = placeOf[static_cast<std::size_t>(texture.image)];
+    scene.images.resize(imageOf.size());
+}
+
+}  // namespace
+
+void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>& imageOf) {
+    readTextures(model, scene);
+    for (std::size_t i = 0; i < model.materials.size(); ++i)
+        scene.materials.push_back(MaterialReader(model, scene, i).read());
+    noteMaterials(
+        model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
+        "with alphaMode BLEND: drawn opaque, blending is not built yet", scene);
+    noteMaterials(
+        model,
+        [&](std::size_t i) {
+            return extension(model.materials[i].extensions, "KHR_materials_unlit") != nullptr;
+        },
+        "with KHR_materials_unlit: drawn lit, unlit is not built yet", scene);
+
+    const bool needsDefault =
+        std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {
+            return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                               [](const tinygltf::Primitive& p) { return p.material == -1; });
+        });
+    if (needsDefault) scene.materials.emplace_back().name = "default";
+    keepImagesInUse(scene, model.images.size(), imageOf);
+}
+
+void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+                std::vector<TextureImage>& images, std::vector<std::string>& notes) {
+    std::vector<char> deep(images.size(), 0);  // not bool: neighbours are written by different threads
+    forEachInParallel(images.size(), [&](std::size_t i) {
+        const tinygltf::Image& image = model.images[static_cast<std::size_t>(imageOf[i])];
+        const std::string file = image.uri.empty() ? image.name : image.uri;
+        const std::string who = fmt::format("image {}{}", imageOf[i], file.empty() ? "" : " (" + file + ")");
+        const std::span<const unsigned char> encoded =
+            image.bufferView >= 0 ? viewBytes(model, image.bufferView, who) : std::span(image.image);
+        if (encoded.empty()) fail(who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
+        try {
+            bool sixteenBits = false;
+            images[i] = decodeImage(encoded, sixteenBits);
+            images[i].name = file;
+            deep[i] = sixteenBits;
+        } catch (const std::runtime_error& e) {
+            fail(who, e.what());
+        }
+    });
+    const auto count = std::count(deep.begin(), deep.end(), 1);
+    if (count)
+        notes.push_back(
+            fmt::format("{} image{} of 16 bits a component: read as 8", count, count == 1 ? "" : "s"));
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/scene/scene.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace diptych::gltf {
+
+// Materials, textures and samplers in the file's order, and a last material, glTF's default, if a primitive
+// names none. Scene::images gets the encoded images' places only: those that a material reads, and
+// `imageOf[i]` is the file's index of Scene::images[i].
+void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>& imageOf);
+
+// The pixels of images[i], on all cores.
+void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+                std::vector<TextureImage>& images, std::vector<std::string>& notes);
+
+}  // namespace diptych::gltf

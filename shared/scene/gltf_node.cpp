@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf_node.h"
+
+#include "shared/scene/gltf_value.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+std::string nameOf(std::size_t node) {
+    return fmt::format("node {}", node);
+}
+
+// ---- transforms --------------------------------------------------------------------------------------
+
+// As many numbers as asked for, or none.
+void checkLength(const std::vector<double>& values, std::size_t count, const std::string& who,
+                 const char* what) {
+    if (!values.empty() && values.size() != count)
+        fail(who, fmt::format("{} has {} numbers, not {}", what, values.size(), count));
+    for (const double v : values)
+        if (!std::isfinite(v)) fail(who, fmt::format("{} is not finite", what));
+}
+
+glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who) {
+    checkLength(node.matrix, 16, who, "matrix");
+    checkLength(node.translation, 3, who, "translation");
+    checkLength(node.rotation, 4, who, "rotation");
+    checkLength(node.scale, 3, who, "scale");
+    glm::dmat4 m(1.0);
+    if (!node.matrix.empty()) {
+        for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+        if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
+            fail(who, "the last row of its matrix is not 0 0 0 1");
+        return m;
+    }
+    if (!node.rotation.empty()) {
+        const std::vector<double>& r = node.rotation;
+        const glm::dquat q(r[3], r[0], r[1], r[2]);
+        if (glm::length(q) > 0) m = glm::mat4_cast(glm::normalize(q));
+    }
+    if (!node.scale.empty())
+        for (int c = 0; c < 3; ++c) m[c] *= node.scale[static_cast<std::size_t>(c)];
+    if (!node.translation.empty()) m[3] = {node.translation[0], node.translation[1], node.translation[2], 1};
+    return m;
+}
+
+// ---- hierarchy ---------------------------------------------------------------------------------------
+
+std::vector<int> parentsOf(const tinygltf::Model& model) {
+    std::vector<int> parent(model.nodes.size(), -1);
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+        for (const int child : model.nodes[n].children) {
+            if (checkedIndex(child, model.nodes.size(), nameOf(n), "child") < 0) fail(nameOf(n), "child -1");
+            int& p = parent[static_cast<std::size_t>(child)];
+            if (p >= 0)
+                fail(nameOf(static_cast<std::size_t>(child)),
+                     fmt::format("is a child of node {} and of node {}", p, n));
+            p = static_cast<int>(n);
+        }
+    return parent;
+}
+
+// With at most one parent each, a node is in a circle exactly if its ancestors lead back to it; walks stop
+// where an earlier one has been.
+void refuseCircles(const std::vector<int>& parent) {
+    std::vector<std::size_t> walk(parent.size(), 0);  // the number of the walk that came by; 0: none yet
+    for (std::size_t start = 0; start < parent.size(); ++start) {
+        for (int n = static_cast<int>(start); n >= 0 && walk[static_cast<std::size_t>(n)] != start + 1;) {
+            if (walk[static_cast<std::size_t>(n)]) break;
+            walk[static_cast<std::size_t>(n)] = start + 1;
+            n = parent[static_cast<std::size_t>(n)];
+            if (n >= 0 && walk[static_cast<std::size_t>(n)] == start + 1)
+                fail(nameOf(static_cast<std::size_t>(n)), "is its own ancestor");
+        }
+    }
+}
+
+// The nodes that the default scene reaches. Without any scene, all of them.
+std::vector<bool> reached(const tinygltf::Model& model, const std::vector<int>& parent) {
+    if (model.scenes.empty() && model.defaultScene < 0) return std::vector<bool>(model.nodes.size(), true);
+    const int index =
+        checkedIndex(std::max(model.defaultScene, 0), model.scenes.size(), "the default scene", "scene");
+    const std::string who = fmt::format("scene {}", index);
+    std::vector<bool> result(model.nodes.size(), false);
+    std::vector<int> waiting = model.scenes[static_cast<std::size_t>(index)].nodes;
+    for (const int root : waiting) {
+        if (checkedIndex(root, model.nodes.size(), who, "node") < 0) fail(who, "node -1");
+        if (parent[static_cast<std::size_t>(root)] >= 0)
+            fail(who, fmt::format("node {} is no root: it is a child of node {}", root,
+                                  parent[static_cast<std::size_t>(root)]));
+    }
+    while (!waiting.empty()) {
+        const auto n = static_cast<std::size_t>(waiting.back());
+        waiting.pop_back();
+        if (result[n]) continue;
+        result[n] = true;
+        waiting.insert(waiting.end(), model.nodes[n].children.begin(), model.nodes[n].children.end());
+    }
+    return result;
+}
+
+// ---- what hangs on nodes -----------------------------------------------------------------------------
+
+Light readLight(const tinygltf::Light& l, const std::string& who) {
+    Light light;
+    light.name = l.name;
+    if (l.type == "directional")
+        light.kind = LightKind::directional;
+    else if (l.type == "point")
+        light.kind = LightKind::point;
+    else if (l.type == "spot")
+        light.kind = LightKind::spot;
+    else
+        fail(who, fmt::format("type \"{}\" is none of directional, point, spot", l.type));
+    checkLength(l.color, 3, who, "color");
+    for (int c = 0; c < 3 && !l.color.empty(); ++c)
+        light.color[c] = static_cast<float>(std::max(l.color[static_cast<std::size_t>(c)], 0.0));
+    if (!(l.intensity >= 0)) fail(who, fmt::format("intensity {:g} is negative", l.intensity));
+    light.intensity = static_cast<float>(l.intensity);
+    if (l.range < 0) fail(who, fmt::format("range {:g} is negative", l.range));
+    if (l.range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(l.range);
+    if (light.kind == LightKind::spot) {
+        if (!(l.spot.innerConeAngle >= 0 && l.spot.innerConeAngle < l.spot.outerConeAngle &&
+              l.spot.outerConeAngle <= glm::half_pi<double>() + 1e-6))  // a rounded pi / 2 is one
+            fail(who, fmt::format("cone angles {:g} and {:g} are not 0 <= inner < outer <= pi / 2",
+                                  l.spot.innerConeAngle, l.spot.outerConeAngle));
+        light.inner_cone = static_cast<float>(l.spot.innerConeAngle);
+        light.outer_cone = static_cast<float>(std::min(l.spot.outerConeAngle, glm::half_pi<double>()));
+    }
+    return light;
+}
+
+Camera readCamera(const tinygltf::Camera& c, const std::string& who) {
+    Camera camera;
+    camera.name = c.name;
+    if (c.type == "perspective") {
+        camera.yfov = c.perspective.yfov;
+        camera.near = c.perspective.znear;
+        if (c.perspective.zfar != 0) camera.far = c.perspective.zfar;
+        if (!(camera.yfov > 0 && camera.yfov < glm::pi<double>()))
+            fail(who, fmt::format("yfov {:g} does not lie between 0 and pi", camera.yfov));
+        if (!(camera.near > 0)) fail(who, fmt::format("znear {:g} is not above 0", camera.near));
+    } else if (c.type == "orthographic") {
+        camera.orthographic = true;
+        camera.ymag = std::abs(c.orthographic.ymag);
+        camera.near = c.orthographic.znear;
+        camera.far = c.orthographic.zfar;
+        if (!(camera.ymag > 0)) fail(who, "ymag is 0");
+        if (!(camera.near >= 0)) fail(who, fmt::format("znear {:g} is negative", camera.near));
+    } else {
+        fail(who, fmt::format("type \"{}\" is neither perspective nor orthographic", c.type));
+    }
+    if (!(camera.far > camera.near))
+        fail(who, fmt::format("zfar {:g} is not beyond znear {:g}", camera.far, camera.near));
+    return camera;
+}
+
+}  // namespace
+
+void readNodes(const tinygltf::Model& model, Scene& scene) {
+    const std::vector<int> parent = parentsOf(model);
+    refuseCircles(parent);
+    const std::vector<bool> inScene = reached(model, parent);
+
+    std::vector<int> place(model.nodes.size(), -1);  // in Scene::nodes
+    int count = 0;
+    for (std::size_t n = 0; n < place.size(); ++n)
+        if (inScene[n]) place[n] = count++;
+
+    std::size_t skinned = 0;
+    std::vector<std::pair<int, Camera>> cameras;  // with the file's index
+    for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+        if (!inScene[n]) continue;
+        const tinygltf::Node& file = model.nodes[n];
+        Node node;
+        node.name = file.name;
+        node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
+        node.parent_from_node = transformOf(file, nameOf(n));
+        node.mesh = checkedIndex(file.mesh, model.meshes.size(), nameOf(n), "mesh");
+        skinned += file.mesh >= 0 && file.skin >= 0;
+        if (checkedIndex(file.camera, model.cameras.size(), nameOf(n), "camera") >= 0) {
+            Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
+                                       fmt::format("camera {}", file.camera));
+            if (camera.name.empty()) camera.name = file.name;
+            camera.node = place[n];
+            cameras.emplace_back(file.camera, camera);
+        }
+        if (const auto* e = extension(file.extensions, "KHR_lights_punctual")) {
+            const int index =
+                checkedIndex(indexIn(*e, "light", -1, nameOf(n)), model.lights.size(), nameOf(n), "light");
+            if (index >= 0) {
+                Light light =
+                    readLight(model.lights[static_cast<std::size_t>(index)], fmt::format("light {}", index));
+                if (light.name.empty()) light.name = file.name;
+                light.node = place[n];
+                scene.lights.push_back(light);
+            }
+        }
+        scene.nodes.push_back(std::move(node));
+    }
+    std::stable_sort(cameras.begin(), cameras.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [index, camera] : cameras) scene.cameras.push_back(camera);
+    if (skinned)
+        scene.notes.push_back(fmt::format("{} skinned mesh{}: drawn unskinned, skinning is not built yet",
+                                          skinned, skinned == 1 ? "" : "es"));
+}
+
+}  // namespace diptych::gltf

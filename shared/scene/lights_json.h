@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/scene/scene.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace diptych {
+
+// { "lights": [ { "type": "point|spot|directional", "name", "position": [x, y, z] m, "direction": [x, y, z],
+//   "color": [r, g, b], "intensity": cd, directional: lux, "range": m, "spot": { "innerConeAngle": rad,
+//   "outerConeAngle": rad } } ] }, in world space, with the defaults of KHR_lights_punctual; the cone angles
+// may also stand beside the type. Throws std::runtime_error: "FILE: light 3: range: ...".
+std::vector<Light> readLights(const std::filesystem::path& file);
+
+}  // namespace diptych

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/view.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+namespace diptych {
+
+// ---- the camera's axes -------------------------------------------------------------------------------
+
+namespace {
+
+// `v` as a unit vector, or `fallback` where it has no direction.
+glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& fallback) {
+    const double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? v / length : fallback;
+}
+
+// Any unit vector at right angles to the unit vector `v`.
+glm::dvec3 perpendicularTo(const glm::dvec3& v) {
+    const glm::dvec3 axis = std::abs(v.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return glm::normalize(glm::cross(v, axis));
+}
+
+double tanHalfFov(const Camera& camera) {
+    return std::tan(camera.yfov * 0.5);
+}
+
+}  // namespace
+
+glm::dvec3 View::eye() const {
+    return glm::dvec3(camera.world_from_camera[3]);
+}
+glm::dvec3 View::target() const {
+    return eye() - backward() * target_distance;
+}
+glm::dvec3 View::backward() const {
+    return unitOr(glm::dvec3(camera.world_from_camera[2]), {0, 0, 1});
+}
+glm::dvec3 View::up() const {
+    return glm::cross(backward(), right());
+}
+
+// From up and backward, so that a scaled, sheared or mirrored node still gives a picture that is neither.
+glm::dvec3 View::right() const {
+    const glm::dvec3 b = backward();
+    return unitOr(glm::cross(unitOr(glm::dvec3(camera.world_from_camera[1]), {0, 1, 0}), b),
+                  perpendicularTo(b));
+}
+
+// ---- projection --------------------------------------------------------------------------------------
+
+// With d the view depth, n and f the planes, t = tan(fov / 2):
+//     perspective    z = (n f / (f - n)) / d - n / (f - n);   w = d;   without a far plane f is infinite,
+//                    which leaves z = n / d
+//     orthographic   z = (f - d) / (f - n);                   w = 1
+glm::dmat4 View::clipFromWorld() const {
+    const double aspect = static_cast<double>(width) / height;
+    const double n = camera.near, f = camera.far;
+    glm::dmat4 clipFromView(0.0);
+    if (camera.orthographic) {
+        clipFromView[0][0] = 1 / (camera.ymag * aspect);
+        clipFromView[1][1] = -1 / camera.ymag;
+        clipFromView[2][2] = 1 / (f - n);
+        clipFromView[3][2] = f / (f - n);
+        clipFromView[3][3] = 1;
+    } else {
+        const double t = tanHalfFov(camera);
+        clipFromView[0][0] = 1 / (t * aspect);
+        clipFromView[1][1] = -1 / t;
+        clipFromView[2][2] = n / (f - n);
+        clipFromView[3][2] = n / (1 - n / f);
+        clipFromView[2][3] = -1;
+    }
+    const glm::dmat4 viewFromWorld(glm::transpose(glm::dmat3(right(), up(), backward())));
+    return clipFromView * viewFromWorld;
+}
+
+gpu::View View::gpuView() const {
+    const glm::dvec3 r = right(), u = up(), b = backward();
+    const double aspect = static_cast<double>(width) / height;
+    const double n = camera.near, f = camera.far;
+    // Half the picture's height: in metres, or in metres per metre of depth. Pixels are square.
+    const double half = camera.orthographic ? camera.ymag : tanHalfFov(camera);
+    const glm::dvec3 corner = (u - r * aspect) * half;  // pixel coordinates (0, 0): left, top
+    const glm::dvec3 perX = r * (2 * half / height), perY = u * (-2 * half / height);
+
+    gpu::View view{};
+    view.clip_from_world = gpu::mat4(clipFromWorld());
+    view.backward = gpu::vec3(b);
+    if (camera.orthographic) {
+        view.origin_0 = gpu::vec3(corner);
+        view.origin_x = gpu::vec3(perX);
+        view.origin_y = gpu::vec3(perY);
+        view.direction_0 = gpu::vec3(-b);
+        view.depth_numerator = gpu::vec2(f, n - f);  // d = f + (n - f) z
+        view.depth_denominator = gpu::vec2(1, 0);
+    } else {
+        view.direction_0 = gpu::vec3(corner - b);
+        view.direction_x = gpu::vec3(perX);
+        view.direction_y = gpu::vec3(perY);
+        view.depth_numerator = gpu::vec2(n / (1 - n / f), 0);  // d = (n f / (f - n)) / (z + n / (f - n))
+        view.depth_denominator = gpu::vec2(n / (f - n), 1);
+    }
+    return view;
+}
+
+// ---- choosing a camera -------------------------------------------------------------------------------
+
+namespace {
+
+constexpr double defaultFov = glm::radians(60.0);
+constexpr std::string_view accepted = "an index, a name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\"";
+
+[[noreturn]] void fail(std::string_view choice, const std::string& why) {
+    throw std::runtime_error(fmt::format("--camera \"{}\": {}", choice, why));
+}
+
+// A radius to work with where there is nothing, or only a point.
+double usableRadius(const Bounds& bounds) {
+    const double radius = bounds.radius();
+    return radius > 0 && std::isfinite(radius) ? radius : 1.0;
+}
+
+glm::dvec3 usableCentre(const Bounds& bounds) {
+    return bounds.empty() ? glm::dvec3(0) : bounds.centre();
+}
+
+// +Y is up in the picture; straight up or down, what lies towards -Z is on the far side as it is for a
+// camera that tilts there from looking along -Z.
+glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
+    const glm::dvec3 backward = glm::normalize(eye - target);
+    // 1e-6: nearer the pole than that, rounding decides where up is.
+    const bool atPole = glm::length(glm::cross(glm::dvec3(0, 1, 0), backward)) < 1e-6;
+    const glm::dvec3 up = atPole ? glm::dvec3(0, 0, backward.y > 0 ? -1 : 1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(up, backward));
+    return glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(backward, right), 0),
+                      glm::dvec4(backward, 0), glm::dvec4(eye, 1));
+}
+
+// The nearest eye along `backward` from the bounds' centre that sees all eight corners with 5 % to spare. A
+// sphere around a long hall would leave most of the picture empty.
+double fittingDistance(const Bounds& bounds, const glm::dmat4& axes, double aspect) {
+    const double tanY = std::tan(defaultFov * 0.5) / 1.05, tanX = tanY * aspect;
+    const double radius = usableRadius(bounds);
+    double distance = 1e-3 * radius;
+    const glm::dvec3 half = bounds.empty() || !(bounds.radius() > 0) ? glm::dvec3(radius / std::sqrt(3.0))
+                                                                     : (bounds.max - bounds.min) * 0.5;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
+                           corner & 4 ? half.z : -half.z);
+        const double x = std::abs(glm::dot(p, glm::dvec3(axes[0])));
+        const double y = std::abs(glm::dot(p, glm::dvec3(axes[1])));
+        const double towards = glm::dot(p, glm::dvec3(axes[2]));
+        distance = std::max(distance, towards + std::max(x / tanX, y / tanY));
+    }
+    return distance;
+}
+
+// Whether `eye` sees the front of some triangle, or either side of a double-sided one.
+bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) {
+    for (const Instance& instance : pose.instances) {
+        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
+                                         .primitives[static_cast<std::size_t>(instance.primitive)];
+        if (primitive.indices.empty()) continue;
+        if (scene.materials[static_cast<std::size_t>(primitive.material)].double_sided) return true;
+        const glm::dmat4& worldFromObject = instance.world_from_object;
+        const double handedness = glm::determinant(glm::dmat3(worldFromObject)) < 0 ? -1 : 1;
+        const auto corner = [&](std::size_t i) {
+            return glm::dvec3(worldFromObject * glm::dvec4(primitive.positions[primitive.indices[i]], 1.0));
+        };
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            const glm::dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
+            if (glm::dot(glm::cross(b - a, c - a), eye - a) * handedness > 0) return true;
+        }
+    }
+    return false;
+}
+
+// A thousandth of the bounds' radius: an eye inside a room may stand that near a wall, and reversed float
+// depth loses nothing by it. No far plane, so nothing is cut off behind.
+Camera freeCamera(const Bounds& bounds) {
+    Camera camera;
+    camera.yfov = defaultFov;
+    camera.near = 1e-3 * usableRadius(bounds);
+    return camera;
+}
+
+View defaultView(const Scene& scene, const Pose& pose, const Bounds& bounds, double aspect) {
+    const auto from = [&](const glm::dvec3& away) {
+        View view;
+        view.camera = freeCamera(bounds);
+        view.target_distance = fittingDistance(bounds, lookAt(away, glm::dvec3(0)), aspect);
+        const glm::dvec3 centre = usableCentre(bounds);
+        view.camera.world_from_camera = lookAt(centre + away * view.target_distance, centre);
+        return view;
+    };
+    const glm::dvec3 away = glm::normalize(glm::dvec3(1, 0.6, 1));
+    const View view = from(away);
+    if (anythingFaces(scene, pose, view.eye())) return view;
+    const View other = from(-away);
+    return anythingFaces(scene, pose, other.eye()) ? other : view;
+}
+
+std::optional<double> number(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || std::isnan(value)) return std::nullopt;
+    return value;
+}
+
+double numberOf(std::string_view choice, const std::string& key, std::string_view text) {
+    const auto value = number(text);
+    if (!value) fail(choice, fmt::format("{}={} is not a number", key, text));
+    return *value;
+}
+
+glm::dvec3 pointOf(std::string_view choice, const std::string& key, std::string_view text) {
+    glm::dvec3 point(0);
+    std::string_view rest = text;
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t comma = i < 2 ? rest.find(',') : rest.size();
+        const auto value = comma == rest.npos ? std::nullopt : number(rest.substr(0, comma));
+        if (!value || std::isinf(*value))
+            fail(choice, fmt::format("{}={} is not three finite numbers x,y,z", key, text));
+        point[i] = *value;
+        if (i < 2) rest.remove_prefix(comma + 1);
+    }
+    return point;
+}
+
+// "key=value key=value", each key once.
+std::map<std::string, std::string> words(const std::string& choice) {
+    std::map<std::string, std::string> result;
+    for (std::size_t at = 0; (at = choice.find_first_not_of(" \t", at)) != choice.npos;) {
+        const std::size_t end = std::min(choice.find_first_of(" \t", at), choice.size());
+        const std::string word = choice.substr(at, end - at);
+        const std::size_t equals = word.find('=');
+        if (equals == word.npos) fail(choice, fmt::format("\"{}\" is not key=value", word));
+        if (!result.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
+            fail(choice, fmt::format("{} is given twice", word.substr(0, equals)));
+        at = end;
+    }
+    return result;
+}
+
+View explicitView(const View& base, const Bounds& bounds, const std::string& choice) {
+    View view = base;
+    Camera& camera = view.camera;
+    glm::dvec3 eye = base.eye(), target = usableCentre(bounds);
+    for (const auto& [key, value] : words(choice)) {
+        if (key == "eye")
+            eye = pointOf(choice, key, value);
+        else if (key == "target")
+            target = pointOf(choice, key, value);
+        else if (key == "fov")
+            camera.yfov = glm::radians(numberOf(choice, key, value));
+        else if (key == "near")
+            camera.near = numberOf(choice, key, value);
+        else if (key == "far")
+            camera.far = numberOf(choice, key, value);
+        else
+            fail(choice, fmt::format("\"{}\" is none of eye, target, fov, near, far", key));
+    }
+    if (!(camera.yfov > 0 && camera.yfov < glm::radians(180.0)))
+        fail(choice, "fov must lie between 0 and 180 degrees");
+    if (!(camera.near > 0) || std::isinf(camera.near)) fail(choice, "near must be above 0 and finite");
+    if (!(camera.far > camera.near))
+        fail(choice, fmt::format("far must be beyond near, which is {:g}", camera.near));
+    view.target_distance = glm::length(eye - target);
+    if (!(view.target_distance > 0) || std::isinf(view.target_distance))
+        fail(choice, "eye and target are the same point, or too far apart");
+    camera.world_from_camera = lookAt(eye, target);
+    return view;
+}
+
+const Camera* sceneCamera(const Pose& pose, const std::string& choice) {
+    for (const Camera& camera : pose.cameras)
+        if (camera.name == choice) return &camera;
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
+    if (error != std::errc() || end != choice.data() + choice.size() || index >= pose.cameras.size())
+        return nullptr;
+    return &pose.cameras[index];
+}
+
+std::string listOf(const std::vector<Camera>& cameras) {
+    if (cameras.empty()) return "the scene has no camera";
+    std::string list;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        list += fmt::format("{}{} \"{}\"", i ? ", " : "", i, cameras[i].name);
+    return "the scene has " + list;
+}
+
+}  // namespace
+
+View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height) {
+    if (width < 1 || height < 1)
+        throw std::runtime_error(
+            fmt::format("--size {}x{}: a picture has at least one pixel", width, height));
+
+    View view;
+    const Camera* own =
+        choice.empty() ? (pose.cameras.empty() ? nullptr : &pose.cameras.front()) : sceneCamera(pose, choice);
+    if (own) {
+        view.camera = *own;
+    } else if (choice.empty() || choice.find('=') != choice.npos) {
+        const Bounds bounds = worldBounds(scene, pose);
+        view = defaultView(scene, pose, bounds, static_cast<double>(width) / height);
+        if (!choice.empty()) view = explicitView(view, bounds, choice);
+    } else {
+        fail(choice, fmt::format("{}; it takes {}", listOf(pose.cameras), accepted));
+    }
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+}  // namespace diptych
