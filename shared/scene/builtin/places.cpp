@@ -54,7 +54,7 @@ Scene coplanar() {
 Scene deep() {
     Builder b;
     const glm::dvec3 eye(0, 1.7, 0);
-    b.camera("corner", eye, eye + glm::dvec3(0.55, -0.3, -1), 75, 0.01, 1e5);
+    b.camera("corner", eye, eye + glm::dvec3(0.55, -0.15, -1), 75, 0.01, 1e5);
     b.scene.background = {0.2f, 0.3f, 0.5f};
     b.add("plain", quad({-1e5, 0, 1e5}, {2e5, 0, 0}, {0, 0, -2e5}),
           b.material("plain", {{0.3f, 0.28f, 0.22f}, 0, 0.7f}), glm::dvec3(0.0));
