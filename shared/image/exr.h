@@ -16,21 +16,24 @@ struct ExrLayer {
     Image image;
 };
 
+// The same without owning the pixels, for writing.
+struct ExrLayerView {
+    std::vector<std::string> channels;
+    const Image* image;
+};
+
 struct ExrAttribute {
     std::string name, value;
 };
 
 // Writes every layer as float32 into one scan-line part (ZIP compressed, on all cores), with the string
 // attributes given. Written beside `file` and renamed. Throws std::runtime_error naming the file.
-struct ExrLayerView {
-    std::vector<std::string> channels;
-    const Image* image;
-};
 void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>& layers,
               const std::vector<ExrAttribute>& attributes = {});
 
-// Reads every layer of the first part; half, float and uint channels become float32. Throws
-// std::runtime_error naming file and fault.
+// Reads every layer of the first part as it fills the display window (0 where no pixel is stored); half,
+// float and uint channels become float32, components in the order R G B A X Y Z. Throws std::runtime_error
+// naming file and fault.
 std::vector<ExrLayer> readExr(const std::filesystem::path& file);
 
 }  // namespace diptych

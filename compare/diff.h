@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Two Frames, channel by channel: numbers, tolerance, verdict.
+#pragma once
+
+#include "compare/metrics.h"
+#include "compare/tolerance.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/frame/frame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+
+enum class Verdict { pass, fail, forward_only };
+std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only"
+
+struct ChannelDiff {
+    const DebugMode* mode = nullptr;
+    ChannelStats stats;  // meaningless where forward-only
+    Tolerance tolerance;
+    std::optional<std::uint64_t> unexplained_pixels;  // lit channels: what the encoding does not explain
+    Verdict verdict = Verdict::pass;
+    std::string reason;  // why it failed; empty otherwise
+};
+
+struct Comparison {
+    std::size_t baseline = 0, test = 0;  // into Report::frames
+    std::vector<ChannelDiff> channels;   // in ascending number
+    Coverage coverage;
+    std::vector<std::string> failures;  // beside the channels', e.g. a capture that is not the timed frame
+    std::vector<std::string> notes;     // what a reader must know and what is no failure
+
+    bool passed() const;
+};
+
+struct ReportDevice {
+    std::string name, driver, type;  // type "cpu" rounds alike in every pipeline
+};
+
+struct Report {
+    ReportDevice device;
+    std::vector<Frame> frames;
+    std::vector<Comparison> comparisons;
+    double diff_ms = 0;  // the comparing alone
+
+    bool passed() const;
+    const Frame& baseline(const Comparison& comparison) const { return frames[comparison.baseline]; }
+    const Frame& test(const Comparison& comparison) const { return frames[comparison.test]; }
+};
+
+// frames[test] against frames[baseline] of the report, over their common channels; what only one of them has
+// and only forward+ can make is listed as forward-only and never counts. Throws std::runtime_error where the
+// two differ in size or share no channel.
+Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,
+                         const Requirements& needs);
+
+// The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
+// drawn by `baseline` becomes the left panel. `needs`: one entry per frame.
+Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
+                  Path baseline = Path::deferred);
+
+}  // namespace diptych

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tolerance.h"
+
+#include "shared/contract/constants.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// Float32 on the way of a number in [0, 1] through packUnorm and unpackUnorm: a product and a sum (half an
+// ULP of 1 each) and a division (2.5 ULP by Vulkan's rules), doubled for a square root and a square.
+constexpr double unormSlack = 8 * 0x1p-24;
+constexpr double sqrtSlack = 2 * unormSlack;
+
+double halfStep(unsigned bits) {
+    return 0.5 / static_cast<double>((1u << bits) - 1);
+}
+
+// x -> x' with sqrt(x) rounded in `bits`: worst where the last step meets 1, 1 - (1 - h)^2.
+double sqrtBound(unsigned bits) {
+    const double h = halfStep(bits);
+    return 2 * h - h * h + sqrtSlack;
+}
+
+struct Bits {
+    unsigned normal, roughness, metallic;
+};
+Bits bitsOf(GBufferEncoding encoding) {
+    if (encoding == GBufferEncoding::compact)
+        return {gpu::COMPACT_NORMAL_BITS, gpu::COMPACT_ROUGHNESS_BITS, gpu::COMPACT_METALLIC_BITS};
+    return {gpu::STANDARD_NORMAL_BITS, gpu::STANDARD_ROUGHNESS_BITS, gpu::STANDARD_METALLIC_BITS};
+}
+
+Tolerance unormTolerance(unsigned bits) {
+    return {halfStep(bits) + unormSlack,
+            fmt::format("half a step of {} bits, 0.5 / {}", bits, (1u << bits) - 1)};
+}
+
+Tolerance emissionTolerance(const FramePair& pair) {
+    if (!pair.needs.emission) return {0, "nothing in the scene emits"};
+    if (pair.needs.max_emission > gpu::EMISSION_MAX || pair.needs.min_emission < gpu::EMISSION_MIN)
+        return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
+    // The largest component has its top bit set, so half a step is at most 0.5 / 256 of it; 1/512 of that
+    // more where rounding moves the exponent. Below 2^-16 the exponent ends and half a step stays 2^-25.
+    constexpr double half = 0.5 / (1u << (gpu::EMISSION_MANTISSA_BITS - 1));
+    const DebugMode& mode = debugMode(gpu::DEBUG_emission);
+    const Image& baseline = pair.baseline.channels.at(mode.number);
+    const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
+    const double dark = floor > 0 ? 0x1p-25 / floor : 0;
+    return {std::max(half * (1 + 1.0 / 512), dark),
+            dark > half ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, where emission is darkest")
+                        : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
+}
+
+// mix(dielectric F0, albedo, metallic): the worse of the two ends, plus metallic's step times their distance.
+Tolerance specularTolerance(const FramePair& pair, const Bits& bits) {
+    const double albedo = sqrtBound(gpu::ALBEDO_BITS), metallic = halfStep(bits.metallic) + unormSlack;
+    const bool stored = pair.needs.dielectric_specular;
+    const double ends = stored ? std::max(albedo, sqrtBound(gpu::SPECULAR_BITS)) : albedo;
+    const double apart = stored ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
+    return {ends + metallic * apart,
+            fmt::format(
+                "mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step of {} bits, {:.3g})",
+                stored ? " and F0" : "", ends, bits.metallic, metallic)};
+}
+
+bool isLit(const DebugMode& mode) {
+    return mode.number == gpu::DEBUG_lit || mode.number == gpu::DEBUG_lit_diffuse ||
+           mode.number == gpu::DEBUG_lit_specular;
+}
+
+// What forward+ shades from a surface that went through the same encoding; nullptr: not drawn.
+const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
+    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
+    const auto found = forward->through_gbuffer.find(mode.number);
+    return found == forward->through_gbuffer.end() ? nullptr : &found->second;
+}
+
+// The encoding's whole effect on this scene, measured within forward+ alone.
+Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
+    const Image* through = throughGBuffer(mode, pair);
+    if (!through)
+        return {0,
+                "forward+ was not drawn through this G-buffer's encoding, so no difference can be explained"};
+    const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
+    const bool deferredIsBaseline = pair.baseline.settings.path == Path::deferred;
+    const ChannelStats effect = channelStats(mode.metric, mode.kind, deferredIsBaseline ? *through : own,
+                                             deferredIsBaseline ? own : *through, pair.coverage);
+    return {effect.max,
+            fmt::format(
+                "forward+ shading what the {} G-buffer gives back moves by up to {:.3g} (mean {:.3g}, worst "
+                "at {},{}); deferred must equal that {}",
+                nameOf(pair.of(Path::forward_plus)->settings.gbuffer), effect.max, effect.mean,
+                effect.worst_x, effect.worst_y, pair.cpu ? "bit for bit" : "within 16 ULP")};
+}
+
+Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
+    if (encoding == GBufferEncoding::full) return {0, "the full G-buffer carries float32 whole"};
+    const Bits bits = bitsOf(encoding);
+    switch (mode.number) {
+        case gpu::DEBUG_lit:
+        case gpu::DEBUG_lit_diffuse:
+        case gpu::DEBUG_lit_specular:
+            return litTolerance(mode, pair);
+        case gpu::DEBUG_albedo:
+            return {sqrtBound(gpu::ALBEDO_BITS),
+                    "square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255"};
+        case gpu::DEBUG_normals:
+            return {octahedralBound(bits.normal),
+                    fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
+                                bits.normal)};
+        case gpu::DEBUG_metallic:
+            return unormTolerance(bits.metallic);
+        case gpu::DEBUG_roughness:
+            return unormTolerance(bits.roughness);
+        case gpu::DEBUG_occlusion:
+            return unormTolerance(gpu::OCCLUSION_BITS);
+        case gpu::DEBUG_emission:
+            return emissionTolerance(pair);
+        case gpu::DEBUG_specular:
+            return specularTolerance(pair, bits);
+        case gpu::DEBUG_material_id:
+            return {0, "the index is carried whole"};
+        case gpu::DEBUG_depth:
+        case gpu::DEBUG_position:
+            return {0, "the same function of pixel and depth in both paths"};
+        case gpu::DEBUG_geometric_normal:
+            return {0, "both paths quantise it alike"};
+    }
+    return {0, "nothing is known to lose precision here"};
+}
+
+// gpuUlps of the pixel's largest component in the channel's metric. Relative: that share, for the denominator
+// is no smaller than the component. Absolute: of the largest value there is. Angular: all three components
+// off by so much turn a vector by sqrt(3) times the share. Indices are exact.
+double gpuSlack(const DebugMode& mode, const Image& baseline) {
+    constexpr double share = gpuUlps * 0x1p-23;
+    switch (mode.metric) {
+        case Metric::relative:
+            return share;
+        case Metric::absolute: {
+            float largest = 0;
+            for (const float v : baseline.data)
+                if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+            return share * double{largest};
+        }
+        case Metric::angular:
+            return std::sqrt(3.0) * share * degrees;
+        case Metric::exact:
+            return 0;
+    }
+    return 0;
+}
+
+}  // namespace
+
+const Frame* FramePair::of(Path path) const {
+    const bool first = baseline.settings.path == path, second = test.settings.path == path;
+    if (first == second) return nullptr;
+    return first ? &baseline : &test;
+}
+
+// Rounding moves a point of the octahedron |x|+|y|+|z| = 1 by up to (h, h, -2h), h = 0.5 / (2^(bits-1) - 1).
+// At a face's centre, 1 / sqrt(3) from the origin, that is perpendicular to the direction: an angle of
+// sqrt(6) h sqrt(3) = 3 sqrt(2) h. Float32 adds some 8 roundings of 2^-24 to the coordinates before they are
+// rounded, and 10 to the decoded, normalised vector.
+double octahedralBound(unsigned bits) {
+    const double h = 0.5 / static_cast<double>((1u << (bits - 1)) - 1);
+    return degrees * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + 10 * 0x1p-24);
+}
+
+Tolerance tolerance(const DebugMode& mode, const FramePair& pair) {
+    const Frame* deferred = pair.of(Path::deferred);
+    Tolerance result{0, "one path twice: the same function of the same numbers"};
+    if (deferred && pair.of(Path::forward_plus))
+        result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
+    else if (pair.baseline.settings.path != pair.test.settings.path)
+        result = {0, "no bound is known between these two paths"};
+    if (!pair.cpu && mode.metric != Metric::exact) {
+        result.max += gpuSlack(mode, pair.baseline.channels.at(mode.number));
+        result.because += fmt::format("; and {} ULP of the pixel's largest component on a GPU", gpuUlps);
+    }
+    return result;
+}
+
+std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {
+    const Image* through = isLit(mode) ? throughGBuffer(mode, pair) : nullptr;
+    if (!through) return {};
+    return unequalPixels(pair.of(Path::deferred)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
+}
+
+}  // namespace diptych

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// How far apart two paths may be, and why: derived from what the G-buffer's encoding loses.
+#pragma once
+
+#include "compare/metrics.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/frame/frame.h"
+#include "shared/scene/requirements.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace diptych {
+
+struct Tolerance {
+    double max = 0;  // in the channel's metric
+    std::string because;
+};
+
+// Two Frames of one scene and camera, the device they were drawn on, and what the scene needs.
+struct FramePair {
+    const Frame& baseline;
+    const Frame& test;
+    const Requirements& needs;
+    const Coverage& coverage;
+    bool cpu = true;  // a CPU device rounds alike in every pipeline; a GPU is granted gpuUlps
+
+    const Frame* of(Path path) const;  // nullptr: neither, or both
+};
+
+// Of the pixel's largest component: what a GPU's compiler may contract differently in two pipelines.
+constexpr int gpuUlps = 16;
+
+// The largest angle in degrees that an octahedral normal of `bits` per coordinate can be off, float32
+// evaluation included.
+double octahedralBound(unsigned bits);
+
+// The tolerance of `mode`, a channel of both Frames.
+Tolerance tolerance(const DebugMode& mode, const FramePair& pair);
+
+// Pixels where deferred is not what forward+ shades from a surface that has been through the G-buffer's
+// encoding: a difference that the encoding does not explain. Nothing where forward+ has no such image.
+std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair);
+
+}  // namespace diptych
