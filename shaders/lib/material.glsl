@@ -15,6 +15,7 @@ layout(location = 3) in vec2 in_texcoord0;
 layout(location = 4) in vec2 in_texcoord1;
 layout(location = 5) in vec4 in_color;
 layout(location = 6) flat in uint in_material;
+layout(location = 7) in vec2 in_slot_texcoords[SLOT_COUNT];
 
 layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
 layout(set = SET_MATERIAL, binding = SLOT_metallic_roughness) uniform sampler2D metallic_roughness_texture;
@@ -24,14 +25,10 @@ layout(set = SET_MATERIAL, binding = SLOT_emissive) uniform sampler2D emissive_t
 layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_texture;
 layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
 
+// Texture coordinates of a slot, worked out per vertex. Never from the material buffer here: lavapipe reads 0
+// in a quad's lanes that the triangle does not cover, and the derivatives that choose the mip level go wrong.
 vec2 slotTexcoord(uint slot) {
-    vec2 uv = in_texcoord0;
-    if (on(feature_second_texcoord) && (materials[in_material].second_texcoord & (1u << slot)) != 0) uv = in_texcoord1;
-    if (on(feature_texture_transform)) {
-        TextureTransform t = materials[in_material].transforms[slot];
-        uv = vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0)));
-    }
-    return uv;
+    return on(feature_texture_transform) || on(feature_second_texcoord) ? in_slot_texcoords[slot] : in_texcoord0;
 }
 
 vec4 baseColor() {

@@ -18,6 +18,14 @@ layout(location = 3) out vec2 out_texcoord0;
 layout(location = 4) out vec2 out_texcoord1;
 layout(location = 5) out vec4 out_color;
 layout(location = 6) flat out uint out_material;
+layout(location = 7) out vec2 out_slot_texcoords[SLOT_COUNT];
+
+// KHR_texture_transform and the choice of the UV set.
+vec2 slotTexcoord(Material m, uint slot) {
+    vec2 uv = (m.second_texcoord & (1u << slot)) != 0 ? texcoord1 : texcoord0;
+    TextureTransform t = m.transforms[slot];
+    return vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0)));
+}
 
 void main() {
     Draw draw = draws[gl_InstanceIndex];
@@ -29,4 +37,7 @@ void main() {
     out_texcoord1 = texcoord1;
     out_color = color;
     out_material = draw.material;
+    if (on(feature_texture_transform) || on(feature_second_texcoord))
+        for (uint slot = 0; slot < SLOT_COUNT; ++slot)
+            out_slot_texcoords[slot] = slotTexcoord(materials[draw.material], slot);
 }

@@ -55,7 +55,7 @@ TEST_P(BuiltinParity, PrepassNeverChangesThePicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinParity, testing::ValuesIn(builtinScenes()),
-                         [](const auto& info) { return testName(info.param.substr(8)); });
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
 
 TEST_P(AssetParity, FullIsBitEqualAndPackedIsExplained) {
     const std::filesystem::path file = assets() / GetParam();
@@ -70,8 +70,8 @@ TEST_P(AssetParity, FullIsBitEqualAndPackedIsExplained) {
     expectExplained(scene, settings);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AssetParity, testing::ValuesIn(assetScenes()), [](const auto& info) {
-    return testName(std::filesystem::path(info.param).stem().string());
+INSTANTIATE_TEST_SUITE_P(Scenes, AssetParity, testing::ValuesIn(assetScenes()), [](const auto& scene) {
+    return testName(std::filesystem::path(scene.param).stem().string());
 });
 
 // The twins: each changes one constant in what one path draws, and the gate above must notice.

@@ -23,7 +23,7 @@ TEST_P(Validation, SaysNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Validation, testing::ValuesIn(builtinScenes()),
-                         [](const auto& info) { return testName(info.param.substr(8)); });
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
 
 // The twin: a buffer of zero bytes is an error that the layers must report to us.
 TEST(ValidationTwin, AnErrorIsCounted) {
