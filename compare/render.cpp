@@ -147,7 +147,7 @@ std::uint64_t differentPixels(const Image& a, const Image& b, bool cpu) {
 FrameCamera cameraOf(const View& view) {
     FrameCamera camera;
     camera.name = view.camera.name;
-    const glm::dvec3 eye = view.eye(), target = eye - view.backward(), up = view.up();
+    const glm::dvec3 eye = view.eye(), target = view.target(), up = view.up();
     for (int i = 0; i < 3; ++i) {
         camera.eye[i] = eye[i];
         camera.target[i] = target[i];
@@ -275,7 +275,11 @@ std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& s
     if (!settings.lights.empty())
         for (Light& light : makeLights(settings.lights, settings.seed, worldBounds(scene, pose)))
             lights.push_back(std::move(light));
-    if (lights.empty()) lights.push_back(defaultSun());
+    if (lights.empty()) {
+        // The sun stands behind the default view, whichever camera is chosen, so that it lights what faces it.
+        Pose withoutCameras{pose.instances, {}, {}};
+        lights.push_back(defaultSun(makeView(scene, withoutCameras, "", 1, 1).backward()));
+    }
     return lights;
 }
 
