@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/tangents.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <vector>
+
+using namespace diptych;
+
+namespace {
+
+// One rounding of a unit vector's components to float, and some for the sums before it.
+constexpr float slack = 1e-6f;
+
+Primitive quad(const std::array<glm::vec2, 4>& uv) {
+    Primitive p;
+    p.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    p.normals.assign(4, {0, 0, 1});
+    p.texcoords[0].assign(uv.begin(), uv.end());
+    p.indices = {0, 1, 2, 0, 2, 3};
+    return p;
+}
+
+void expectTangent(const glm::vec4& tangent, const glm::vec3& direction, float sign) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(tangent[c], direction[c], slack);
+    EXPECT_EQ(tangent.w, sign);
+}
+
+void expectUnitFrames(const Primitive& p) {
+    ASSERT_EQ(p.tangents.size(), p.positions.size());
+    for (std::size_t v = 0; v < p.tangents.size(); ++v) {
+        const glm::vec3 t(p.tangents[v]);
+        EXPECT_NEAR(glm::length(t), 1, slack) << v;
+        EXPECT_NEAR(glm::dot(t, p.normals[v]), 0, slack) << v;
+        EXPECT_EQ(std::abs(p.tangents[v].w), 1) << v;
+    }
+}
+
+// A closed ball whose UVs do not tear: u, v are positions, so that every vertex is one vertex.
+Primitive ball() {
+    constexpr int rings = 8, sectors = 12;
+    constexpr double pi = 3.14159265358979323846;
+    Primitive p;
+    const auto vertex = [&](double theta, double phi) {
+        const glm::vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+        p.positions.push_back(n);
+        p.normals.push_back(n);
+        p.texcoords[0].push_back({n.x + 0.3f * n.y, n.z - 0.2f * n.y});
+    };
+    vertex(0, 0);
+    for (int r = 1; r < rings; ++r)
+        for (int s = 0; s < sectors; ++s) vertex(pi * r / rings, 2 * pi * s / sectors);
+    vertex(pi, 0);
+    const auto at = [](int r, int s) {
+        return static_cast<std::uint32_t>(1 + (r - 1) * sectors + s % sectors);
+    };
+    const auto south = static_cast<std::uint32_t>(p.positions.size() - 1);
+    for (int s = 0; s < sectors; ++s) {
+        p.indices.insert(p.indices.end(), {0, at(1, s + 1), at(1, s)});
+        p.indices.insert(p.indices.end(), {south, at(rings - 1, s), at(rings - 1, s + 1)});
+        for (int r = 1; r + 1 < rings; ++r)
+            p.indices.insert(p.indices.end(), {at(r, s), at(r, s + 1), at(r + 1, s), at(r, s + 1),
+                                               at(r + 1, s + 1), at(r + 1, s)});
+    }
+    return p;
+}
+
+}  // namespace
+
+// glTF's v grows downwards: v = 0 is the top of the picture. Its right is +X, its top +Y, so that with
+// normal +Z the bitangent cross(n, t) * w = +Y asks for w = +1.
+TEST(Tangents, UprightPictureHasTangentToTheRightAndPositiveSign) {
+    Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
+    makeTangents(p, 0);
+    ASSERT_EQ(p.positions.size(), 4u);
+    for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, 1);
+}
+
+TEST(Tangents, PictureUpsideDownHasNegativeSign) {
+    Primitive p = quad({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
+    makeTangents(p, 0);
+    for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, -1);
+}
+
+// The picture turned by 90 degrees: its right is world +Y, its top world -X.
+TEST(Tangents, RotatedPictureRotatesTangent) {
+    Primitive p = quad({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}});
+    makeTangents(p, 0);
+    for (const glm::vec4& t : p.tangents) expectTangent(t, {0, 1, 0}, 1);
+}
+
+TEST(Tangents, SecondUvSetIsReadWhenAskedFor) {
+    Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
+    p.texcoords[1] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+    makeTangents(p, 1);
+    for (const glm::vec4& t : p.tangents) expectTangent(t, {0, 1, 0}, 1);
+}
+
+// Two quads that share the edge x = 0 and mirror their picture there: u = |x|. The two vertices of that
+// edge have one position, normal and UV, but two orientations: each becomes two vertices.
+TEST(Tangents, MirroredPictureSplitsTheSharedEdge) {
+    Primitive p;
+    for (const float x : {-1.0f, 0.0f, 1.0f})
+        for (const float y : {-1.0f, 1.0f}) {
+            p.positions.push_back({x, y, 0});
+            p.normals.push_back({0, 0, 1});
+            p.texcoords[0].push_back({std::abs(x), y < 0 ? 1 : 0});
+            p.colors.push_back({x, y, 0, 1});
+        }
+    p.indices = {0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3};
+    makeTangents(p, 0);
+    ASSERT_EQ(p.positions.size(), 8u);
+    ASSERT_EQ(p.colors.size(), 8u) << "every attribute is split along";
+    for (std::size_t i = 0; i < p.indices.size(); ++i) {
+        const bool left = i < 6;
+        expectTangent(p.tangents[p.indices[i]], {left ? -1 : 1, 0, 0}, left ? -1.0f : 1.0f);
+    }
+    const std::vector<std::uint32_t> before{0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3};
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const int x = static_cast<int>(before[i] / 2) - 1;
+        EXPECT_EQ(p.positions[p.indices[i]].x, static_cast<float>(x)) << "a split moves no corner";
+        EXPECT_EQ(p.colors[p.indices[i]].r, static_cast<float>(x));
+    }
+}
+
+// Vertices that are apart in the list but equal in every respect count as one: as two loose triangles the
+// quad gives what it gives as one sheet, also where the two derivatives differ.
+TEST(Tangents, EqualVerticesAreWelded) {
+    Primitive sheet = quad({{{0, 1}, {1, 1}, {0.7f, 0.2f}, {0, 0}}}), loose = sheet;
+    loose.positions.clear(), loose.normals.clear(), loose.texcoords[0].clear(), loose.indices.clear();
+    for (const std::uint32_t v : sheet.indices) {
+        loose.indices.push_back(static_cast<std::uint32_t>(loose.positions.size()));
+        loose.positions.push_back(sheet.positions[v]);
+        loose.normals.push_back(sheet.normals[v]);
+        loose.texcoords[0].push_back(sheet.texcoords[0][v]);
+    }
+    makeTangents(sheet, 0);
+    makeTangents(loose, 0);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_EQ(sheet.tangents[sheet.indices[i]], loose.tangents[loose.indices[i]]);
+    EXPECT_NE(sheet.tangents[1], sheet.tangents[3]) << "or the test says nothing";
+}
+
+// Derivatives by hand with t = 1 - v. Triangle (0, 1, 2): s, t edges (1, 0) and (1, 1); dP/ds = (2, 0, 0).
+// Triangle (0, 2, 3) has UVs sheared: edges (1, 1) and (1, 2); dP/ds = 2 d1 - 1 d2 = (4, 4) - (0, 2) = (4, 2,
+// 0). Both meet vertex 0 with 45 degrees: the mean direction is the bisector of the two.
+TEST(Tangents, GroupsAreWeightedByAngle) {
+    Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {1, -1}}});
+    makeTangents(p, 0);
+    ASSERT_EQ(p.positions.size(), 4u);
+    const glm::vec3 first(1, 0, 0), second = glm::normalize(glm::vec3(2, 1, 0));
+    expectTangent(p.tangents[1], first, 1);
+    expectTangent(p.tangents[3], second, 1);
+    expectTangent(p.tangents[0], glm::normalize(first + second), 1);
+    expectTangent(p.tangents[2], glm::normalize(first + second), 1);
+}
+
+// The tangent lies in the plane of the vertex normal, not of the triangle: +X projected there.
+TEST(Tangents, TangentIsProjectedIntoTheNormalsPlane) {
+    Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
+    p.normals.assign(4, glm::normalize(glm::vec3(1, 0, 1)));
+    makeTangents(p, 0);
+    for (const glm::vec4& t : p.tangents) expectTangent(t, glm::normalize(glm::vec3(1, 0, -1)), 1);
+}
+
+TEST(Tangents, CubeHasTheFacesOwnAxes) {
+    const std::array<glm::vec3, 6> rights{
+        {{1, 0, 0}, {-1, 0, 0}, {0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}}};
+    const std::array<glm::vec3, 6> tops{{{0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+    Primitive p;
+    for (std::size_t f = 0; f < 6; ++f) {
+        const glm::vec3 n = glm::cross(rights[f], tops[f]);
+        const auto base = static_cast<std::uint32_t>(p.positions.size());
+        for (const glm::vec2 uv : {glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(1, 0), glm::vec2(0, 0)}) {
+            p.positions.push_back(n + rights[f] * (2 * uv.x - 1) + tops[f] * (1 - 2 * uv.y));
+            p.normals.push_back(n);
+            p.texcoords[0].push_back(uv);
+        }
+        for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(base + i);
+    }
+    makeTangents(p, 0);
+    ASSERT_EQ(p.positions.size(), 24u);
+    for (std::size_t v = 0; v < 24; ++v) {
+        expectTangent(p.tangents[v], rights[v / 4], 1);
+        const glm::vec3 bitangent = glm::cross(p.normals[v], glm::vec3(p.tangents[v])) * p.tangents[v].w;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(bitangent[c], tops[v / 4][c], slack);
+    }
+}
+
+TEST(Tangents, DegenerateUvsAndTrianglesStillGetUnitTangents) {
+    Primitive flat = quad({{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}});
+    makeTangents(flat, 0);
+    expectUnitFrames(flat);
+
+    Primitive line = quad({{{0, 0}, {1, 0}, {2, 0}, {3, 0}}});
+    makeTangents(line, 0);
+    expectUnitFrames(line);
+
+    // A triangle without area takes its neighbour's tangent.
+    Primitive needle = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
+    needle.indices = {0, 0, 1, 0, 1, 2, 0, 2, 3, 2, 2, 2};
+    makeTangents(needle, 0);
+    for (const glm::vec4& t : needle.tangents) expectTangent(t, {1, 0, 0}, 1);
+
+    // A triangle whose UVs have no area joins the group across the edge.
+    Primitive joined = quad({{{0, 1}, {1, 1}, {1, 0}, {0.5f, 0.5f}}});
+    makeTangents(joined, 0);
+    expectUnitFrames(joined);
+    EXPECT_EQ(joined.tangents[joined.indices[0]], joined.tangents[joined.indices[3]]);
+}
+
+TEST(Tangents, ThousandTrianglesAroundOneVertexEndWell) {
+    Primitive fan;
+    fan.positions = {{0, 0, 0}};
+    fan.texcoords[0] = {{0.5f, 0.5f}};
+    constexpr std::uint32_t spokes = 1000;
+    for (std::uint32_t i = 0; i < spokes; ++i) {
+        const double a = 2 * 3.14159265358979323846 * i / spokes;
+        fan.positions.push_back({std::cos(a), std::sin(a), 0});
+        fan.texcoords[0].push_back({0.5 + 0.5 * std::cos(a), 0.5 - 0.5 * std::sin(a)});
+        fan.indices.insert(fan.indices.end(), {0, 1 + i, 1 + (i + 1) % spokes});
+    }
+    fan.normals.assign(fan.positions.size(), {0, 0, 1});
+    makeTangents(fan, 0);
+    ASSERT_EQ(fan.positions.size(), spokes + 1);
+    // UVs are floats around 0.5, so the derivative of one 6 mm spoke is good to 1e-5.
+    for (const glm::vec4& t : fan.tangents) EXPECT_NEAR(t.x, 1, 1e-5f);
+}
+
+TEST(Tangents, SmoothClosedMeshDoesNotDependOnTriangleOrder) {
+    Primitive straight = ball(), shuffled = straight;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i < straight.indices.size(); i += 3)
+        triangles.push_back({straight.indices[i], straight.indices[i + 1], straight.indices[i + 2]});
+    std::mt19937 random(7);
+    std::shuffle(triangles.begin(), triangles.end(), random);
+    shuffled.indices.clear();
+    for (std::array<std::uint32_t, 3> t : triangles) {
+        std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+        shuffled.indices.insert(shuffled.indices.end(), t.begin(), t.end());
+    }
+    makeTangents(straight, 0);
+    makeTangents(shuffled, 0);
+    expectUnitFrames(straight);
+    ASSERT_EQ(straight.positions.size(), shuffled.positions.size());
+
+    // By position and sign: which copy of a split vertex comes first does depend on order.
+    const auto key = [](const Primitive& p, std::uint32_t v) {
+        const glm::vec3& q = p.positions[v];
+        return std::array{q.x, q.y, q.z, p.tangents[v].w};
+    };
+    std::map<std::array<float, 4>, glm::vec3> expected;
+    for (const std::uint32_t v : straight.indices)
+        expected[key(straight, v)] = glm::vec3(straight.tangents[v]);
+    EXPECT_GT(expected.size(), straight.normals.size() / 2);
+    for (const std::uint32_t v : shuffled.indices) {
+        const auto at = expected.find(key(shuffled, v));
+        ASSERT_NE(at, expected.end());
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(at->second[c], shuffled.tangents[v][c], slack);
+    }
+}
+
+TEST(Tangents, WithoutThatUvSetAnyPerpendicularUnitVector) {
+    for (const int set : {-1, 0, 1}) {
+        Primitive p = ball();
+        p.texcoords[0].clear();
+        makeTangents(p, set);
+        expectUnitFrames(p);
+        for (const glm::vec4& t : p.tangents) EXPECT_EQ(t.w, 1);
+    }
+}
+
+TEST(FlatNormals, EveryTriangleHasItsOwn) {
+    Primitive p;
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+    p.texcoords[0] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    p.indices = {0, 1, 2, 0, 3, 1, 2, 2, 2};
+    makeFlatNormals(p);
+    ASSERT_EQ(p.positions.size(), 9u);
+    ASSERT_EQ(p.texcoords[0].size(), 9u);
+    const std::array<glm::vec3, 3> expected{{{0, 0, 1}, {0, -1, 0}, {0, 0, 1}}};  // the last has no area
+    for (std::size_t v = 0; v < 9; ++v) {
+        EXPECT_EQ(p.indices[v], v);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(p.normals[v][c], expected[v / 3][c], slack) << v;
+    }
+    EXPECT_EQ(p.positions[4], glm::vec3(0, 0, -1));
+}
