@@ -161,15 +161,24 @@ void checkUri(const std::string& who, const Json& uri) {
     }
 }
 
-void checkUris(const Json& document, const char* kind, const char* singular) {
-    const auto objects = document.find(kind);
-    if (objects == document.end()) return;
-    if (!objects->is_array()) fail(fmt::format("{}: is not an array", kind));
-    for (std::size_t i = 0; i < objects->size(); ++i) {
-        const Json& object = (*objects)[i];
-        const std::string who = fmt::format("{} {}", singular, i);
-        if (!object.is_object()) fail(who + ": is not an object");
-        if (object.contains("uri")) checkUri(who, object["uri"]);
+// Buffers must be there; an image is missed only where a material reads it.
+void checkUris(const Json& document, const std::filesystem::path& folder) {
+    for (const auto& [kind, singular] : {std::pair{"buffers", "buffer"}, {"images", "image"}}) {
+        const auto objects = document.find(kind);
+        if (objects == document.end()) continue;
+        if (!objects->is_array()) fail(fmt::format("{}: is not an array", kind));
+        for (std::size_t i = 0; i < objects->size(); ++i) {
+            const Json& object = (*objects)[i];
+            const std::string who = fmt::format("{} {}", singular, i);
+            if (!object.is_object()) fail(who + ": is not an object");
+            if (!object.contains("uri")) continue;
+            checkUri(who, object["uri"]);
+            const std::string& uri = object["uri"].get_ref<const std::string&>();
+            std::error_code error;
+            if (*singular == 'b' && !uri.starts_with("data:") &&
+                !std::filesystem::is_regular_file(folder / percentDecoded(uri), error))
+                fail(fmt::format("{}: {}: no such file", who, percentDecoded(uri)));
+        }
     }
 }
 
@@ -223,8 +232,7 @@ tinygltf::Model openFile(const std::filesystem::path& file) {
     const Json document = parse(text);
     checkVersion(document);
     checkRequired(document);
-    checkUris(document, "buffers", "buffer");
-    checkUris(document, "images", "image");
+    checkUris(document, file.parent_path());
 
     // A slash at its end: no sibling folder's name can begin like this one's.
     std::string folder = file.parent_path().empty() ? "./" : file.parent_path().string() + "/";

@@ -11,7 +11,10 @@ namespace diptych::gltf {
 std::string firstLine(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     std::string line(text.substr(0, text.find_first_of("\r\n")));
-    while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
+    constexpr std::size_t longest = 300;  // a data URI quoted whole would be no line to read
+    if (line.size() > longest) line.replace(longest, line.npos, "...");
+    while (line.size() <= longest && !line.empty() && (line.back() == ' ' || line.back() == '.'))
+        line.pop_back();
     return line;
 }
 

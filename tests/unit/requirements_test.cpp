@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/requirements.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+using namespace diptych;
+
+namespace {
+
+// One triangle of material 0; material 1 is used by nothing.
+Scene plainScene() {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.textures.push_back({0, {}});
+    scene.images.push_back({"white", 1, 1, {255, 255, 255, 255}});
+    Primitive p;
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    p.normals.assign(3, {0, 0, 1});
+    p.tangents.assign(3, {1, 0, 0, 1});
+    p.indices = {0, 1, 2};
+    scene.meshes.push_back({"triangle", {p}});
+    Node node;
+    node.mesh = 0;
+    scene.nodes = {node, node};
+    return scene;
+}
+
+Requirements of(const Scene& scene) {
+    return requirements(scene, poseAt(scene, 0));
+}
+
+const Requirements::Line& line(const std::vector<Requirements::Line>& lines, const std::string& what) {
+    for (const auto& l : lines)
+        if (l.what == what) return l;
+    throw std::out_of_range(what);
+}
+
+}  // namespace
+
+TEST(Requirements, PlainSceneNeedsNothing) {
+    const Requirements r = of(plainScene());
+    EXPECT_FALSE(r.normal_maps || r.alpha_mask || r.alpha_blend || r.double_sided || r.vertex_colors ||
+                 r.second_texcoord || r.texture_transform || r.occlusion || r.emission ||
+                 r.dielectric_specular);
+    EXPECT_EQ(r.materials, 2u) << "ids name every material of the scene";
+    EXPECT_EQ(r.textures, 0u);
+    EXPECT_EQ(r.draws, 2u);
+    EXPECT_EQ(r.triangles, 2u);
+    EXPECT_EQ(r.vertices, 6u);
+}
+
+// Each feature alone switches its own requirement on, and only on a material that is drawn.
+TEST(Requirements, EachFeatureAsksForItself) {
+    struct Case {
+        const char* name;
+        std::function<void(Material&)> change;
+        bool Requirements::*needed;
+    };
+    const Case cases[] = {
+        {"normal", [](Material& m) { m.normal_texture.texture = 0; }, &Requirements::normal_maps},
+        {"mask", [](Material& m) { m.alpha_mode = AlphaMode::mask; }, &Requirements::alpha_mask},
+        {"blend", [](Material& m) { m.alpha_mode = AlphaMode::blend; }, &Requirements::alpha_blend},
+        {"two sides", [](Material& m) { m.double_sided = true; }, &Requirements::double_sided},
+        {"uv set",
+         [](Material& m) {
+             m.base_color_texture = {0, 1};
+         },
+         &Requirements::second_texcoord},
+        {"transform",
+         [](Material& m) {
+             m.base_color_texture = {0, 0, {2, 0, 0}};
+         },
+         &Requirements::texture_transform},
+        {"occlusion", [](Material& m) { m.occlusion_texture.texture = 0; }, &Requirements::occlusion},
+        {"emission",
+         [](Material& m) {
+             m.emissive = {0, 0, 2};
+         },
+         &Requirements::emission},
+        {"ior", [](Material& m) { m.ior = 1.3f; }, &Requirements::dielectric_specular},
+        {"specular", [](Material& m) { m.specular = 0.5f; }, &Requirements::dielectric_specular},
+        {"specular colour",
+         [](Material& m) {
+             m.specular_color = {1, 0.5, 1};
+         },
+         &Requirements::dielectric_specular},
+    };
+    for (const Case& c : cases) {
+        Scene scene = plainScene();
+        c.change(scene.materials[1]);
+        EXPECT_FALSE(of(scene).*c.needed) << c.name << " of an unused material";
+        c.change(scene.materials[0]);
+        EXPECT_TRUE(of(scene).*c.needed) << c.name;
+        for (const Case& other : cases)
+            if (other.needed != c.needed) {
+                EXPECT_FALSE(of(scene).*other.needed) << c.name << " asks for " << other.name;
+            }
+    }
+}
+
+TEST(Requirements, OcclusionOfStrengthZeroIsNone) {
+    Scene scene = plainScene();
+    scene.materials[0].occlusion_texture.texture = 0;
+    scene.materials[0].occlusion_strength = 0;
+    EXPECT_FALSE(of(scene).occlusion);
+}
+
+TEST(Requirements, EmissionRangesOverTheMaterialsInUse) {
+    Scene scene = plainScene();
+    scene.materials.resize(4);
+    scene.materials[0].emissive = {0.25f, 3, 0};
+    scene.materials[1].emissive = {100, 0, 0};  // unused
+    scene.materials[2].emissive = {0, 0, 0.5f};
+    scene.materials[3].emissive = {0, 0, 0};
+    for (const int material : {2, 3}) {
+        Primitive p = scene.meshes[0].primitives[0];
+        p.material = material;
+        scene.meshes[0].primitives.push_back(p);
+    }
+    EXPECT_EQ(of(scene).max_emission, 3);
+    EXPECT_EQ(of(scene).min_emission, 0.5f);
+}
+
+TEST(Requirements, LightsAreCountedByKind) {
+    Scene scene = plainScene();
+    for (const LightKind kind :
+         {LightKind::spot, LightKind::directional, LightKind::point, LightKind::spot}) {
+        Light light;
+        light.kind = kind;
+        scene.lights.push_back(light);
+    }
+    const Requirements r = of(scene);
+    EXPECT_EQ(r.directional_lights, 1u);
+    EXPECT_EQ(r.point_lights, 1u);
+    EXPECT_EQ(r.spot_lights, 2u);
+}
+
+TEST(Requirements, LinesSayWhy) {
+    Scene scene = plainScene();
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    const auto without = of(scene).lines();
+    EXPECT_FALSE(line(without, "emission").modelled);
+    EXPECT_EQ(line(without, "emission").why, "no material emits: no emission attachment");
+    EXPECT_FALSE(line(without, "alpha blending").modelled) << "it is drawn opaque, and says so";
+    EXPECT_NE(line(without, "alpha blending").why.find("BLEND"), std::string::npos);
+    scene.materials[0].emissive = {7, 0, 0};
+    const auto with = of(scene).lines();
+    EXPECT_TRUE(line(with, "emission").modelled);
+    EXPECT_NE(line(with, "emission").why.find('7'), std::string::npos);
+    ASSERT_EQ(with.size(), without.size());
+    for (const auto& l : with) EXPECT_FALSE(l.why.empty()) << l.what;
+}
