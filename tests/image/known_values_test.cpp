@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// Pixels whose values are known by hand: a square that fills the picture, two units wide, one metre before
+// the camera, lit or textured so simply that paper suffices.
+#include "tests/image/scenes.h"
+
+#include <numbers>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int lit = 0, albedo = 1, normals = 2, metallic = 3, roughness = 4, emission = 5, occlusion = 6,
+              specular = 7;
+
+// Corners (-1, -1) to (1, 1) in z = 0, uv (0, 0) at the top left; camera at (0, 0, 1), 90 degrees.
+Scene square() {
+    Scene scene;
+    scene.name = "square";
+    Primitive p;
+    p.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    p.normals.assign(4, {0, 0, 1});
+    p.tangents.assign(4, {1, 0, 0, 1});
+    p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    p.texcoords[1] = {{1, 1}, {0, 1}, {0, 0}, {1, 0}};  // mirrored left to right
+    p.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes.push_back({"square", {p}});
+    scene.nodes.push_back({"square", -1, glm::dmat4(1.0), 0});
+    scene.materials.push_back({});
+    // Texels: red, green above blue, grey (linear slots see the bytes over 255, colour slots sRGB).
+    scene.images.push_back(
+        {"four", 2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 128, 128, 128, 255}});
+    Sampler nearest;
+    nearest.magnify_linear = nearest.minify_linear = nearest.mipmaps = nearest.mipmaps_linear = false;
+    scene.textures.push_back({0, nearest});
+    Camera camera;
+    camera.yfov = std::numbers::pi / 2;
+    camera.near = 0.1;
+    camera.world_from_camera[3] = {0, 0, 1, 1};
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+// Both paths' Frames at full precision; every expectation is asked of both.
+std::vector<Frame> draw(const Scene& scene, int pixels = 4) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {pixels, pixels};
+    return bothPaths(scene, settings);
+}
+
+glm::vec3 colorAt(const Frame& frame, int mode, int x, int y) {
+    const Image& image = frame.channels.at(mode);
+    glm::vec3 value(0);
+    for (int c = 0; c < image.components; ++c) value[c] = image.at(x, y, c);
+    return value;
+}
+
+void expectColor(const glm::vec3& got, const glm::vec3& expected, float tolerance, const std::string& where) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], tolerance) << where << " component " << c;
+}
+
+// sRGB 128 in linear light: ((128/255 + 0.055) / 1.055)^2.4.
+constexpr float grey = 0.215861f;
+const glm::vec3 red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1), greys(grey);
+constexpr float float32 = 2e-6f;  // a few roundings beside 1
+constexpr float srgbTexel =
+    2e-3f;  // a device may decode sRGB to 8 bits' accuracy (Vulkan's texel conversion)
+
+TEST(KnownValues, TexelsLieWhereTheirCoordinatesSay) {
+    Scene scene = square();
+    scene.materials[0].base_color_texture.texture = 0;
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, albedo, 0, 0), red, srgbTexel, frame.name + " top left");
+        expectColor(colorAt(frame, albedo, 3, 0), green, srgbTexel, frame.name + " top right");
+        expectColor(colorAt(frame, albedo, 1, 3), blue, srgbTexel, frame.name + " bottom left");
+        expectColor(colorAt(frame, albedo, 2, 2), greys, srgbTexel, frame.name + " bottom right");
+    }
+}
+
+TEST(KnownValues, TheSecondUvSetIsReadWhereAsked) {
+    Scene scene = square();
+    scene.materials[0].base_color_texture = {0, 1, {1, 0, 0}, {0, 1, 0}};
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, albedo, 0, 0), green, srgbTexel, frame.name);
+        expectColor(colorAt(frame, albedo, 3, 0), red, srgbTexel, frame.name);
+    }
+}
+
+// KHR_texture_transform: offset (0.5, 0) moves red under the right half; a quarter turn counter-clockwise of
+// the coordinates (u, v) -> (v, -u) shows the lower left texel at the top left.
+TEST(KnownValues, TextureTransform) {
+    Scene scene = square();
+    scene.materials[0].base_color_texture = {0, 0, {1, 0, 0.5}, {0, 1, 0}};
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, albedo, 0, 0), green, srgbTexel, frame.name + " offset");
+        expectColor(colorAt(frame, albedo, 3, 0), red, srgbTexel, frame.name + " offset, wrapped");
+    }
+    scene.materials[0].base_color_texture = {0, 0, {0, 1, 0}, {-1, 0, 0}};
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, albedo, 0, 0), blue, srgbTexel, frame.name + " quarter turn");
+        expectColor(colorAt(frame, albedo, 3, 0), red, srgbTexel, frame.name + " quarter turn");
+        expectColor(colorAt(frame, albedo, 0, 3), greys, srgbTexel, frame.name + " quarter turn");
+    }
+    scene.materials[0].base_color_texture = {0, 0, {2, 0, 0}, {0, 2, 0}};
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, albedo, 0, 0), red, srgbTexel, frame.name + " scale");
+        expectColor(colorAt(frame, albedo, 1, 0), green, srgbTexel, frame.name + " scale");
+        expectColor(colorAt(frame, albedo, 2, 0), red, srgbTexel, frame.name + " scale, wrapped");
+    }
+}
+
+// Factors, textures and KHR_materials_ior, _specular: dielectric F0 = min(((1-n)/(1+n))^2 color, 1) x
+// specular, then the metallic mix with the base colour.
+TEST(KnownValues, MaterialParameters) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.base_color = {0.8f, 0.4f, 0.2f, 1};
+    m.metallic = 0.25f;
+    m.roughness = 0.6f;
+    m.emissive = {3, 0.5f, 0};
+    m.ior = 2;
+    m.specular = 0.5f;
+    m.specular_color = {1, 0.5f, 1};
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, albedo, 1, 1), {0.8f, 0.4f, 0.2f}, float32, "albedo");
+        EXPECT_EQ(colorAt(frame, metallic, 1, 1).x, 0.25f);
+        EXPECT_EQ(colorAt(frame, roughness, 1, 1).x, 0.6f);
+        EXPECT_EQ(colorAt(frame, occlusion, 1, 1).x, 1.0f);
+        expectColor(colorAt(frame, emission, 1, 1), {3, 0.5f, 0}, float32, "emission");
+        // (1/3)^2 = 1/9; x 0.5 = 1/18 (green 1/36); mix: 3/4 of it and 1/4 of the base colour
+        expectColor(colorAt(frame, specular, 1, 1),
+                    {0.75f / 18 + 0.2f, 0.75f / 36 + 0.1f, 0.75f / 18 + 0.05f}, float32, "F0");
+        expectColor(colorAt(frame, normals, 1, 1), {0, 0, 1}, float32, "normal");
+    }
+}
+
+TEST(KnownValues, MetallicRoughnessAndOcclusionTextures) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.metallic_roughness_texture.texture = m.occlusion_texture.texture = 0;
+    m.roughness = 0.5f;
+    m.occlusion_strength = 0.5f;
+    for (const Frame& frame : draw(scene)) {
+        EXPECT_EQ(colorAt(frame, roughness, 3, 0).x, 0.5f) << "green texel: roughness 1 x 0.5";
+        EXPECT_EQ(colorAt(frame, metallic, 3, 0).x, 0.0f);
+        EXPECT_EQ(colorAt(frame, metallic, 0, 3).x, 1.0f) << "blue texel";
+        EXPECT_EQ(colorAt(frame, occlusion, 0, 0).x, 1.0f) << "red texel: open";
+        EXPECT_EQ(colorAt(frame, occlusion, 3, 0).x, 0.5f) << "1 + strength (0 - 1)";
+        EXPECT_NEAR(colorAt(frame, roughness, 3, 3).x, 0.5f * 128 / 255, float32) << "linear, not sRGB";
+    }
+}
+
+// A rough white dielectric without specular, under a light that falls straight on it: E / pi.
+TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.metallic = 0;
+    m.specular = 0;  // F0 = F90 = 0: the base alone
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = 2;
+    sun.direction = {0, 0, -1};
+    scene.lights = {sun};
+    for (const Frame& frame : draw(scene))
+        expectColor(colorAt(frame, lit, 2, 1), glm::vec3(2 / std::numbers::pi_v<float>), float32,
+                    frame.name + " sun");
+
+    // 10 cd, 2 m above the centre, range 4 m: E = 10 / d^2 (1 - (d/4)^4) cos, at the pixel right of the
+    // centre and below: (0.25, -0.25), d^2 = 4.125, cos = 2 / d.
+    Light lamp;
+    lamp.intensity = 10;
+    lamp.range = 4;
+    lamp.position = {0, 0, 2};
+    scene.lights = {lamp};
+    const double d2 = 4 + 2 * 0.25 * 0.25, window = 1 - d2 * d2 / 256;
+    const double expected = 10 / d2 * window * 2 / std::sqrt(d2) / std::numbers::pi;
+    for (const Frame& frame : draw(scene))
+        expectColor(colorAt(frame, lit, 2, 2), glm::vec3(static_cast<float>(expected)), 5 * float32,
+                    frame.name + " point light");
+}
+
+// A white metal seen and lit along its normal: F D V cos = 1 x 1/(pi a^2) x 1/4 with a = roughness^2.
+TEST(KnownValues, GgxPeak) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.roughness = 0.5f;
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {0, 0, -1};
+    scene.lights = {sun};
+    const float expected = 1 / (std::numbers::pi_v<float> * 0.0625f) / 4;
+    for (const Frame& frame : draw(scene, 1))
+        expectColor(colorAt(frame, lit, 0, 0), glm::vec3(expected), 5e-6f, frame.name);
+}
+
+// Occlusion is for ambient light: direct light does not dim under it.
+TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
+    Scene scene = square();
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {0, 0, -1};
+    scene.lights = {sun};
+    const glm::vec3 open = colorAt(draw(scene)[0], lit, 3, 0);
+    scene.materials[0].occlusion_texture.texture = 0;
+    for (const Frame& frame : draw(scene)) {
+        EXPECT_EQ(colorAt(frame, occlusion, 3, 0).x, 0.0f);
+        EXPECT_EQ(colorAt(frame, lit, 3, 0), open);
+    }
+}
+
+// A normal map's texel (0.5 + 0.5 sin 30, 0.5, 0.5 + 0.5 cos 30) turns the normal 30 degrees to +u; mirrored
+// transforms and back faces turn it as glTF says.
+TEST(KnownValues, NormalMapsFollowTangentsMirrorsAndBackFaces) {
+    Scene scene = square();
+    scene.images[0] = {"tilt", 1, 1, {191, 128, 238, 255}};
+    scene.materials[0].normal_texture.texture = 0;
+    scene.materials[0].double_sided = true;
+    // 191/255 x 2 - 1 = 0.49804, 0.00392, 0.86667; normalised
+    const glm::vec3 t(0.498039f, 0.003922f, 0.866667f);
+    const glm::vec3 n = t / std::sqrt(t.x * t.x + t.y * t.y + t.z * t.z);
+    for (const Frame& frame : draw(scene))
+        expectColor(colorAt(frame, normals, 1, 1), n, 5 * float32, frame.name);
+
+    Scene mirrored = scene;
+    mirrored.nodes[0].parent_from_node[0] = {-1, 0, 0, 0};
+    for (const Frame& frame : draw(mirrored))
+        expectColor(colorAt(frame, normals, 1, 1), {-n.x, n.y, n.z}, 5 * float32,
+                    frame.name + " mirrored in x");
+
+    Scene turned = scene;  // half a turn about y: its back is seen, the normal is reversed
+    turned.nodes[0].parent_from_node = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
+    for (const Frame& frame : draw(turned))
+        expectColor(colorAt(frame, normals, 1, 1), {n.x, -n.y, n.z}, 5 * float32,
+                    frame.name + " from behind");
+}
+
+// Depth and position: the pixel's ray meets the square at view depth 1.
+TEST(KnownValues, DepthAndPosition) {
+    for (const Frame& frame : draw(square())) {
+        EXPECT_NEAR(frame.channels.at(10).at(3, 0), 1.0f, float32);
+        expectColor(colorAt(frame, 11, 3, 0), {0.75f, 0.75f, -1}, float32, frame.name);
+        expectColor(colorAt(frame, 12, 3, 0), {0, 0, 1}, float32, frame.name);
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
