@@ -38,7 +38,13 @@ void print(const DeviceInfo& device) {
 }  // namespace
 
 int runDevices(const Options& options) {
-    const std::vector<DeviceInfo> devices = listDevices();
+    std::vector<DeviceInfo> devices = listDevices();
+    for (DeviceInfo& device : devices) {
+        if (!device.usable()) continue;
+        Device opened({std::to_string(device.index), options.validate});
+        for (DeviceFact& fact : opened.probe()) device.facts.push_back(std::move(fact));
+        checkValidation(opened);
+    }
     if (options.json)
         fmt::print("{}\n",
                    jsonOf(devices).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

@@ -276,7 +276,8 @@ std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& s
         for (Light& light : makeLights(settings.lights, settings.seed, worldBounds(scene, pose)))
             lights.push_back(std::move(light));
     if (lights.empty()) {
-        // The sun stands behind the default view, whichever camera is chosen, so that it lights what faces it.
+        // The sun stands behind the default view, whichever camera is chosen, so that it lights what faces
+        // it.
         Pose withoutCameras{pose.instances, {}, {}};
         lights.push_back(defaultSun(makeView(scene, withoutCameras, "", 1, 1).backward()));
     }

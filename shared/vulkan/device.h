@@ -78,8 +78,11 @@ public:
     // How many iterations of its loops one shader invocation is granted, up to 100,000.
     std::uint32_t probeLoopLimit();
 
-    // Draws known values to each format of interest and reads them back.
+    // Draws known values to each render target format of interest and reads them back.
     std::vector<TargetRounding> probeRounding();
+
+    // Both, as facts for people: what only a measurement tells.
+    std::vector<DeviceFact> probe();
 
 private:
     struct State;

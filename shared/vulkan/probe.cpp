@@ -4,6 +4,8 @@
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -110,6 +112,20 @@ std::vector<TargetRounding> Device::probeRounding() {
 std::uint32_t Device::probeLoopLimit() {
     return static_cast<std::uint32_t>(
         std::bit_cast<float>(drawProbe(*this, "probe_loop.frag", VK_FORMAT_R32_SFLOAT, 1).front()));
+}
+
+std::vector<DeviceFact> Device::probe() {
+    std::vector<DeviceFact> facts;
+    const std::uint32_t limit = probeLoopLimit();
+    facts.push_back({"loops of any length", limit >= 99'999, false,
+                     limit >= 99'999
+                         ? "100,000 iterations seen"
+                         : fmt::format("all loops of one invocation end silently after {}", limit)});
+    for (const TargetRounding& target : probeRounding())
+        facts.push_back({"rounds to nearest: " + target.format, target.kind == "to nearest", false,
+                         fmt::format("{}, up to {:.2f} of a step; the G-buffer rounds in the shader",
+                                     target.kind, target.steps)});
+    return facts;
 }
 
 }  // namespace diptych
