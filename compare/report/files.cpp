@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/files.h"
+
+#include "compare/picture.h"
+#include "compare/report/json.h"
+#include "compare/report/report.h"
+#include "compare/report/report_folder.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/atomic_file.h"
+#include "shared/image/exr.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace diptych {
+
+void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device) {
+    std::vector<ExrLayerView> layers;
+    for (const auto& [mode, image] : frame.channels) layers.push_back({exrChannels(debugMode(mode)), &image});
+    writeExr(file, layers,
+             {{"camera", jsonOf(frame)["camera"].dump()},
+              {"device", device.name},
+              {"driver", device.driver},
+              {"scene", frame.scene},
+              {"settings", toJson(frame.settings, -1)},
+              {"software", "diptych"}});
+}
+
+// RFC 4648, section 4.
+std::string dataUri(const std::filesystem::path& png) {
+    std::ifstream stream(png, std::ios::binary);
+    std::string in{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream) throw std::runtime_error(png.string() + ": cannot be read back");
+    constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t size = in.size();
+    in.resize((size + 2) / 3 * 3);
+    std::string out = "data:image/png;base64,";
+    for (std::size_t i = 0; i < in.size(); i += 3) {
+        const auto byte = [&](std::size_t k) {
+            return static_cast<unsigned>(static_cast<unsigned char>(in[i + k]));
+        };
+        const unsigned bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for (const int shift : {18, 12, 6, 0}) out += letters[bits >> shift & 63];
+    }
+    for (std::size_t i = size; i < in.size(); ++i) out[out.size() - (in.size() - i)] = '=';
+    return out;
+}
+
+void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
+                const PictureChoice& choice, bool force) {
+    constexpr const char* mark = "frame.json";
+    checkReplaceable(output, mark, force);
+    const auto writePicture = [&](const std::filesystem::path& file) {
+        if (!frame.channels.contains(shown.number))
+            throw std::runtime_error(
+                fmt::format("--debug {}: the {} path does not make it{}", shown.name, frame.name,
+                            shown.maker == MadeBy::forward_only ? "; forward_plus does" : ""));
+        const auto lit = frame.channels.find(gpu::DEBUG_lit);
+        const Exposure exposure =
+            exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));
+        const Frame* frames[] = {&frame};
+        writePng(file, picture(shown, frame, scaleFor(shown, exposure, frames)));
+    };
+    if (output.kind == OutputKind::exr) return writeFrameExr(output.path, frame, device);
+    if (output.kind == OutputKind::png) return writePicture(output.path);
+
+    const std::vector<std::string> files{frame.name + ".exr", std::string(shown.name) + ".png", mark};
+    ReportFolder folder(output.path);
+    writeFrameExr(folder / files[0], frame, device);
+    writePicture(folder / files[1]);
+    nlohmann::ordered_json json{
+        {"schema", 1},
+        {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
+        {"frame", jsonOf(frame)},
+        {"files", files}};
+    writeFile(folder / mark,
+              json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    folder.put(files, mark);
+}
+
+}  // namespace diptych

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// The cards of one comparison: pictures, difference, wipe, numbers, reason.
+#include "compare/report/html.h"
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+
+namespace diptych {
+namespace {
+
+constexpr int loupeRadius = 8, loupeZoom = 8;  // 17 x 17 pixels, each 8 wide: .loupe of the style
+
+std::string hex(const std::array<std::uint8_t, 3>& c) {
+    return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
+}
+
+class Card {
+public:
+    Card(const Report& report, const ReportLayout& layout, std::size_t comparison, const ChannelDiff& channel)
+        : layout_(layout),
+          left_(report.baseline(report.comparisons[comparison])),
+          right_(report.test(report.comparisons[comparison])),
+          channel_(channel),
+          pictures_(layout.pictures[comparison][static_cast<std::size_t>(
+              &channel - report.comparisons[comparison].channels.data())]),
+          id_(fmt::format("c{}-{}", comparison, channel.mode->name)) {}
+
+    std::string html() const {
+        const DebugMode& mode = *channel_.mode;
+        const bool compared = channel_.verdict != Verdict::forward_only;
+        const bool open = compared && (channel_.verdict == Verdict::fail || channel_.stats.different > 0);
+        std::string out = fmt::format(
+            "<details class=\"box card {0}\" id=\"{1}\"{2}><summary><h3>{3}</h3><span class=\"soft\">{4} "
+            "\u00b7 {5} "
+            "\u00b7 {6}</span><span class=\"verdict {0}\">{0}</span></summary><div class=\"body\">\n",
+            nameOf(channel_.verdict), id_, open ? " open" : "", mode.name, mode.number, nameOf(mode.metric),
+            markup(mode.shows));
+        if (!channel_.reason.empty())
+            out += fmt::format("<p class=\"reason\">{}</p>\n", markup(channel_.reason));
+        if (!compared) return out + single() + "</div></details>\n";
+        out += "<div class=\"pictures\">" + pair() + "<div>" + difference() + numbers() + "</div></div>\n";
+        out += fmt::format(
+            "<p class=\"because\"><b>Tolerance {}</b> <span class=\"soft\">because</span> {}</p>\n",
+            number(channel_.tolerance.max), markup(channel_.tolerance.because));
+        return out + loupes() + "</div></details>\n";
+    }
+
+private:
+    std::string image(const std::string& picture, const std::string& alt) const {
+        return fmt::format("<img loading=\"lazy\" width=\"{}\" height=\"{}\" src=\"{}\" alt=\"{}\">",
+                           left_.settings.size.width, left_.settings.size.height, layout_.source(picture),
+                           markup(alt));
+    }
+
+    std::string worstMark() const {
+        const ChannelStats& s = channel_.stats;
+        if (s.worst_x < 0) return {};
+        return fmt::format("<i class=\"worst\" style=\"left:{:.3f}%;top:{:.3f}%\"></i>",
+                           100 * (s.worst_x + 0.5) / left_.settings.size.width,
+                           100 * (s.worst_y + 0.5) / left_.settings.size.height);
+    }
+
+    std::string pair() const {
+        const auto stage = [&](const char* side, const Frame& frame, const std::string& picture) {
+            return fmt::format("<div class=\"stage {}\">{}<span class=\"tag\">{}</span></div>", side,
+                               image(picture, fmt::format("{} of {}", channel_.mode->name, frame.name)),
+                               markup(frame.name));
+        };
+        return fmt::format(
+            "<figure class=\"flip\"><div class=\"pair wipe\" style=\"--w:50%\">{0}{1}"
+            "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"wipe {2}\">"
+            "<i class=\"divider\"></i></div><figcaption><span class=\"buttons\">"
+            "<button data-mode=\"wipe\" data-at=\"100\">{3}</button>"
+            "<button data-mode=\"wipe\" data-at=\"50\" class=\"on\">wipe</button>"
+            "<button data-mode=\"wipe\" data-at=\"0\">{4}</button>"
+            "<button data-mode=\"side\" data-at=\"50\">side by "
+            "side</button></span><span>{5}</span></figcaption>"
+            "</figure>\n",
+            stage("left", left_, pictures_.baseline), stage("right", right_, pictures_.test),
+            channel_.mode->name, markup(left_.name), markup(right_.name), markup(pictures_.scale.words));
+    }
+
+    std::string difference() const {
+        if (pictures_.difference.empty()) return "<p class=\"equal\">no difference at any pixel</p>\n";
+        std::string stops;
+        for (int i = 0; i <= 12; ++i) stops += ", " + hex(errorColor(i / 12.0));
+        const bool toTolerance = channel_.tolerance.max > 0;
+        std::string beyond;
+        const auto swatch = [&](const auto& color, const char* word) {
+            beyond += fmt::format("<span><i class=\"swatch\" style=\"background:{}\"></i>{}</span>",
+                                  hex(color), word);
+        };
+        if (toTolerance && channel_.stats.max > channel_.tolerance.max)
+            swatch(beyondColor, "beyond tolerance");
+        if (channel_.stats.infinite > 0) swatch(nonfiniteColor, "infinite");
+        return fmt::format(
+            "<figure><div class=\"stage\">{}{}</div><figcaption><div class=\"legend\"><div class=\"ramp\" "
+            "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
+            "mono\"><span>0</span><span>{} "
+            "({})</span></div></div><span>black: equal</span>{}</figcaption></figure>\n",
+            image(pictures_.difference, fmt::format("difference of {}", channel_.mode->name)), worstMark(),
+            stops, number(pictures_.error_top), toTolerance ? "tolerance" : "max", beyond);
+    }
+
+    std::string numbers() const {
+        const ChannelStats& s = channel_.stats;
+        std::string out = "<dl>";
+        const auto row = [&](const char* name, const std::string& value) {
+            out += fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
+        };
+        const char* unit = channel_.mode->metric == Metric::angular ? "\u00b0" : "";
+        for (const auto& [name, value] : {std::pair{"max", s.max},
+                                          {"mean", s.mean},
+                                          {"rmse", s.rmse},
+                                          {"p99", s.p99},
+                                          {"p99.9", s.p999},
+                                          {"tolerance", channel_.tolerance.max}})
+            row(name, number(value) + unit);
+        row("pixels that differ", fmt::format("{}", s.different));
+        if (channel_.unexplained_pixels)
+            row("not explained by encoding", fmt::format("{}", *channel_.unexplained_pixels));
+        if (s.nonfinite_baseline + s.nonfinite_test > 0)
+            row("NaN or infinite pixels", fmt::format("{} | {}", s.nonfinite_baseline, s.nonfinite_test));
+        return out + "</dl>\n";
+    }
+
+    // What stands at the worst pixel, enlarged and in numbers.
+    std::string loupes() const {
+        const int x = channel_.stats.worst_x, y = channel_.stats.worst_y;
+        if (x < 0) return {};
+        const auto values = [&](const Frame& frame) {
+            std::string out;
+            const Image& pixels = frame.channels.at(channel_.mode->number);
+            for (int c = 0; c < pixels.components; ++c) out += fmt::format(" {:.6g}", pixels.at(x, y, c));
+            return out;
+        };
+        const auto loupe = [&](const std::string& picture, const std::string& caption,
+                               const std::string& text) {
+            std::string glass;
+            if (layout_.embedded.empty())
+                glass = fmt::format(
+                    "<span class=\"loupe\"><img loading=\"lazy\" src=\"{}\" alt=\"\" "
+                    "style=\"width:{}px;height:{}px;left:{}px;top:{}px\"></span>",
+                    picture, left_.settings.size.width * loupeZoom, left_.settings.size.height * loupeZoom,
+                    (loupeRadius - x) * loupeZoom, (loupeRadius - y) * loupeZoom);
+            return fmt::format(
+                "<figure>{}<figcaption>{}<br><span class=\"values\">{}</span></figcaption></figure>", glass,
+                caption, text);
+        };
+        const std::string there = fmt::format("worst pixel {}, {}", x, y);
+        return "<div class=\"loupes\">" + loupe(pictures_.baseline, markup(left_.name), values(left_)) +
+               loupe(pictures_.test, markup(right_.name), values(right_)) +
+               loupe(pictures_.difference, there, " " + number(channel_.stats.max)) + "</div>\n";
+    }
+
+    // Forward-only: one picture, no verdict to give.
+    std::string single() const {
+        const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
+        return fmt::format(
+            "<div class=\"pictures one\"><figure><div class=\"stage\">{}</div><figcaption>{}</figcaption>"
+            "</figure></div><p class=\"because\">{}</p>\n",
+            image(picture, std::string(channel_.mode->name)), markup(pictures_.scale.words),
+            markup(channel_.tolerance.because));
+    }
+
+    const ReportLayout& layout_;
+    const Frame &left_, &right_;
+    const ChannelDiff& channel_;
+    const ChannelPictures& pictures_;
+    std::string id_;
+};
+
+}  // namespace
+
+std::string channelCards(const Report& report, const ReportLayout& layout, std::size_t index) {
+    std::string out;
+    for (const ChannelDiff* channel : failuresFirst(report.comparisons[index]))
+        out += Card(report, layout, index, *channel).html();
+    return out;
+}
+
+}  // namespace diptych

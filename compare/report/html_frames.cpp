@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// What was drawn, how long it took and what it cost, both Frames side by side.
+#include "compare/report/html.h"
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace diptych {
+namespace {
+
+std::string bar(double value, double top, char which) {
+    return fmt::format("<i class=\"bar {}\" style=\"width:{:.2f}%\"></i>", which,
+                       top > 0 ? 100 * value / top : 0);
+}
+
+std::string times(const Frame& a, const Frame& b) {
+    double top = 0;
+    for (const Frame* frame : {&a, &b}) {
+        top = std::max(top, frame->time.median);
+        for (const PassTime& pass : frame->passes) top = std::max(top, pass.ms);
+    }
+    if (!(top > 0)) return "<div class=\"box\"><h4>Time</h4><p class=\"soft\">nothing was timed</p></div>\n";
+    std::string out = "<div class=\"box\"><h4>Time, ms</h4><div class=\"scroll\"><table>";
+    for (const auto& [frame, which] : {std::pair{&a, 'a'}, {&b, 'b'}}) {
+        const FrameTime& time = frame->time;
+        out += fmt::format(
+            "<tr><td><b>{}</b></td><td class=\"bars\">{}</td><td class=\"n\"><b>{:.2f}</b></td></tr>",
+            markup(frame->name), bar(time.median, top, which), time.median);
+        for (const PassTime& pass : frame->passes)
+            out += fmt::format(
+                "<tr><td class=\"soft\">{}</td><td class=\"bars\">{}</td><td class=\"n\">{:.2f}</td></tr>",
+                markup(pass.name), bar(pass.ms, top, which), pass.ms);
+        out += fmt::format(
+            "<tr><td colspan=\"3\" class=\"soft wide\">median of {} runs, {:.2f} to {:.2f}</td></tr>",
+            time.runs, time.min, time.max);
+    }
+    return out +
+           "</table></div><p class=\"soft\">Whole frames are timed unsplit; passes come from a separate, "
+           "profiled run and need not add up.</p></div>\n";
+}
+
+std::string costs(const Frame& a, const Frame& b) {
+    std::string out = fmt::format(
+        "<div class=\"box\"><h4>Memory and counters</h4><div class=\"scroll\"><table><tr><th></th><th "
+        "class=\"n\">{}</th>"
+        "<th class=\"n\">{}</th></tr>",
+        markup(a.name), markup(b.name));
+    const auto row = [&](const char* name, const auto& value) {
+        out += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", name,
+                           value(a), value(b));
+    };
+    const auto count = [&](const char* name, std::uint64_t FrameCounters::*counter) {
+        row(name, [counter](const Frame& f) { return fmt::format("{}", f.counters.*counter); });
+    };
+    row("images", [](const Frame& f) { return bytes(f.bytes.images); });
+    row("buffers", [](const Frame& f) { return bytes(f.bytes.buffers); });
+    row("geometry per pixel", [](const Frame& f) { return bytes(f.bytes.gbuffer_per_pixel); });
+    count("lights", &FrameCounters::lights);
+    count("overflowed light lists", &FrameCounters::overflowed_lists);
+    count("NaN or infinite lit pixels", &FrameCounters::nonfinite_pixels);
+    count("pixels the capture did not reproduce", &FrameCounters::unreproduced_pixels);
+    return out + "</table></div></div>\n";
+}
+
+std::string settings(const Frame& a, const Frame& b) {
+    using Json = nlohmann::ordered_json;
+    const Json left = Json::parse(toJson(a.settings)), right = Json::parse(toJson(b.settings));
+    std::string out = fmt::format(
+        "<details class=\"box\"><summary><b>Settings</b> <span class=\"soft\">all of them; what differs is "
+        "coloured</span></summary><div class=\"scroll\"><table><tr><th></th><th>{}</th><th>{}</th></tr>",
+        markup(a.name), markup(b.name));
+    for (const auto& [key, value] : left.items()) {
+        const Json& other = right.at(key);
+        const auto text = [](const Json& json) {
+            return markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+        };
+        out += fmt::format(
+            "<tr{}><td>{}</td><td class=\"mono wide\">{}</td><td class=\"mono wide\">{}</td></tr>",
+            value == other ? "" : " class=\"differs\"", key, text(value), text(other));
+    }
+    return out + "</table></div></details>\n";
+}
+
+std::string camera(const Frame& frame) {
+    const FrameCamera& c = frame.camera;
+    const std::string lens =
+        c.fov_degrees > 0 ? fmt::format("{:.4g}\u00b0 vertical", c.fov_degrees) : "orthographic";
+    return fmt::format(
+        "<p class=\"soft\">Camera {}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, {:.5g}; {}; "
+        "near {:.4g}, far {:.4g} m</p>\n",
+        markup(cameraTitle(frame)), c.eye[0], c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2], lens,
+        c.near, c.far);
+}
+
+}  // namespace
+
+std::string frameTables(const Report& report, const Comparison& comparison) {
+    const Frame &a = report.baseline(comparison), &b = report.test(comparison);
+    return "<div class=\"columns\">" + times(a, b) + costs(a, b) +
+           "</div>\n<div style=\"height:16px\"></div>" + settings(a, b) + camera(a);
+}
+
+}  // namespace diptych

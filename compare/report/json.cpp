@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/json.h"
+
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finiteOrNull(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json jsonOf(const FrameCamera& camera) {
+    return {{"name", camera.name},
+            {"eye", camera.eye},
+            {"target", camera.target},
+            {"up", camera.up},
+            {"fov_degrees", camera.fov_degrees},
+            {"near", camera.near},
+            {"far", finiteOrNull(camera.far)}};
+}
+
+Json valuesAt(const Frame& frame, const ChannelDiff& channel) {
+    Json values = Json::array();
+    const Image& image = frame.channels.at(channel.mode->number);
+    for (int c = 0; c < image.components; ++c)
+        values.push_back(finiteOrNull(double{image.at(channel.stats.worst_x, channel.stats.worst_y, c)}));
+    return values;
+}
+
+Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel) {
+    Json json{{"number", channel.mode->number},
+              {"name", channel.mode->name},
+              {"metric", nameOf(channel.mode->metric)}};
+    const ChannelStats& s = channel.stats;
+    const bool compared = channel.verdict != Verdict::forward_only, anywhere = compared && s.worst_x >= 0;
+    const std::pair<const char*, double> statistics[] = {
+        {"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p999", s.p999}};
+    for (const auto& [name, value] : statistics) json[name] = compared ? finiteOrNull(value) : Json(nullptr);
+    json["flip"] = nullptr;
+    json["worst_pixel"] = anywhere ? Json{s.worst_x, s.worst_y} : Json(nullptr);
+    json["tolerance"] = compared ? Json(channel.tolerance.max) : Json(nullptr);
+    json["because"] = channel.tolerance.because;
+    json["verdict"] = nameOf(channel.verdict);
+    if (!compared) return json;
+    if (!channel.reason.empty()) json["reason"] = channel.reason;
+    json["different_pixels"] = s.different;
+    json["infinite_pixels"] = s.infinite;
+    json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
+    json["unexplained_pixels"] =
+        channel.unexplained_pixels ? Json(*channel.unexplained_pixels) : Json(nullptr);
+    if (anywhere)
+        json["worst_values"] = {{"baseline", valuesAt(report.baseline(comparison), channel)},
+                                {"test", valuesAt(report.test(comparison), channel)}};
+    return json;
+}
+
+Json jsonOf(const Report& report, const Comparison& comparison) {
+    const Frame& baseline = report.baseline(comparison);
+    Json channels = Json::array();
+    for (const ChannelDiff& channel : comparison.channels)
+        channels.push_back(jsonOf(report, comparison, channel));
+    return {{"scene", baseline.scene},
+            {"camera", jsonOf(baseline.camera)},
+            {"baseline", baseline.name},
+            {"test", report.test(comparison).name},
+            {"verdict", comparison.passed() ? "pass" : "fail"},
+            {"covered_pixels", comparison.coverage.count},
+            {"failures", comparison.failures},
+            {"notes", comparison.notes},
+            {"channels", channels}};
+}
+
+}  // namespace
+
+Json jsonOf(const Frame& frame) {
+    Json passes = Json::array();
+    for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    const FrameTime& time = frame.time;
+    const FrameCounters& counters = frame.counters;
+    return {{"name", frame.name},
+            {"path", nameOf(frame.settings.path)},
+            {"scene", frame.scene},
+            {"camera", jsonOf(frame.camera)},
+            {"size", {frame.settings.size.width, frame.settings.size.height}},
+            {"settings", Json::parse(toJson(frame.settings))},
+            {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
+            {"passes", passes},
+            {"bytes",
+             {{"images", frame.bytes.images},
+              {"buffers", frame.bytes.buffers},
+              {"gbuffer_per_pixel", frame.bytes.gbuffer_per_pixel}}},
+            {"counters",
+             {{"nonfinite_pixels", counters.nonfinite_pixels},
+              {"overflowed_lists", counters.overflowed_lists},
+              {"lights", counters.lights},
+              {"unreproduced_pixels", counters.unreproduced_pixels}}},
+            {"notes", frame.notes}};
+}
+
+std::string reportJson(const Report& report, const ReportLayout* layout) {
+    Json frames = Json::array(), comparisons = Json::array();
+    for (std::size_t i = 0; i < report.frames.size(); ++i) {
+        frames.push_back(jsonOf(report.frames[i]));
+        if (layout) frames.back()["exr"] = layout->exr[i];
+    }
+    for (const Comparison& comparison : report.comparisons) comparisons.push_back(jsonOf(report, comparison));
+    Json json{
+        {"schema", 1},
+        {"verdict", report.passed() ? "pass" : "fail"},
+        {"device",
+         {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
+        {"frames", frames},
+        {"comparisons", comparisons},
+        {"compare_ms", report.diff_ms}};
+    if (layout) {
+        json["encode_ms"] = layout->encode_ms;
+        json["files"] = layout->files();
+    }
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace diptych

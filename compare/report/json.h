@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// report.json and junit.xml.
+#pragma once
+
+#include "compare/diff.h"
+#include "compare/report/layout.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace diptych {
+
+nlohmann::ordered_json jsonOf(const Frame& frame);
+
+// report.json, schema 1. JSON has no infinity: a statistic that is infinite is null, and infinite_pixels then
+// says at how many pixels; a forward-only channel's statistics are all null. `layout` may be nullptr.
+std::string reportJson(const Report& report, const ReportLayout* layout);
+
+// One test case per scene x camera x channel; one more where a comparison fails beside its channels.
+std::string reportJunit(const Report& report);
+
+}  // namespace diptych

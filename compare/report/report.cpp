@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/report.h"
+
+#include "compare/picture.h"
+#include "compare/report/files.h"
+#include "compare/report/html.h"
+#include "compare/report/json.h"
+#include "compare/report/layout.h"
+#include "compare/report/report_folder.h"
+#include "shared/image/atomic_file.h"
+
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+
+namespace diptych {
+namespace {
+
+// One file each, in any order and on any thread; the long ones first.
+using Task = std::function<void()>;
+
+class Encoder {
+public:
+    Encoder(const Report& report, ReportLayout& layout, const ReportFolder& folder, bool embed)
+        : report_(report), layout_(layout), folder_(folder), embed_(embed) {}
+
+    void run() {
+        std::vector<Task> tasks;
+        for (std::size_t i = 0; i < report_.frames.size(); ++i)
+            if (!layout_.exr[i].empty())
+                tasks.push_back([this, i] {
+                    writeFrameExr(folder_ / layout_.exr[i], report_.frames[i], report_.device);
+                });
+        for (std::size_t i = 0; i < report_.comparisons.size(); ++i)
+            for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)
+                addPictures(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
+                            layout_.pictures[i][k]);
+        tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) { tasks[i](); });
+    }
+
+private:
+    void addPictures(std::vector<Task>& tasks, const Comparison& comparison, const ChannelDiff& channel,
+                     const ChannelPictures& pictures) {
+        const DebugMode& mode = *channel.mode;
+        const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
+        const auto add = [&](const Frame& frame, const std::string& name) {
+            if (!name.empty()) tasks.push_back([&] { write(name, picture(mode, frame, pictures.scale)); });
+        };
+        add(left, pictures.baseline);
+        add(right, pictures.test);
+        if (!pictures.difference.empty())
+            tasks.push_back([&] {
+                const Image errors = errorImage(mode.metric, mode.kind, left.channels.at(mode.number),
+                                                right.channels.at(mode.number), comparison.coverage);
+                write(pictures.difference, errorPicture(errors, pictures.error_top));
+            });
+    }
+
+    void write(const std::string& name, const Image8& image) {
+        const std::filesystem::path file = folder_ / name;
+        if (embed_) {
+            writePng(file, halfSize(image));
+            std::string uri = dataUri(file);
+            const std::lock_guard lock(mutex_);
+            layout_.embedded[name] = std::move(uri);
+        }
+        writePng(file, image);
+    }
+
+    const Report& report_;
+    ReportLayout& layout_;
+    const ReportFolder& folder_;
+    bool embed_;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+std::string writeReport(const Report& report, const std::filesystem::path& path,
+                        const ReportOptions& options) {
+    constexpr const char* mark = "report.json";
+    checkReplaceable({OutputKind::folder, path}, mark, options.force);
+    ReportFolder folder(path);
+    const auto start = std::chrono::steady_clock::now();
+    ReportLayout layout = layoutOf(report, options.picture);
+    Encoder(report, layout, folder, options.single_file).run();
+    layout.encode_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+
+    std::string json = reportJson(report, &layout);
+    writeFile(folder / mark, json);
+    writeFile(folder / "junit.xml", reportJunit(report));
+    writeFile(folder / "index.html", reportHtml(report, layout));
+    folder.put(layout.files(), mark);
+    return json;
+}
+
+}  // namespace diptych

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// The report on a terminal.
+#include "compare/report/report.h"
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace diptych {
+namespace {
+
+using Row = std::array<std::string, 7>;
+
+Row rowOf(const ChannelDiff& channel) {
+    const std::string verdict(channel.verdict == Verdict::fail ? "FAIL" : nameOf(channel.verdict));
+    const std::string name(channel.mode->name), metric(nameOf(channel.mode->metric));
+    if (channel.verdict == Verdict::forward_only) return {name, metric, "-", "-", "-", "-", verdict};
+    const ChannelStats& s = channel.stats;
+    return {name,   metric, number(s.max), number(s.mean), number(s.p999), number(channel.tolerance.max),
+            verdict};
+}
+
+std::string frameLine(const Frame& frame) {
+    std::string line = "  " + frame.name;
+    if (frame.time.runs > 0)
+        line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {} runs)", frame.time.median, frame.time.min,
+                            frame.time.max, frame.time.runs);
+    return line + fmt::format(", {} bytes a pixel of geometry\n", frame.bytes.gbuffer_per_pixel);
+}
+
+}  // namespace
+
+std::string reportTable(const Report& report) {
+    std::string out;
+    for (const Comparison& comparison : report.comparisons) {
+        const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
+        out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, cameraTitle(baseline),
+                           baseline.settings.size.width, baseline.settings.size.height,
+                           pairTitle(report, comparison));
+        out += frameLine(baseline) + frameLine(test);
+
+        std::vector<Row> rows{{"channel", "metric", "max", "mean", "p99.9", "tolerance", "verdict"}};
+        for (const ChannelDiff* channel : failuresFirst(comparison)) rows.push_back(rowOf(*channel));
+        std::array<std::size_t, 7> widths{};
+        for (const Row& row : rows)
+            for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+        for (const Row& row : rows) {
+            std::string line = fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
+            for (std::size_t i = 2; i < 6; ++i) line += fmt::format("  {:>{}}", row[i], widths[i]);
+            out += line + "  " + row[6] + "\n";
+        }
+        for (const std::string& failure : comparison.failures) out += "  FAIL " + failure + "\n";
+        for (const ChannelDiff& channel : comparison.channels)
+            if (channel.verdict == Verdict::fail) {
+                out += fmt::format("  FAIL {}: {}", channel.mode->name, channel.reason);
+                if (channel.stats.worst_x >= 0)
+                    out += fmt::format(", worst at {},{}", channel.stats.worst_x, channel.stats.worst_y);
+                out += fmt::format(" ({})\n", channel.tolerance.because);
+            }
+        for (const std::string& note : comparison.notes) out += "  note: " + note + "\n";
+    }
+    return out + verdictLine(report) + "\n";
+}
+
+}  // namespace diptych

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Words and numbers of every report.
+#pragma once
+
+#include "compare/diff.h"
+
+#include <string>
+#include <string_view>
+
+namespace diptych {
+
+// Text for HTML and XML, in elements and attributes: markup is escaped; what is no UTF-8, or no character
+// that XML 1.0 allows, becomes U+FFFD.
+std::string markup(std::string_view text);
+
+std::string number(double value);        // three digits: "0.0123", "1.2e-07", "inf"
+std::string bytes(std::uint64_t count);  // "1.25 MiB"
+
+// "default view", or the camera's name, or what was asked for.
+std::string cameraTitle(const Frame& frame);
+// "forward_plus against deferred"
+std::string pairTitle(const Report& report, const Comparison& comparison);
+
+// The channels as people want to read them: failures, then passes, then forward-only.
+std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison);
+
+// "pass: 14 channels within tolerance", "FAIL: lit, normals".
+std::string verdictLine(const Report& report);
+
+}  // namespace diptych
