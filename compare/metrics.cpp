@@ -142,10 +142,9 @@ double PixelError::operator()(const float* test, const float* baseline) const {
 }
 
 ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
-                          const Coverage& coverage, Image* errors) {
+                          const Coverage& coverage) {
     checkAlike(baseline, test, coverage.covered.size());
     const PixelError error(metric, kind, baseline, coverage);
-    if (errors) *errors = Image(baseline.width, baseline.height, 1);
     ChannelStats stats;
     std::vector<double> all;
     all.reserve(coverage.count);
@@ -166,8 +165,6 @@ ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline
             stats.worst_x = static_cast<int>(i % static_cast<std::size_t>(baseline.width));
             stats.worst_y = static_cast<int>(i / static_cast<std::size_t>(baseline.width));
         }
-        if (errors)
-            errors->data[i] = e > std::numeric_limits<float>::max() ? HUGE_VALF : static_cast<float>(e);
     }
     if (all.empty()) return stats;
     stats.mean = sum / static_cast<double>(all.size());
@@ -175,6 +172,19 @@ ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline
     stats.p99 = nearestRank(all, 0.99);
     stats.p999 = nearestRank(all, 0.999);
     return stats;
+}
+
+Image errorImage(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
+                 const Coverage& coverage) {
+    checkAlike(baseline, test, coverage.covered.size());
+    const PixelError error(metric, kind, baseline, coverage);
+    Image errors(baseline.width, baseline.height, 1);
+    for (std::size_t i = 0; i < errors.pixels(); ++i)
+        if (coverage.covered[i]) {
+            const double e = error(test.pixel(i), baseline.pixel(i));
+            errors.data[i] = e > std::numeric_limits<float>::max() ? HUGE_VALF : static_cast<float>(e);
+        }
+    return errors;
 }
 
 std::uint64_t unequalPixels(const Image& a, const Image& b, int ulps) {

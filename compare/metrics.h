@@ -55,10 +55,13 @@ private:
 };
 
 // Statistics of `test` against `baseline`, equal in size and components (throws std::runtime_error
-// otherwise). Deterministic: sums are double, in pixel order. `errors`, if given, becomes a W x H x 1 image
-// of every pixel's error, 0 in the background, +infinity kept.
+// otherwise). Deterministic: sums are double, in pixel order.
 ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
-                          const Coverage& coverage, Image* errors = nullptr);
+                          const Coverage& coverage);
+
+// Every pixel's error, W x H x 1: what the statistics are over; 0 in the background, +infinity kept.
+Image errorImage(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
+                 const Coverage& coverage);
 
 // Pixels of all W x H, covered or not, that are not the same: bit for bit (NaN is NaN, -0 is not 0), or, with
 // `ulps` > 0, further apart than that many units in the last place of the pixel's largest component.
