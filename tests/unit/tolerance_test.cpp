@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// The derived bounds against the encodings themselves, redone here in double from the G-buffer's description,
+// and against the table of measured figures.
+#include "compare/tolerance.h"
+#include "compare/diff.h"
+#include "shared/contract/constants.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace diptych {
+namespace {
+
+// Every channel of two 1 x 1 Frames, so that a tolerance can be asked for.
+struct Pair {
+    Frame deferred, forward;
+    Requirements needs;
+    Coverage covered = everyPixel(1);
+    bool cpu = true;
+
+    Pair() {
+        deferred.name = "deferred";
+        deferred.settings.path = Path::deferred;
+        forward.name = "forward_plus";
+        forward.settings.path = Path::forward_plus;
+        for (const DebugMode& mode : debugModes()) {
+            forward.channels[mode.number] = Image(1, 1, mode.width, 0.5f);
+            if (mode.maker == MadeBy::both) deferred.channels[mode.number] = forward.channels[mode.number];
+        }
+    }
+    Pair& encoding(GBufferEncoding e) {
+        deferred.settings.gbuffer = forward.settings.gbuffer = e;
+        return *this;
+    }
+    FramePair pair() const { return {deferred, forward, needs, covered, cpu}; }
+    Tolerance of(gpu::uint mode) const { return tolerance(debugMode(static_cast<int>(mode)), pair()); }
+};
+
+double quantised(double x, unsigned bits) {
+    const double top = (1u << bits) - 1;
+    return std::floor(x * top + 0.5) / top;
+}
+double quantisedSqrt(double x, unsigned bits) {
+    const double root = quantised(std::sqrt(x), bits);
+    return root * root;
+}
+
+using Vector = std::array<double, 3>;
+
+double length(const Vector& v) {
+    return std::hypot(v[0], v[1], v[2]);
+}
+double degreesBetween(const Vector& a, const Vector& b) {
+    const Vector cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return std::atan2(length(cross), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * 180 / std::numbers::pi;
+}
+Vector throughOctahedron(const Vector& n, unsigned bits) {
+    const double top = (1u << (bits - 1)) - 1, sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
+    const auto sign = [](double v) { return v >= 0 ? 1.0 : -1.0; };
+    double x = n[0] / sum, y = n[1] / sum;
+    const auto wrap = [&] {
+        const double old = x;
+        x = (1 - std::abs(y)) * sign(x);
+        y = (1 - std::abs(old)) * sign(y);
+    };
+    if (n[2] < 0) wrap();
+    x = std::floor(x * top + 0.5) / top;
+    y = std::floor(y * top + 0.5) / top;
+    const double z = 1 - std::abs(x) - std::abs(y);
+    if (z < 0) wrap();
+    return {x, y, z};
+}
+
+// The worst of many directions, half of them around a face's centre, where the bound is reached.
+double worstOctahedral(unsigned bits) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    double worst = 0;
+    for (int i = 0; i < 400'000; ++i) {
+        Vector n{normal(random), normal(random), normal(random)};
+        if (i % 2 == 1)
+            for (double& c : n) c = (c < 0 ? -1 : 1) * (1 + 0.01 * c);
+        worst = std::max(worst, degreesBetween(n, throughOctahedron(n, bits)));
+    }
+    return worst;
+}
+
+TEST(Tolerance, OctahedralBoundHoldsAndIsTight) {
+    for (const unsigned bits : {8u, gpu::COMPACT_NORMAL_BITS, gpu::STANDARD_NORMAL_BITS}) {
+        const double worst = worstOctahedral(bits);
+        EXPECT_LE(worst, octahedralBound(bits)) << bits;
+        EXPECT_GE(worst, 0.95 * octahedralBound(bits))
+            << bits << ": a bound that is never neared hides errors";
+    }
+}
+
+TEST(Tolerance, OctahedralBoundIsThatOfTheMeasuredTable) {
+    // The largest error over uniform directions: 8+8 0.9496, 12+12 0.0589, 16+16 0.00370 degrees. A sampled
+    // maximum stays under the bound by up to 1 %; float32 adds 0.00015.
+    EXPECT_NEAR(octahedralBound(8), 0.9496, 0.01 * 0.9496 + 2e-4);
+    EXPECT_NEAR(octahedralBound(12), 0.0589, 0.01 * 0.0589 + 2e-4);
+    EXPECT_NEAR(octahedralBound(16), 0.00370, 0.01 * 0.00370 + 2e-4);
+    for (const auto& [bits, measured] : {std::pair{8u, 0.9496}, {12u, 0.0589}, {16u, 0.00370}})
+        EXPECT_GE(octahedralBound(bits), measured);
+}
+
+TEST(Tolerance, HalfStepsOfEachPackedNumber) {
+    Pair p;
+    EXPECT_NEAR(p.encoding(GBufferEncoding::standard).of(gpu::DEBUG_metallic).max, 0.5 / 255, 1e-6);
+    EXPECT_NEAR(p.of(gpu::DEBUG_roughness).max, 0.5 / 4095, 1e-6);
+    EXPECT_NEAR(p.of(gpu::DEBUG_occlusion).max, 0.5 / 255, 1e-6);
+    EXPECT_NEAR(p.encoding(GBufferEncoding::compact).of(gpu::DEBUG_metallic).max, 0.5 / 63, 1e-6);
+    EXPECT_NEAR(p.of(gpu::DEBUG_roughness).max, 0.5 / 255, 1e-6);
+    EXPECT_NEAR(p.of(gpu::DEBUG_normals).max, 0.0589, 1e-3);
+}
+
+TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
+    Pair p;
+    p.needs.dielectric_specular = true;
+    double worstAlbedo = 0;
+    for (int i = 0; i <= 1'000'000; ++i) {
+        const double x = i / 1e6;
+        worstAlbedo = std::max(worstAlbedo, std::abs(x - quantisedSqrt(x, gpu::ALBEDO_BITS)));
+    }
+    EXPECT_LE(worstAlbedo, p.of(gpu::DEBUG_albedo).max);
+    EXPECT_GE(worstAlbedo, 0.99 * p.of(gpu::DEBUG_albedo).max);
+
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform;
+    for (const GBufferEncoding e : {GBufferEncoding::compact, GBufferEncoding::standard})
+        for (const bool stored : {false, true}) {
+            p.encoding(e).needs.dielectric_specular = stored;
+            const unsigned metallicBits =
+                e == GBufferEncoding::compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS;
+            double worst = 0;
+            for (int i = 0; i < 300'000; ++i) {
+                // The corners matter most: bright albedo, dark F0, any metallic.
+                const double a = 1 - 0.05 * uniform(random), m = uniform(random),
+                             f = stored ? 0.02 * uniform(random) : double{gpu::DEFAULT_DIELECTRIC_F0};
+                const double qa = quantisedSqrt(a, gpu::ALBEDO_BITS), qm = quantised(m, metallicBits),
+                             qf = stored ? quantisedSqrt(f, gpu::SPECULAR_BITS) : f;
+                worst = std::max(worst, std::abs(std::lerp(f, a, m) - std::lerp(qf, qa, qm)));
+            }
+            EXPECT_LE(worst, p.of(gpu::DEBUG_specular).max);
+            EXPECT_GE(worst, 0.8 * p.of(gpu::DEBUG_specular).max);
+        }
+}
+
+TEST(Tolerance, EmissionIsHalfOfNineBits) {
+    Pair p;
+    p.needs.emission = true;
+    p.needs.min_emission = p.needs.max_emission = 1;
+    EXPECT_NEAR(p.of(gpu::DEBUG_emission).max, 0.5 / 256, 0.01 * 0.5 / 256);
+    p.needs.max_emission = 70000;
+    EXPECT_EQ(p.of(gpu::DEBUG_emission).max, 0) << "float32 beyond the packed range";
+    p.needs.max_emission = 1;
+    p.needs.min_emission = 1e-6f;
+    EXPECT_EQ(p.of(gpu::DEBUG_emission).max, 0);
+    p.needs = {};
+    EXPECT_EQ(p.of(gpu::DEBUG_emission).max, 0) << "nothing emits";
+}
+
+TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
+    // Textures darken emission to where 9.9.9.e5 has a fixed step of 2^-24; a mean of 2^-20 puts the least
+    // denominator at 2^-30, so half a step is up to 2^-25 / (1e-3 x 2^-20) of it.
+    Pair p;
+    p.needs.emission = true;
+    p.needs.min_emission = p.needs.max_emission = 1;
+    p.deferred.channels[gpu::DEBUG_emission] = Image(1, 1, 3, 0x1p-20f);
+    EXPECT_NEAR(p.of(gpu::DEBUG_emission).max, 0x1p-25 / (1e-3 * 0x1p-20), 1e-6);
+}
+
+TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
+    for (const GBufferEncoding e :
+         {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
+        Pair p;
+        p.encoding(e);
+        for (const gpu::uint mode :
+             {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_geometric_normal})
+            EXPECT_EQ(p.of(mode).max, 0) << mode;
+    }
+}
+
+TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
+    Pair p;
+    p.encoding(GBufferEncoding::full).needs.emission = true;
+    for (const DebugMode& mode : debugModes()) {
+        if (mode.maker == MadeBy::forward_only) continue;
+        p.cpu = true;
+        EXPECT_EQ(tolerance(mode, p.pair()).max, 0) << mode.name;
+        p.cpu = false;
+        const double share = 16 * 0x1p-23, expected = mode.metric == Metric::relative   ? share
+                                                      : mode.metric == Metric::absolute ? 0.5 * share
+                                                      : mode.metric == Metric::angular
+                                                          ? std::sqrt(3.0) * share * 180 / std::numbers::pi
+                                                          : 0;
+        EXPECT_DOUBLE_EQ(tolerance(mode, p.pair()).max, expected) << mode.name;
+    }
+}
+
+TEST(Tolerance, EveryChannelSaysWhy) {
+    for (const bool cpu : {true, false})
+        for (const GBufferEncoding e :
+             {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full})
+            for (const DebugMode& mode : debugModes()) {
+                if (mode.maker == MadeBy::forward_only) continue;
+                Pair p;
+                p.cpu = cpu;
+                p.encoding(e);
+                const std::string because = tolerance(mode, p.pair()).because;
+                EXPECT_FALSE(because.empty()) << mode.name;
+                EXPECT_EQ(because.find("nothing is known"), std::string::npos)
+                    << mode.name << " has no row of its own in tolerance.cpp";
+            }
+}
+
+// lit: what the encoding does to forward+ alone is granted, and nothing else.
+Pair litPair() {
+    Pair p;
+    p.forward.channels[gpu::DEBUG_lit] = Image(1, 1, 3, 1.0f);
+    p.forward.through_gbuffer[gpu::DEBUG_lit] = p.deferred.channels[gpu::DEBUG_lit] = Image(1, 1, 3, 1.25f);
+    return p;
+}
+
+TEST(Tolerance, LitIsGrantedTheEncodingsMeasuredEffect) {
+    const Pair p = litPair();
+    EXPECT_EQ(p.of(gpu::DEBUG_lit).max, 0.2) << "0.25 / 1.25, deferred being the baseline";
+    EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("0.2"), std::string::npos);
+    const FramePair turned{p.forward, p.deferred, p.needs, p.covered, true};
+    EXPECT_EQ(tolerance(debugMode(gpu::DEBUG_lit), turned).max, 0.25) << "forward+ being the baseline";
+    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 0u);
+}
+
+TEST(Tolerance, LitThatTheEncodingDoesNotExplainIsFound) {
+    Pair p = litPair();
+    // Closer to forward+ than the tolerance, and yet not what the encoding gives.
+    p.deferred.channels[gpu::DEBUG_lit].data[1] = std::nextafter(1.25f, 2.0f);
+    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 1u);
+    p.cpu = false;
+    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 0u) << "16 ULP on a GPU";
+    p.deferred.channels[gpu::DEBUG_lit].data[1] = 1.25f * (1 + 20 * 0x1p-23f);
+    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 1u);
+}
+
+TEST(Tolerance, LitWithoutTheEncodedImageIsNotExcused) {
+    Pair p = litPair();
+    p.forward.through_gbuffer.clear();
+    EXPECT_EQ(p.of(gpu::DEBUG_lit).max, 0);
+    EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("no difference can be explained"), std::string::npos);
+    EXPECT_FALSE(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()).has_value());
+    p = litPair();
+    p.deferred.settings.gbuffer = GBufferEncoding::compact;
+    EXPECT_EQ(p.of(gpu::DEBUG_lit).max, 0) << "another encoding explains nothing";
+}
+
+Report reportOf(const Pair& p) {
+    Report report;
+    report.device.type = p.cpu ? "cpu" : "discrete";
+    report.frames = {p.deferred, p.forward};
+    return report;
+}
+const ChannelDiff& channelOf(const Comparison& comparison, gpu::uint number) {
+    return *std::ranges::find_if(comparison.channels, [&](const ChannelDiff& c) {
+        return c.mode->number == static_cast<int>(number);
+    });
+}
+
+TEST(Diff, EqualFramesPassAndForwardOnlyNeverCounts) {
+    const Pair p;
+    const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
+    EXPECT_TRUE(c.passed());
+    EXPECT_EQ(c.channels.size(), debugModes().size());
+    EXPECT_EQ(channelOf(c, gpu::DEBUG_texcoords).verdict, Verdict::forward_only);
+}
+
+TEST(Diff, EveryChannelCanFail) {
+    for (const DebugMode& mode : debugModes()) {
+        if (mode.maker == MadeBy::forward_only) continue;
+        Pair p;
+        float& value = p.forward.channels[mode.number].data[0];
+        value = mode.metric == Metric::exact ? value + 1 : -value;
+        const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
+        EXPECT_FALSE(c.passed()) << mode.name;
+        EXPECT_EQ(std::ranges::count(c.channels, Verdict::fail, &ChannelDiff::verdict), 1) << mode.name;
+        EXPECT_FALSE(channelOf(c, static_cast<gpu::uint>(mode.number)).reason.empty());
+
+        Pair bad;
+        bad.deferred.channels[mode.number].data[0] = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_FALSE(compareFrames(reportOf(bad), 0, 1, bad.needs).passed()) << mode.name << ": NaN";
+    }
+}
+
+TEST(Diff, TheUnexplainedFailsWithinTheTolerance) {
+    Pair p = litPair();
+    p.deferred.channels[gpu::DEBUG_lit].data = {1.2f, 1.2f, 1.2f};
+    const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
+    const ChannelDiff& lit = channelOf(c, gpu::DEBUG_lit);
+    EXPECT_LT(lit.stats.max, lit.tolerance.max);
+    EXPECT_EQ(lit.unexplained_pixels, 1u);
+    EXPECT_EQ(lit.verdict, Verdict::fail);
+}
+
+TEST(Diff, AFrameThatItsCaptureDoesNotReproduceFails) {
+    Pair p;
+    p.forward.counters.unreproduced_pixels = 1;
+    const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
+    EXPECT_FALSE(c.passed());
+    ASSERT_EQ(c.failures.size(), 1u);
+    EXPECT_NE(c.failures[0].find("forward_plus"), std::string::npos);
+}
+
+TEST(Diff, NonFiniteLitIsSaidThoughBothAgree) {
+    Pair p;
+    for (Frame* frame : {&p.deferred, &p.forward}) {
+        frame->channels[gpu::DEBUG_lit].data[0] = std::numeric_limits<float>::infinity();
+        frame->counters.nonfinite_pixels = 1;
+    }
+    const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
+    EXPECT_TRUE(c.passed());
+    EXPECT_EQ(c.notes.size(), 2u);
+}
+
+TEST(Diff, OtherSizesAndNoCommonChannelAreErrors) {
+    Pair p;
+    p.forward.settings.size.width = 7;
+    EXPECT_THROW(compareFrames(reportOf(p), 0, 1, p.needs), std::runtime_error);
+    Pair q;
+    q.deferred.channels.clear();
+    EXPECT_THROW(compareFrames(reportOf(q), 0, 1, q.needs), std::runtime_error);
+}
+
+TEST(Diff, TheBaselineIsOnTheLeft) {
+    for (const Path baseline : {Path::deferred, Path::forward_plus}) {
+        const Pair p;
+        const Report report = makeReport({p.forward, p.deferred}, {p.needs, p.needs}, {}, baseline);
+        ASSERT_EQ(report.comparisons.size(), 1u);
+        EXPECT_EQ(report.baseline(report.comparisons[0]).settings.path, baseline);
+    }
+}
+
+}  // namespace
+}  // namespace diptych
