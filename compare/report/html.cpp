@@ -64,7 +64,7 @@ std::string notes(const Report& report) {
     std::set<std::string> seen;
     std::string items;
     const auto add = [&](const std::string& note) {
-        if (seen.insert(note).second) items += "<li>" + markup(note) + "</li>";
+        if (seen.insert(note).second) items += fmt::format("<li>{}</li>", markup(note));
     };
     for (const Comparison& comparison : report.comparisons)
         for (const std::string& note : comparison.notes) add(note);

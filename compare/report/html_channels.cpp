@@ -150,7 +150,8 @@ private:
         const std::string there = fmt::format("worst pixel {}, {}", x, y);
         return "<div class=\"loupes\">" + loupe(pictures_.baseline, markup(left_.name), values(left_)) +
                loupe(pictures_.test, markup(right_.name), values(right_)) +
-               loupe(pictures_.difference, there, " " + number(channel_.stats.max)) + "</div>\n";
+               loupe(pictures_.difference, there, fmt::format(" {}", number(channel_.stats.max))) +
+               "</div>\n";
     }
 
     // Forward-only: one picture, no verdict to give.

@@ -89,7 +89,8 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice) {
         std::string prefix;
         if (report.comparisons.size() > 1) {
             std::string scene = slug(left.scene.substr(left.scene.find_last_of("/:") + 1));
-            const std::string camera = left.settings.camera.empty() ? "" : "-" + slug(cameraTitle(left));
+            const std::string camera =
+                left.settings.camera.empty() ? "" : fmt::format("-{}", slug(cameraTitle(left)));
             prefix = fmt::format("{}-{}{}.", i + 1, scene, camera);
         }
         for (const std::size_t frame : {comparison.baseline, comparison.test})
