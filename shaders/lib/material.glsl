@@ -5,6 +5,7 @@
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
 
+#include "shaders/lib/draw.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/surface.glsl"
 
@@ -14,8 +15,7 @@ layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec2 in_texcoord0;
 layout(location = 4) in vec2 in_texcoord1;
 layout(location = 5) in vec4 in_color;
-layout(location = 6) flat in uint in_material;
-layout(location = 7) in vec2 in_slot_texcoords[SLOT_COUNT];
+layout(location = 6) in vec2 in_slot_texcoords[SLOT_COUNT];
 
 layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
 layout(set = SET_MATERIAL, binding = SLOT_metallic_roughness) uniform sampler2D metallic_roughness_texture;
@@ -32,7 +32,7 @@ vec2 slotTexcoord(uint slot) {
 }
 
 vec4 baseColor() {
-    vec4 color = materials[in_material].base_color;
+    vec4 color = materials[constants.material].base_color;
     if (on(feature_base_color_texture)) color *= texture(base_color_texture, slotTexcoord(SLOT_base_color));
     if (on(feature_vertex_color)) color *= in_color;
     return color;
@@ -40,7 +40,7 @@ vec4 baseColor() {
 
 // Alpha mask. Every pass that draws the material asks here, so a pre-pass cuts what shading cuts.
 bool isCutOut(vec4 base_color) {
-    return on(feature_alpha_mask) && base_color.a < materials[in_material].alpha_cutoff;
+    return on(feature_alpha_mask) && base_color.a < materials[constants.material].alpha_cutoff;
 }
 
 // glTF 2.0: tangent space is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as MikkTSpace
@@ -49,7 +49,7 @@ vec3 shadingNormal() {
     vec3 n = in_normal;
     if (on(feature_normal_texture)) {
         vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
-        t.xy *= materials[in_material].normal_scale;
+        t.xy *= materials[constants.material].normal_scale;
         vec3 bitangent = in_tangent.w * cross(in_normal, in_tangent.xyz);
         n = t.x * in_tangent.xyz + t.y * bitangent + t.z * in_normal;
     }
@@ -64,7 +64,7 @@ vec3 triangleNormal(vec3 v) {
 }
 
 Surface surfaceFromMaterial(vec4 base_color) {
-    Material m = materials[in_material];
+    Material m = materials[constants.material];
     Surface s;
     s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
     s.normal = shadingNormal();
@@ -98,7 +98,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
             s.dielectric_f90 *= texture(specular_texture, slotTexcoord(SLOT_specular)).a;
         s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
     }
-    s.material_id = in_material;
+    s.material_id = constants.material;
     s.texcoord = in_texcoord0;
     return s;
 }

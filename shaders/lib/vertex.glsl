@@ -4,7 +4,7 @@
 #ifndef VERTEX_GLSL
 #define VERTEX_GLSL
 
-#include "shaders/lib/contract.glsl"
+#include "shaders/lib/draw.glsl"
 
 invariant gl_Position;
 

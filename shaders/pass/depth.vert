@@ -6,4 +6,4 @@
 
 layout(location = 0) in vec3 position;
 
-void main() { gl_Position = clipFromVertex(worldFromVertex(draws[gl_InstanceIndex], position)); }
+void main() { gl_Position = clipFromVertex(worldFromVertex(draws[constants.draw], position)); }

@@ -11,6 +11,7 @@ layout(set = 3, binding = 1, scalar) buffer DrawArray { Draw draw_array[]; };
 layout(set = 3, binding = 2, scalar) buffer MaterialArray { Material material_array[]; };
 layout(set = 3, binding = 3, scalar) buffer LightArray { Light light_array[]; };
 layout(set = 3, binding = 4, scalar) buffer VertexAttributesArray { VertexAttributes vertex_attributes_array[]; };
+layout(set = 3, binding = 6, scalar) buffer DrawConstantsArray { DrawConstants draw_constants_array[]; };
 layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
 
 void main() {
@@ -19,5 +20,6 @@ void main() {
     material_array[0] = material_array[1];
     light_array[0] = light_array[1];
     vertex_attributes_array[0] = vertex_attributes_array[1];
+    draw_constants_array[0] = draw_constants_array[1];
     texture_transform_array[0] = texture_transform_array[1];
 }

@@ -17,8 +17,7 @@ layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec2 out_texcoord0;
 layout(location = 4) out vec2 out_texcoord1;
 layout(location = 5) out vec4 out_color;
-layout(location = 6) flat out uint out_material;
-layout(location = 7) out vec2 out_slot_texcoords[SLOT_COUNT];
+layout(location = 6) out vec2 out_slot_texcoords[SLOT_COUNT];
 
 // KHR_texture_transform and the choice of the UV set.
 vec2 slotTexcoord(Material m, uint slot) {
@@ -28,7 +27,7 @@ vec2 slotTexcoord(Material m, uint slot) {
 }
 
 void main() {
-    Draw draw = draws[gl_InstanceIndex];
+    Draw draw = draws[constants.draw];
     out_world = worldFromVertex(draw, position);
     gl_Position = clipFromVertex(out_world);
     out_normal = normalize(draw.normal_from_object * normal);
@@ -36,8 +35,7 @@ void main() {
     out_texcoord0 = texcoord0;
     out_texcoord1 = texcoord1;
     out_color = color;
-    out_material = draw.material;
     if (on(feature_texture_transform) || on(feature_second_texcoord))
         for (uint slot = 0; slot < SLOT_COUNT; ++slot)
-            out_slot_texcoords[slot] = slotTexcoord(materials[draw.material], slot);
+            out_slot_texcoords[slot] = slotTexcoord(materials[constants.material], slot);
 }

@@ -8,19 +8,25 @@ CONTRACT_BEGIN
 
 // What a vertex carries beside its position (which has a buffer of its own: a depth pass reads no more).
 struct VertexAttributes {
-    vec3 normal;      // object, unit
-    vec4 tangent;     // object; w: sign of the bitangent
+    vec3 normal;   // object, unit
+    vec4 tangent;  // object; w: sign of the bitangent
     vec2 texcoord0;
     vec2 texcoord1;
-    vec4 color;       // linear Rec.709, alpha
+    vec4 color;  // linear Rec.709, alpha
 };
 
-// One draw of one primitive; gl_InstanceIndex names it.
+// One draw of one primitive.
 struct Draw {
     mat4x3 world_from_object;  // world axes, camera as origin, m: subtracted in double
     mat3 normal_from_object;   // inverse transpose of the linear part, scaled to keep lengths near 1
-    uint material;
     float handedness;          // -1 where the transform mirrors, else 1
+};
+
+// Push constants of a draw. Indices that come from here are the same for all lanes and known to be: lavapipe
+// then loads once for eight pixels what it would otherwise gather.
+struct DrawConstants {
+    uint draw;      // into the draws
+    uint material;  // into the materials
 };
 
 CONTRACT_END

@@ -24,11 +24,11 @@ glm::dmat3 normalFromObject(const glm::dmat3& m) {
     return cofactors * ((glm::determinant(m) < 0 ? -1.0 : 1.0) / length);
 }
 
-gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye, std::uint32_t material) {
+gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye) {
     const glm::dmat3 linear(worldFromObject);
     glm::dmat4 fromCamera = worldFromObject;
     fromCamera[3] -= glm::dvec4(eye, 0.0);
-    return {glm::mat4x3(fromCamera), glm::mat3(normalFromObject(linear)), material,
+    return {glm::mat4x3(fromCamera), glm::mat3(normalFromObject(linear)),
             glm::determinant(linear) < 0 ? -1.0f : 1.0f};
 }
 
@@ -77,7 +77,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         item.draw = static_cast<std::uint32_t>(list.draws.size());
         item.variant = materials.variant(range.material);
         if (range.vertex_color) item.variant.set(gpu::FEATURE_vertex_color);
-        list.draws.push_back(gpuDraw(instance.world_from_object, eye, range.material));
+        list.draws.push_back(gpuDraw(instance.world_from_object, eye));
         item.mirrored = list.draws.back().handedness < 0;
         list.items.push_back(item);
     }

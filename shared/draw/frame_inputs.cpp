@@ -3,6 +3,7 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/geometry.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/vulkan/check.h"
 
@@ -16,6 +17,8 @@ namespace {
 // In the order of BINDING_* of SET_FRAME.
 constexpr std::array frameTypes{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                 VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+constexpr VkShaderStageFlags drawStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 bool needsLight(int mode) {
     const auto number = static_cast<gpu::uint>(mode);
@@ -35,13 +38,14 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material) : frame(makeSet
     gbufferTypes.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     gbuffer = makeSetLayout(device, gbufferTypes);
     const std::array<VkDescriptorSetLayout, 3> sets{frame, material, gbuffer};
+    const VkPushConstantRange constants{drawStages, 0, sizeof(gpu::DrawConstants)};
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .pNext = nullptr,
                                           .flags = 0,
                                           .setLayoutCount = sets.size(),
                                           .pSetLayouts = sets.data(),
-                                          .pushConstantRangeCount = 0,
-                                          .pPushConstantRanges = nullptr};
+                                          .pushConstantRangeCount = 1,
+                                          .pPushConstantRanges = &constants};
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
     pipeline = OwnedPipelineLayout(device.handle(), layout);
@@ -102,8 +106,11 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
             // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
             vkCmdSetFrontFace(commands,
                               item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+            const gpu::DrawConstants constants{item.draw, item.range.material};
+            vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants,
+                               &constants);
             vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
-                             item.range.vertex_offset, item.draw);
+                             item.range.vertex_offset, 0);
             last = &item;
             lastPipeline = pipelines[i];
         }
