@@ -15,10 +15,10 @@ namespace {
 // Why a channel fails; empty where it passes.
 std::string faultOf(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
-        return fmt::format("{} pixels differ from what the encoding explains", *channel.unexplained_pixels);
+        return fmt::format("{} pixel(s) differ from what the encoding explains", *channel.unexplained_pixels);
     if (channel.stats.infinite > 0)
         return fmt::format(
-            "{} pixels are infinitely far apart (a NaN or infinity against a number, or a baseline "
+            "{} pixel(s) are infinitely far apart (a NaN or infinity against a number, or a baseline "
             "of zero)",
             channel.stats.infinite);
     if (!(channel.stats.max <= channel.tolerance.max))
@@ -43,7 +43,7 @@ void readCounters(const Frame& frame, Comparison& comparison) {
     const FrameCounters& counters = frame.counters;
     if (counters.unreproduced_pixels > 0)
         comparison.failures.push_back(fmt::format(
-            "{}: {} pixels of the capture's lit are not the timed pipeline's, so its channels may belong "
+            "{}: {} pixel(s) of the capture's lit are not the timed pipeline's, so its channels may belong "
             "to another picture",
             frame.name, counters.unreproduced_pixels));
     if (counters.overflowed_lists > 0)
@@ -51,7 +51,7 @@ void readCounters(const Frame& frame, Comparison& comparison) {
                                                   frame.name, counters.overflowed_lists));
     if (counters.nonfinite_pixels > 0)
         comparison.notes.push_back(
-            fmt::format("{}: lit is NaN or infinite at {} pixels", frame.name, counters.nonfinite_pixels));
+            fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));
 }
 
 }  // namespace

@@ -211,7 +211,8 @@ Image8 errorPicture(const Image& errors, double top) {
         else if (e > top * (1 + 1e-6))  // an error image is float32, its top a double
             put(result, i, beyondColor);
         else if (e > 0)
-            put(result, i, map[static_cast<std::size_t>(std::lround(1024 * std::min(e / top, 1.0)))]);
+            put(result, i,
+                map[static_cast<std::size_t>(std::lround(1024 * std::sqrt(std::min(e / top, 1.0))))]);
     }
     return result;
 }

@@ -50,7 +50,8 @@ double srgbFromLinear(double linear);
 // space").
 std::array<std::uint8_t, 3> errorColor(double t);
 
-// W x H x 1 errors by errorColor, `top` being its end; above `top` cyan, infinite magenta, 0 black.
+// W x H x 1 errors by errorColor(sqrt(error / top)), so that the small ones of a skewed lot are seen too;
+// above `top` cyan, infinite magenta, 0 black.
 Image8 errorPicture(const Image& errors, double top);
 constexpr std::array<std::uint8_t, 3> beyondColor{40, 230, 240}, nonfiniteColor{255, 0, 255};
 

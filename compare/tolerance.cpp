@@ -96,6 +96,12 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
     const bool deferredIsBaseline = pair.baseline.settings.path == Path::deferred;
     const ChannelStats effect = channelStats(mode.metric, mode.kind, deferredIsBaseline ? *through : own,
                                              deferredIsBaseline ? own : *through, pair.coverage);
+    if (effect.infinite > 0)
+        return {0,
+                fmt::format(
+                    "forward+ shading what the G-buffer gives back is a NaN or infinity against a number at "
+                    "{} pixel(s), which explains nothing",
+                    effect.infinite)};
     return {effect.max,
             fmt::format(
                 "forward+ shading what the {} G-buffer gives back moves by up to {:.3g} (mean {:.3g}, worst "

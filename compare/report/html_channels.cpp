@@ -96,10 +96,11 @@ private:
         return fmt::format(
             "<figure><div class=\"stage\">{}{}</div><figcaption><div class=\"legend\"><div class=\"ramp\" "
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
-            "mono\"><span>0</span><span>{} "
+            "mono\"><span>0</span><span>{}</span><span>{} "
             "({})</span></div></div><span>black: equal</span>{}</figcaption></figure>\n",
             image(pictures_.difference, fmt::format("difference of {}", channel_.mode->name)), worstMark(),
-            stops, number(pictures_.error_top), toTolerance ? "tolerance" : "max", beyond);
+            stops, number(pictures_.error_top / 4), number(pictures_.error_top),
+            toTolerance ? "tolerance" : "max", beyond);
     }
 
     std::string numbers() const {

@@ -41,7 +41,7 @@ h1 .verdict { font-size: 17px; padding: 2px 14px; vertical-align: 3px; margin-ri
 table { border-collapse: collapse; width: 100%; }
 th { text-align: left; font-size: 12px; font-weight: 600; color: var(--soft); padding: 0 12px 6px 0; white-space: nowrap; }
 td { padding: 6px 12px 6px 0; border-top: 1px solid var(--line); vertical-align: middle; white-space: nowrap; }
-td:last-child, th:last-child { padding-right: 0; } th.n, td.n { text-align: right; } td.wide { white-space: normal; }
+td:last-child, th:last-child { padding-right: 0; } td.n + td:not(.n), th.n + th:not(.n) { padding-left: 10px; } th.n, td.n { text-align: right; } td.wide { white-space: normal; }
 tr.differs td { color: var(--accent); }
 .meter { display: block; height: 6px; min-width: 90px; border-radius: 3px; background: var(--well); overflow: hidden; }
 .meter i { display: block; height: 100%; background: var(--pass); } .meter.fail i { background: var(--fail); }
@@ -79,7 +79,7 @@ figure { margin: 0; } figcaption { font-size: 13px; color: var(--soft); margin-t
 dl { display: grid; grid-template-columns: auto 1fr; gap: 3px 14px; margin: 14px 0 0; font-size: 14px; }
 dt { color: var(--soft); } dd { margin: 0; text-align: right; }
 .because { margin-top: 14px; padding-top: 12px; border-top: 1px solid var(--line); font-size: 14px; }
-.loupes { display: flex; flex-wrap: wrap; gap: 14px; margin-top: 14px; } .loupes figcaption { display: block; max-width: 300px; }
+.loupes { display: flex; flex-wrap: wrap; gap: 14px; margin-top: 14px; } .loupes figure { min-width: 180px; } .loupes figcaption { display: block; max-width: 300px; }
 .loupe { position: relative; display: block; width: 136px; height: 136px; overflow: hidden; border-radius: 5px; background: var(--well); }
 .loupe img { position: absolute; max-width: none; image-rendering: pixelated; }
 .loupe::after { content: ""; position: absolute; left: 64px; top: 64px; width: 8px; height: 8px; outline: 1px solid #fff; box-shadow: 0 0 0 2px #000; }
