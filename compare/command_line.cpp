@@ -137,7 +137,10 @@ void addDevice(CLI::App& app, Options& options) {
 
 // Everything that `command` understands.
 void describe(CLI::App& app, const std::string& command, Options& options, Said& said) {
-    if (command == "devices") return addOutput(app, options);
+    if (command == "devices") {
+        app.add_flag("--validate", options.validate, "with Vulkan validation; any message is a failure");
+        return addOutput(app, options);
+    }
 
     if (command == "diff") {
         app.add_option("images", options.scenes, "reference and test image")

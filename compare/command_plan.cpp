@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "compare/commands.h"
-#include "shared/scene/requirements.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,9 +66,7 @@ int runPlan(const Options& options) {
     Json scenes = Json::array();
     for (const std::string& name : options.scenes) {
         const Scene scene = loadScene(name);
-        Pose pose = poseAt(scene, options.settings.time);
-        pose.lights = litBy(scene, pose, options.settings);
-        const ScenePlan result{scene.name, requirements(scene, pose), scene.notes,
+        const ScenePlan result{scene.name, needsOf(scene, options.settings), scene.notes,
                                planPaths(device, scene, settings)};
         if (options.json)
             scenes.push_back(jsonOf(result));

@@ -31,6 +31,12 @@ std::vector<Settings> plan(const Options& options, const std::vector<Path>& path
     return all;
 }
 
+Requirements needsOf(const Scene& scene, const Settings& settings) {
+    Pose pose = poseAt(scene, settings.time);
+    pose.lights = litBy(scene, pose, settings);
+    return requirements(scene, pose);
+}
+
 RenderOptions renderOptions(const Options& options) {
     RenderOptions render;
     render.channels = options.channels;
@@ -43,6 +49,10 @@ RenderOptions renderOptions(const Options& options) {
 
 DeviceOptions deviceOptions(const Options& options) {
     return {options.device, options.validate};
+}
+
+ReportDevice reportDevice(const Device& device) {
+    return {device.info().name, device.info().driver, device.info().type};
 }
 
 void checkValidation(const Device& device) {

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "compare/command_line.h"
+#include "compare/diff.h"
 #include "compare/render.h"
+#include "shared/scene/requirements.h"
 #include "shared/vulkan/device.h"
 
 #include <string>
@@ -24,8 +26,12 @@ int runDevices(const Options& options);
 // One Settings per camera and path, the paths of one camera side by side. Throws the first problem().
 std::vector<Settings> plan(const Options& options, const std::vector<Path>& paths);
 
+// What the scene needs modelled, with the lights that the settings bring.
+Requirements needsOf(const Scene& scene, const Settings& settings);
+
 RenderOptions renderOptions(const Options& options);
 DeviceOptions deviceOptions(const Options& options);
+ReportDevice reportDevice(const Device& device);
 
 // With --validate any message of the layers is a failure: throws how many there were and the first one.
 void checkValidation(const Device& device);

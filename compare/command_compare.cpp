@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "compare/commands.h"
+#include "compare/report/report.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+namespace {
+
+std::filesystem::path reportFolder(const Options& options) {
+    const Output output = outputOf(options.out.empty() ? "diptych-report" : options.out);
+    if (output.kind != OutputKind::folder)
+        throw std::runtime_error(
+            fmt::format("-o {}: a report is a folder; give a name without ending", output.path.string()));
+    checkReplaceable(output, "report.json", options.force);
+    return output.path;
+}
+
+}  // namespace
+
+int runCompare(const Options& options) {
+    const std::vector<Settings> settings = plan(options, {Path::deferred, Path::forward_plus});
+    const std::filesystem::path folder = reportFolder(options);
+    if (options.path_given) note(options, "--path is not used: compare draws both");
+    RenderOptions render = renderOptions(options);
+    render.through_gbuffer = true;
+
+    Device device(deviceOptions(options));
+    std::vector<Frame> frames;
+    std::vector<Requirements> needs;
+    for (const std::string& name : options.scenes) {
+        const Scene scene = loadScene(name);
+        needs.insert(needs.end(), settings.size(), needsOf(scene, options.settings));
+        std::ranges::move(renderAll(device, scene, settings, render), std::back_inserter(frames));
+    }
+    checkValidation(device);
+
+    const Report report = makeReport(std::move(frames), needs, reportDevice(device), options.baseline);
+    const std::string json =
+        writeReport(report, folder, {options.picture, options.single_file, options.force});
+    if (options.json)
+        fmt::print("{}", json);
+    else if (!options.quiet)
+        fmt::print("{}report: {}\n", reportTable(report), (folder / "index.html").string());
+    return report.passed() ? 0 : 1;
+}
+
+}  // namespace diptych
