@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// The verdict that users see: every built-in scene passes at the tolerances that its encoding derives, and
+// one constant changed in what one path draws fails the channel that shows it.
+#include "compare/diff.h"
+#include "shared/scene/requirements.h"
+#include "tests/image/scenes.h"
+
+namespace diptych::tests {
+namespace {
+
+Report verdictOn(std::vector<Frame> frames, const Scene& scene) {
+    const Requirements needs = requirements(scene, poseAt(scene, 0));
+    const DeviceInfo& info = device().info();
+    return makeReport(std::move(frames), {needs, needs}, {info.name, info.driver, info.type});
+}
+
+std::string failuresOf(const Report& report) {
+    std::string text;
+    for (const Comparison& comparison : report.comparisons) {
+        for (const std::string& failure : comparison.failures) text += failure + "\n";
+        for (const ChannelDiff& channel : comparison.channels)
+            if (channel.verdict == Verdict::fail)
+                text += std::string(channel.mode->name) + ": " + channel.reason + "\n";
+    }
+    return text;
+}
+
+class BuiltinVerdict : public testing::TestWithParam<std::string> {};
+class AssetVerdict : public testing::TestWithParam<std::string> {};
+
+void expectPass(const Scene& scene, Size size) {
+    for (const GBufferEncoding encoding :
+         {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
+        Settings settings = smallPicture(encoding);
+        settings.size = size;
+        const Report report = verdictOn(bothPaths(scene, settings), scene);
+        EXPECT_TRUE(report.passed()) << nameOf(encoding) << "\n" << failuresOf(report);
+        ASSERT_EQ(report.comparisons.size(), 1u);
+        for (const ChannelDiff& channel : report.comparisons[0].channels)
+            EXPECT_FALSE(channel.tolerance.because.empty());
+    }
+}
+
+TEST_P(BuiltinVerdict, Passes) {
+    expectPass(loadScene(GetParam()), {160, 90});
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinVerdict, testing::ValuesIn(builtinScenes()),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+TEST_P(AssetVerdict, Passes) {
+    const std::filesystem::path file = assets() / GetParam();
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
+    expectPass(loadScene(file.string()), {320, 180});
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AssetVerdict, testing::ValuesIn(assetScenes()), [](const auto& scene) {
+    return testName(std::filesystem::path(scene.param).stem().string());
+});
+
+// One changed constant for every channel's gate.
+struct Twin {
+    const char* channel;
+    void (*change)(Scene&);
+};
+
+class VerdictTwin : public testing::TestWithParam<Twin> {};
+
+TEST_P(VerdictTwin, Fails) {
+    const Scene scene = loadScene("builtin:gallery");
+    Scene changed = scene;
+    GetParam().change(changed);
+    const Settings settings = smallPicture(GBufferEncoding::standard);
+    std::vector<Frame> frames = bothPaths(scene, settings);
+    frames[1] = bothPaths(changed, settings)[1];
+    const Report report = verdictOn(std::move(frames), scene);
+    EXPECT_FALSE(report.passed());
+    bool failed = false;
+    for (const ChannelDiff& channel : report.comparisons.at(0).channels)
+        if (channel.mode->name == GetParam().channel) failed = channel.verdict == Verdict::fail;
+    EXPECT_TRUE(failed) << GetParam().channel << " must fail; these did:\n" << failuresOf(report);
+}
+
+void nudge(Scene& scene) {
+    for (Node& node : scene.nodes) node.parent_from_node[3].x += 1e-4;
+}
+
+// Every step is about twice what the standard G-buffer's encoding allows itself.
+const Twin twins[] = {
+    {"lit", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
+    {"albedo",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.base_color.r = m.base_color.r * 0.98f - 0.001f;
+     }},
+    {"normals",
+     [](Scene& s) {
+         for (Mesh& mesh : s.meshes)
+             for (Primitive& p : mesh.primitives)
+                 for (auto& n : p.normals) n.x += 2e-4f;
+     }},
+    {"metallic",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.metallic = std::abs(m.metallic - 0.004f);
+     }},
+    {"roughness",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.roughness -= 0.0003f;
+     }},
+    {"emission",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.emissive *= 1.005f;
+     }},
+    {"occlusion",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.occlusion_strength *= 0.9f;
+     }},
+    {"specular",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.ior += 0.1f;
+     }},
+    {"material_id",
+     [](Scene& s) {
+         for (Mesh& mesh : s.meshes)
+             for (Primitive& p : mesh.primitives)
+                 p.material = (p.material + 1) % static_cast<int>(s.materials.size());
+     }},
+    {"depth", nudge},
+    {"position", nudge},
+    {"geometric_normal",
+     [](Scene& s) {
+         for (Node& n : s.nodes) n.parent_from_node[0].y += 1e-3;
+     }},
+    {"lit_diffuse", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
+    {"lit_specular", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
+};
+
+INSTANTIATE_TEST_SUITE_P(Channels, VerdictTwin, testing::ValuesIn(twins),
+                         [](const auto& twin) { return std::string(twin.param.channel); });
+
+// Every channel of the list that both paths make has a twin here.
+TEST(VerdictTwins, CoverEverySharedChannel) {
+    for (const DebugMode& mode : debugModes()) {
+        const bool twin = std::any_of(std::begin(twins), std::end(twins),
+                                      [&](const Twin& t) { return t.channel == mode.name; });
+        EXPECT_EQ(twin, mode.maker == MadeBy::both) << mode.name;
+    }
+}
+
+// A lit that the capture does not reproduce, or that is not finite, fails whatever the channels say.
+TEST(Verdict, AnUnreproducedLitFails) {
+    const Scene scene = loadScene("builtin:triangle");
+    std::vector<Frame> frames = bothPaths(scene, smallPicture(GBufferEncoding::standard));
+    EXPECT_TRUE(verdictOn(frames, scene).passed());
+    frames[0].counters.unreproduced_pixels = 1;
+    EXPECT_FALSE(verdictOn(frames, scene).passed());
+}
+
+}  // namespace
+}  // namespace diptych::tests
