@@ -86,7 +86,7 @@ std::string overview(const Comparison& comparison, std::size_t index) {
         "<div class=\"box scroll\"><table><tr><th>channel</th><th class=\"optional\">metric</th><th "
         "class=\"n\">max</th>"
         "<th class=\"n optional\">mean</th><th class=\"n optional\">p99.9</th><th class=\"n\">tolerance</th>"
-        "<th>max of tolerance</th><th>verdict</th></tr>";
+        "<th class=\"optional\">max of tolerance</th><th>verdict</th></tr>";
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
         out += fmt::format("<tr><td><a href=\"#c{}-{}\">{}</a></td><td class=\"optional soft\">{}</td>",
@@ -95,11 +95,11 @@ std::string overview(const Comparison& comparison, std::size_t index) {
             out +=
                 "<td class=\"n\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
                 "optional\">\u2013</td>"
-                "<td class=\"n\">\u2013</td><td></td>";
+                "<td class=\"n\">\u2013</td><td class=\"optional\"></td>";
         else
             out += fmt::format(
                 "<td class=\"n\">{}</td><td class=\"n optional\">{}</td><td class=\"n optional\">{}</td>"
-                "<td class=\"n\">{}</td><td>{}</td>",
+                "<td class=\"n\">{}</td><td class=\"optional\">{}</td>",
                 number(s.max), number(s.mean), number(s.p999), number(channel->tolerance.max),
                 used(*channel));
         out += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", nameOf(channel->verdict));

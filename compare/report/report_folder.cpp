@@ -66,7 +66,7 @@ void ReportFolder::put(const std::vector<std::string>& files, const std::string&
     for (const std::string& file : files)
         if (file != mark) move(file);
     for (const std::string& file : earlier)
-        if (std::ranges::count(files, file) == 0) {
+        if (std::ranges::count(files, file) == 0 && fs::is_regular_file(fs::symlink_status(folder_ / file))) {
             fs::remove(folder_ / file, error);
             if (error) fail(folder_ / file, error);
         }

@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: MIT
+// What a report leaves: files, keys, escapes, and that nothing of others is touched.
+#include "compare/report/report.h"
+#include "compare/picture.h"
+#include "compare/report/files.h"
+#include "compare/report/text.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/atomic_file.h"
+#include "shared/image/exr.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+fs::path folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const fs::path path = fs::path(testing::TempDir()) / "diptych_report" / test->name();
+    fs::remove_all(path);
+    fs::create_directories(path);
+    return path;
+}
+
+std::string contentsOf(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+std::vector<std::string> namesIn(const fs::path& path) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path)) names.push_back(entry.path().filename());
+    std::ranges::sort(names);
+    return names;
+}
+
+// The fault of a text that is no well-formed markup: an unclosed or crossed element, a bare & or <. `voids`
+// are elements that HTML closes by itself.
+std::string markupFault(const std::string& text, const std::set<std::string>& voids = {}) {
+    std::vector<std::string> open;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '&' && text.find(';', i) > i + 8) return "bare & at " + text.substr(i, 20);
+        if (text[i] != '<') continue;
+        const std::size_t end = text.find('>', i);
+        if (end == std::string::npos) return "bare < at " + text.substr(i, 20);
+        std::string tag = text.substr(i + 1, end - i - 1);
+        if (std::ranges::count(tag, '"') % 2 != 0 || tag.find('<') != std::string::npos)
+            return "broken tag " + tag;
+        i = end;
+        if (tag.starts_with('?') || tag.starts_with('!') || tag.ends_with('/')) continue;
+        const std::string name = tag.substr(0, tag.find(' '));
+        if (tag.starts_with('/')) {
+            if (open.empty() || "/" + open.back() != tag) return "unexpected <" + tag + ">";
+            open.pop_back();
+        } else if (!voids.contains(name)) {
+            open.push_back(name);
+            if (name == "style" || name == "script") i = text.find("</" + name, end) - 1;
+        }
+    }
+    return open.empty() ? "" : "unclosed <" + open.back() + ">";
+}
+
+// Both paths of one small scene, one surface pixel among background; every channel there.
+std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
+    std::vector<Frame> frames(2);
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Frame& frame = frames[path == Path::forward_plus];
+        frame.name = std::string(nameOf(path));
+        frame.scene = scene;
+        frame.settings.path = path;
+        frame.settings.size = {4, 3};
+        frame.background = {0, 0, 1};
+        frame.camera.far = std::numeric_limits<double>::infinity();
+        frame.time = {2, 1, 3, 5};
+        frame.passes = {{"shade", 1.5}};
+        for (const DebugMode& mode : debugModes()) {
+            if (path == Path::deferred && mode.maker == MadeBy::forward_only) continue;
+            Image& image = frame.channels[mode.number] = Image(4, 3, mode.width);
+            if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
+            for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;
+        }
+    }
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
+        frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+    return frames;
+}
+
+Report reportOf(std::vector<Frame> frames) {
+    const std::vector<Requirements> needs(frames.size());
+    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"});
+}
+Report passing() {
+    return reportOf(bothFrames());
+}
+Report failing() {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    frames[1].channels[gpu::DEBUG_albedo].at(1, 2, 0) = std::numeric_limits<float>::quiet_NaN();
+    return reportOf(std::move(frames));
+}
+Json channelOf(const Json& report, const std::string& name) {
+    for (const Json& channel : report["comparisons"][0]["channels"])
+        if (channel["name"] == name) return channel;
+    return {};
+}
+
+TEST(Report, LeavesWhatTheContractNames) {
+    const fs::path out = folder() / "report";
+    const std::string json = writeReport(passing(), out, {});
+    for (const char* file : {"index.html", "report.json", "junit.xml", "deferred.exr", "forward_plus.exr",
+                             "lit.deferred.png", "lit.forward_plus.png", "texcoords.forward_plus.png"})
+        EXPECT_TRUE(fs::exists(out / file)) << file;
+    EXPECT_EQ(contentsOf(out / "report.json"), json);
+    EXPECT_EQ(namesIn(out.parent_path()), std::vector<std::string>{"report"}) << "nothing temporary stays";
+    EXPECT_EQ(namesIn(out), Json::parse(json)["files"].get<std::vector<std::string>>());
+
+    const std::vector<ExrLayer> layers = readExr(out / "forward_plus.exr");
+    std::set<std::string> channels;
+    for (const ExrLayer& layer : layers) channels.insert(layer.channels.begin(), layer.channels.end());
+    for (const DebugMode& mode : debugModes())
+        for (const std::string& name : exrChannels(mode)) EXPECT_TRUE(channels.contains(name)) << name;
+}
+
+TEST(Report, JsonHasTheFixedKeys) {
+    const Json json = Json::parse(writeReport(passing(), folder() / "report", {}));
+    EXPECT_EQ(json["schema"], 1);
+    EXPECT_EQ(json["verdict"], "pass");
+    for (const char* key : {"name", "driver", "type"}) EXPECT_TRUE(json["device"].contains(key)) << key;
+    ASSERT_EQ(json["frames"].size(), 2u);
+    for (const Json& frame : json["frames"]) {
+        for (const char* key :
+             {"name", "path", "scene", "camera", "size", "settings", "ms", "passes", "bytes", "counters"})
+            EXPECT_TRUE(frame.contains(key)) << key;
+        EXPECT_EQ(frame["ms"], (Json{{"median", 2.0}, {"min", 1.0}, {"max", 3.0}, {"runs", 5}}));
+        EXPECT_EQ(frame["size"], (Json{4, 3}));
+        EXPECT_TRUE(frame["camera"]["far"].is_null()) << "JSON has no infinity";
+        for (const char* key : {"images", "buffers", "gbuffer_per_pixel"})
+            EXPECT_TRUE(frame["bytes"].contains(key)) << key;
+        for (const char* key : {"nonfinite_pixels", "overflowed_lists", "lights"})
+            EXPECT_TRUE(frame["counters"].contains(key)) << key;
+        EXPECT_EQ(settingsFromJson(frame["settings"].dump()).size, (Size{4, 3}));
+    }
+    const Json& comparison = json["comparisons"][0];
+    for (const char* key : {"scene", "camera", "baseline", "test", "verdict", "channels"})
+        EXPECT_TRUE(comparison.contains(key)) << key;
+    EXPECT_EQ(comparison["baseline"], "deferred");
+    EXPECT_EQ(comparison["test"], "forward_plus");
+    EXPECT_EQ(comparison["channels"].size(), debugModes().size());
+    for (const Json& channel : comparison["channels"])
+        for (const char* key : {"number", "name", "metric", "max", "mean", "rmse", "p99", "p999", "flip",
+                                "worst_pixel", "tolerance", "because", "verdict"})
+            EXPECT_TRUE(channel.contains(key)) << channel["name"] << " " << key;
+    EXPECT_TRUE(json["encode_ms"].is_number());
+}
+
+TEST(Report, StatisticsWithoutAFiniteValueAreNull) {
+    const Json json = Json::parse(writeReport(failing(), folder() / "report", {}));
+    EXPECT_EQ(json["verdict"], "fail");
+    const Json only = channelOf(json, "texcoords"), nan = channelOf(json, "albedo"),
+               rough = channelOf(json, "roughness");
+    EXPECT_EQ(only["verdict"], "forward-only");
+    for (const char* key : {"max", "mean", "rmse", "p99", "p999", "flip", "worst_pixel", "tolerance"})
+        EXPECT_TRUE(only[key].is_null()) << key;
+    EXPECT_EQ(nan["verdict"], "fail");
+    EXPECT_TRUE(nan["max"].is_null());
+    EXPECT_EQ(nan["infinite_pixels"], 1);
+    EXPECT_EQ(nan["nonfinite_pixels"], (Json{{"baseline", 0}, {"test", 1}}));
+    EXPECT_EQ(rough["max"], 0.25);
+    EXPECT_EQ(rough["mean"], 0.25) << "the one covered pixel";
+    EXPECT_EQ(rough["worst_pixel"], (Json{1, 2}));
+    EXPECT_EQ(rough["worst_values"]["test"], Json::array({0.75}));
+}
+
+TEST(Report, JunitHasOneCasePerChannelAndIsWellFormed) {
+    const fs::path out = folder() / "report";
+    writeReport(failing(), out, {});
+    const std::string junit = contentsOf(out / "junit.xml");
+    EXPECT_EQ(markupFault(junit), "");
+    const auto count = [&](const std::string& what) {
+        std::size_t n = 0;
+        for (std::size_t at = junit.find(what); at != std::string::npos; at = junit.find(what, at + 1)) ++n;
+        return n;
+    };
+    EXPECT_EQ(count("<testcase "), debugModes().size());
+    EXPECT_EQ(count("<failure "), 2u);
+    EXPECT_EQ(count("<skipped "), 1u);
+    EXPECT_NE(junit.find("failures=\"2\""), std::string::npos);
+}
+
+TEST(Report, TheMarkupCheckFindsFaults) {
+    EXPECT_NE(markupFault("<a><b></a></b>"), "");
+    EXPECT_NE(markupFault("<a>"), "");
+    EXPECT_NE(markupFault("<a>x & y and more</a>"), "");
+    EXPECT_EQ(markupFault("<a b=\"c\">x &amp; y<br></a>", {"br"}), "");
+}
+
+const std::set<std::string> htmlVoids{"meta", "img", "input", "br"};
+
+TEST(Report, ThePageStandsAloneWithFailuresFirst) {
+    const fs::path out = folder() / "report";
+    writeReport(failing(), out, {});
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_EQ(markupFault(page, htmlVoids), "");
+    for (const char* external : {"http:", "https:", "src=\"/", "url(", "@import"})
+        EXPECT_EQ(page.find(external), std::string::npos) << external;
+    EXPECT_LT(page.find("Failures"), page.find("Channels"));
+    EXPECT_LT(page.find("id=\"c0-roughness\""), page.find("id=\"c0-lit\""))
+        << "a failing card before a passing one";
+    for (std::size_t at = page.find("src=\""); at != std::string::npos; at = page.find("src=\"", at + 1)) {
+        const std::string source = page.substr(at + 5, page.find('"', at + 5) - at - 5);
+        EXPECT_TRUE(fs::exists(out / source)) << source;
+    }
+}
+
+TEST(Report, ASinglePageHoldsItsPictures) {
+    const fs::path out = folder() / "report";
+    ReportOptions options;
+    options.single_file = true;
+    writeReport(failing(), out, options);
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_EQ(markupFault(page, htmlVoids), "");
+    EXPECT_EQ(page.find(".png\""), std::string::npos);
+    EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORw0KGgo"), std::string::npos)
+        << "a PNG's first bytes";
+    EXPECT_EQ(readPng(out / "lit.deferred.png").width, 4) << "beside it they keep their size";
+}
+
+TEST(Report, NamesOfOthersAreEscaped) {
+    const fs::path out = folder() / "report";
+    const std::string name = "a<b>&\"'\x01\xff.gltf";
+    Report report = reportOf(bothFrames(name));
+    report.frames[0].notes = {"<script>alert(1)</script>"};
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html"), junit = contentsOf(out / "junit.xml");
+    EXPECT_EQ(markupFault(page, htmlVoids), "");
+    EXPECT_EQ(markupFault(junit), "");
+    EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+    EXPECT_NE(junit.find("a&lt;b&gt;&amp;&quot;&#39;\xef\xbf\xbd\xef\xbf\xbd.gltf"), std::string::npos);
+    EXPECT_TRUE(Json::accept(contentsOf(out / "report.json")));
+}
+
+TEST(Report, MarkupReplacesWhatIsNoCharacter) {
+    const std::string bad = "\xef\xbf\xbd";
+    EXPECT_EQ(markup("gr\xc3\xbc\xc3\x9f"), "gr\xc3\xbc\xc3\x9f");
+    EXPECT_EQ(markup("\xf0\x9f\x99\x82"), "\xf0\x9f\x99\x82");
+    EXPECT_EQ(markup("\xc0\xaf"), bad + bad) << "an overlong slash";
+    EXPECT_EQ(markup("\xed\xa0\x80"), bad) << "a surrogate";
+    EXPECT_EQ(markup("\xe2\x82"), bad + bad) << "cut off";
+}
+
+TEST(Report, OursIsReplacedAndOthersStay) {
+    const fs::path out = folder() / "report";
+    writeReport(failing(), out, {});
+    EXPECT_TRUE(fs::exists(out / "roughness.difference.png"));
+    writeFile(out / "mine.txt", "keep");
+    writeReport(passing(), out, {});
+    EXPECT_FALSE(fs::exists(out / "roughness.difference.png")) << "the earlier report's own file";
+    EXPECT_EQ(contentsOf(out / "mine.txt"), "keep");
+    EXPECT_EQ(Json::parse(contentsOf(out / "report.json"))["verdict"], "pass");
+}
+
+TEST(Report, AnothersFolderNeedsForce) {
+    const fs::path out = folder() / "theirs";
+    fs::create_directories(out);
+    writeFile(out / "mine.txt", "keep");
+    EXPECT_THROW(writeReport(passing(), out, {}), std::runtime_error);
+    EXPECT_EQ(namesIn(out), std::vector<std::string>{"mine.txt"});
+    ReportOptions options;
+    options.force = true;
+    writeReport(passing(), out, options);
+    EXPECT_TRUE(fs::exists(out / "report.json"));
+    EXPECT_EQ(contentsOf(out / "mine.txt"), "keep");
+}
+
+TEST(Report, AnEditedListRemovesNothingOutside) {
+    const fs::path here = folder(), out = here / "report";
+    writeReport(passing(), out, {});
+    writeFile(here / "outside.txt", "keep");
+    Json json = Json::parse(contentsOf(out / "report.json"));
+    json["files"].push_back("../outside.txt");
+    json["files"].push_back("..");
+    writeFile(out / "report.json", json.dump());
+    writeReport(passing(), out, {});
+    EXPECT_EQ(contentsOf(here / "outside.txt"), "keep");
+}
+
+TEST(Report, SeveralComparisonsShareAFolder) {
+    const fs::path out = folder() / "report";
+    std::vector<Frame> frames = bothFrames("scenes/One.glb"), more = bothFrames("builtin:one");
+    for (Frame& frame : more) {
+        frame.settings.camera = "eye=1,2,3";
+        frames.push_back(frame);
+    }
+    const Json json = Json::parse(writeReport(reportOf(std::move(frames)), out, {}));
+    EXPECT_EQ(json["comparisons"].size(), 2u);
+    for (const char* file :
+         {"1-one-glb.deferred.exr", "2-one-eye-1-2-3.forward_plus.exr", "2-one-eye-1-2-3.lit.deferred.png"})
+        EXPECT_TRUE(fs::exists(out / file)) << file;
+    EXPECT_EQ(markupFault(contentsOf(out / "index.html"), htmlVoids), "");
+}
+
+TEST(Report, TheTableSaysFailuresFirstAndTheVerdictLast) {
+    const std::string table = reportTable(failing());
+    EXPECT_LT(table.find("roughness"), table.find("lit "));
+    EXPECT_TRUE(table.ends_with("FAIL: albedo, roughness beyond tolerance\n")) << table;
+    EXPECT_TRUE(reportTable(passing()).ends_with("pass: all 14 channels are within tolerance\n"));
+}
+
+TEST(Report, OneFrameAsFileOrFolder) {
+    const fs::path here = folder();
+    const Frame frame = bothFrames()[1];
+    const DebugMode& lit = debugMode(gpu::DEBUG_lit);
+    writeFrame(frame, {}, {OutputKind::exr, here / "a.exr"}, lit, {}, false);
+    EXPECT_EQ(readExr(here / "a.exr")[0].image.at(1, 2, 0), 0.5f);
+    writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, lit, {}, false);
+    EXPECT_EQ(readPng(here / "a.png").width, 4);
+    writeFrame(frame, {}, {OutputKind::folder, here / "a"}, lit, {}, false);
+    EXPECT_EQ(namesIn(here / "a"), (std::vector<std::string>{"forward_plus.exr", "frame.json", "lit.png"}));
+    // What it wrote itself it may replace, without force.
+    for (const auto& [kind, name] :
+         {std::pair{OutputKind::exr, "a.exr"}, {OutputKind::png, "a.png"}, {OutputKind::folder, "a"}})
+        EXPECT_NO_THROW(writeFrame(frame, {}, {kind, here / name}, lit, {}, false)) << name;
+    EXPECT_THROW(writeFrame(bothFrames()[0], {}, {OutputKind::png, here / "t.png"},
+                            debugMode(gpu::DEBUG_texcoords), {}, false),
+                 std::runtime_error);
+}
+
+TEST(Picture, BackgroundAndExposure) {
+    const Frame frame = bothFrames()[0];
+    const DebugMode& lit = debugMode(gpu::DEBUG_lit);
+    PictureChoice choice;
+    choice.tonemap = false;
+    const Exposure automatic =
+        exposureFor(choice, &frame.channels.at(gpu::DEBUG_lit), coverage(frame, frame));
+    EXPECT_DOUBLE_EQ(automatic.factor, 0.18 / 0.5) << "one covered pixel of luminance 0.5";
+    const Frame* frames[] = {&frame};
+    const Image8 image = picture(lit, frame, scaleFor(lit, automatic, frames));
+    EXPECT_EQ(image.data[3 * (2 * 4 + 1)], 118) << "sRGB of 0.18 is 117.6";
+    EXPECT_EQ(image.data[0], 0);
+    EXPECT_EQ(image.data[2], std::lround(255 * srgbFromLinear(0.36)))
+        << "background (0, 0, 1) at exposure 0.36";
+    choice.ev100 = 0;
+    EXPECT_DOUBLE_EQ(exposureFor(choice, nullptr, {}).factor, 1 / 1.2);
+    choice.exposure = 3;
+    EXPECT_EQ(exposureFor(choice, nullptr, {}).factor, 3);
+}
+
+TEST(Picture, SrgbByTheStandard) {
+    EXPECT_EQ(srgbFromLinear(0), 0);
+    EXPECT_DOUBLE_EQ(srgbFromLinear(1), 1);
+    EXPECT_NEAR(srgbFromLinear(0.0031308), 0.04045, 1e-5) << "both pieces meet";
+    EXPECT_NEAR(srgbFromLinear(0.2158605), 0.5019608, 1e-6) << "code 128";
+}
+
+// The curve's own claims: what is below its shoulder is only shifted by the Fresnel offset of 0.04; it
+// never leaves [0, 1] and keeps order.
+TEST(Picture, PbrNeutral) {
+    const auto mid = pbrNeutral({0.5f, 0.4f, 0.3f});
+    EXPECT_FLOAT_EQ(mid[0], 0.46f);
+    EXPECT_FLOAT_EQ(mid[2], 0.26f);
+    float last = -1;
+    for (float x = 0; x < 1000; x = x * 1.1f + 0.01f) {
+        const float y = pbrNeutral({x, x, x})[0];
+        EXPECT_GT(y, last - 1e-6f);
+        EXPECT_LE(y, 1);
+        last = y;
+    }
+}
+
+TEST(Picture, ErrorsBrightenMonotonicallyAndWhatIsBeyondStandsOut) {
+    double last = -1;
+    for (int i = 0; i <= 64; ++i) {
+        const auto c = errorColor(i / 64.0);
+        const auto linear = [](double v) {
+            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        };
+        const double y =
+            0.2126 * linear(c[0] / 255.0) + 0.7152 * linear(c[1] / 255.0) + 0.0722 * linear(c[2] / 255.0);
+        EXPECT_GT(y, last) << i;
+        last = y;
+    }
+    Image errors(4, 1, 1);
+    errors.data = {0, 0.5f, 2, std::numeric_limits<float>::infinity()};
+    const Image8 image = errorPicture(errors, 1);
+    const auto at = [&](std::size_t i) {
+        return std::array<std::uint8_t, 3>{image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]};
+    };
+    EXPECT_EQ(at(0), (std::array<std::uint8_t, 3>{}));
+    EXPECT_NE(at(1), at(0));
+    EXPECT_EQ(at(2), beyondColor);
+    EXPECT_EQ(at(3), nonfiniteColor);
+}
+
+TEST(Picture, HalfSizeAverages) {
+    const Image8 image{2, 2, 3, {0, 0, 0, 4, 4, 4, 8, 8, 8, 12, 12, 12}};
+    EXPECT_EQ(halfSize(image).data, (std::vector<std::uint8_t>{6, 6, 6}));
+    EXPECT_EQ(halfSize({1, 1, 3, {9, 8, 7}}).data, (std::vector<std::uint8_t>{9, 8, 7}));
+}
+
+// RFC 4648's own examples.
+TEST(Report, Base64) {
+    const fs::path file = folder() / "x";
+    for (const auto& [text, code] :
+         {std::pair{"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}}) {
+        writeFile(file, text);
+        EXPECT_EQ(dataUri(file), std::string("data:image/png;base64,") + code);
+    }
+}
+
+}  // namespace
+}  // namespace diptych
