@@ -267,6 +267,19 @@ TEST(Report, OursIsReplacedAndOthersStay) {
     EXPECT_EQ(Json::parse(contentsOf(out / "report.json"))["verdict"], "pass");
 }
 
+TEST(Report, AFailureLeavesTheEarlierReportWhole) {
+    const fs::path out = folder() / "report";
+    const std::string json = writeReport(passing(), out, {});
+    const std::vector<std::string> names = namesIn(out);
+    Report broken = failing();
+    broken.frames[1].channels[gpu::DEBUG_texcoords] = Image(9, 9, 2);  // an EXR has one size
+    EXPECT_THROW(writeReport(broken, out, {}), std::runtime_error);
+    EXPECT_EQ(contentsOf(out / "report.json"), json);
+    EXPECT_EQ(namesIn(out), names);
+    EXPECT_THROW(writeReport(broken, out.parent_path() / "new", {}), std::runtime_error);
+    EXPECT_EQ(namesIn(out.parent_path()), std::vector<std::string>{"report"});
+}
+
 TEST(Report, AnothersFolderNeedsForce) {
     const fs::path out = folder() / "theirs";
     fs::create_directories(out);
