@@ -69,7 +69,8 @@ std::string settings(const Frame& a, const Frame& b) {
     using Json = nlohmann::ordered_json;
     const Json left = Json::parse(toJson(a.settings)), right = Json::parse(toJson(b.settings));
     std::string out = fmt::format(
-        "<details class=\"box\"><summary><b>Settings</b> <span class=\"soft\">all of them; what differs is "
+        "<details class=\"box settings\"><summary><b>Settings</b> <span class=\"soft\">all of them; what "
+        "differs is "
         "coloured</span></summary><div class=\"scroll\"><table><tr><th></th><th>{}</th><th>{}</th></tr>",
         markup(a.name), markup(b.name));
     for (const auto& [key, value] : left.items()) {
@@ -89,7 +90,7 @@ std::string camera(const Frame& frame) {
     const std::string lens =
         c.fov_degrees > 0 ? fmt::format("{:.4g}\u00b0 vertical", c.fov_degrees) : "orthographic";
     return fmt::format(
-        "<p class=\"soft\">Camera {}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, {:.5g}; {}; "
+        "<p class=\"soft camera\">Camera {}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, {:.5g}; {}; "
         "near {:.4g}, far {:.4g} m</p>\n",
         markup(cameraTitle(frame)), c.eye[0], c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2], lens,
         c.near, c.far);
@@ -99,8 +100,7 @@ std::string camera(const Frame& frame) {
 
 std::string frameTables(const Report& report, const Comparison& comparison) {
     const Frame &a = report.baseline(comparison), &b = report.test(comparison);
-    return "<div class=\"columns\">" + times(a, b) + costs(a, b) +
-           "</div>\n<div style=\"height:16px\"></div>" + settings(a, b) + camera(a);
+    return "<div class=\"columns\">" + times(a, b) + costs(a, b) + "</div>\n" + settings(a, b) + camera(a);
 }
 
 }  // namespace diptych

@@ -86,7 +86,7 @@ dt { color: var(--soft); } dd { margin: 0; text-align: right; }
 .equal { padding: 26px 14px; text-align: center; border: 1px dashed var(--line); border-radius: 5px; color: var(--soft); font-size: 14px; }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 16px; align-items: start; }
 .bar { display: block; height: 9px; border-radius: 2px; min-width: 1px; } .bar.a { background: var(--first); } .bar.b { background: var(--second); }
-td.bars { width: 60%; }
+td.bars { width: 60%; } .settings { margin-top: 16px; } .settings .scroll { margin-top: 10px; } .camera { margin: 12px 2px; font-size: 13.5px; }
 footer { margin-top: 48px; padding-top: 16px; border-top: 1px solid var(--line); font-size: 13px; color: var(--soft); }
 footer a + a::before { content: "\00b7"; color: var(--soft); margin: 0 7px; }
 @media (max-width: 800px) {
