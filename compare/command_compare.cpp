@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/commands.h"
 #include "compare/report/report.h"
+#include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -29,10 +31,16 @@ int runCompare(const Options& options) {
     RenderOptions render = renderOptions(options);
     render.through_gbuffer = true;
 
+    // which tells the background, and that is outside every mean
+    constexpr auto background = static_cast<int>(gpu::DEBUG_material_id);
+    if (std::ranges::count(render.channels, background) == 0) render.channels.push_back(background);
+
     Device device(deviceOptions(options));
+    say(options, "on " + device.info().name);
     std::vector<Frame> frames;
     std::vector<Requirements> needs;
     for (const std::string& name : options.scenes) {
+        say(options, name);
         const Scene scene = loadScene(name);
         needs.insert(needs.end(), settings.size(), needsOf(scene, options.settings));
         std::ranges::move(renderAll(device, scene, settings, render), std::back_inserter(frames));

@@ -75,11 +75,13 @@ int runRender(const Options& options) {
     render.channels = channelsFor(output.kind, options, render.channels);
 
     Device device(deviceOptions(options));
+    say(options, "on " + device.info().name);
     const ReportDevice made = reportDevice(device);
     Json result{{"schema", 1},
                 {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
                 {"frames", Json::array()}};
     for (const std::string& name : options.scenes) {
+        say(options, name);
         const std::vector<Frame> frames = renderAll(device, loadScene(name), settings, render);
         checkValidation(device);
         for (const Frame& frame : frames) {

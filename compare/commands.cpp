@@ -43,7 +43,7 @@ RenderOptions renderOptions(const Options& options) {
     if (render.channels.empty())
         for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
     render.runs = options.runs;
-    if (options.verbose) render.progress = [&options](const std::string& step) { note(options, step); };
+    render.progress = [&options](const std::string& step) { say(options, step); };
     return render;
 }
 
@@ -63,6 +63,10 @@ void checkValidation(const Device& device) {
 
 void note(const Options& options, const std::string& line) {
     if (!options.quiet) std::fprintf(stderr, "diptych: %s\n", line.c_str());
+}
+
+void say(const Options& options, const std::string& line) {
+    if (options.verbose) note(options, line);
 }
 
 }  // namespace diptych

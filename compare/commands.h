@@ -36,7 +36,8 @@ ReportDevice reportDevice(const Device& device);
 // With --validate any message of the layers is a failure: throws how many there were and the first one.
 void checkValidation(const Device& device);
 
-// A line on stderr, for people, unless they want none.
+// A line on stderr, for people: unless they want none; where they asked for more.
 void note(const Options& options, const std::string& line);
+void say(const Options& options, const std::string& line);
 
 }  // namespace diptych

@@ -141,7 +141,9 @@ TEST(Command, RenderWritesWhatTheEndingSays) {
     }
     EXPECT_EQ(exr, 1);
     EXPECT_EQ(png, 1);
-    EXPECT_EQ(runTool(folder, "render -o both" + quick).code, 0) << "its own folder is replaced";
+    for (const std::string own : {"a.exr", "b.png", "both"})
+        EXPECT_EQ(runTool(folder, "render -o " + own + quick).code, 0)
+            << own << " is our own and is replaced";
 }
 
 TEST(Command, AnothersFilesAreLeftAloneWithoutForce) {
@@ -222,6 +224,30 @@ TEST(Command, SeveralScenesAndCamerasMakeOneReport) {
     const Json report = parsed(ran);
     EXPECT_EQ(report["frames"].size(), 8u);
     EXPECT_EQ(report["comparisons"].size(), 4u);
+}
+
+TEST(Command, SeveralFramesGetAFolderEach) {
+    const Folder folder;
+    const std::string two =
+        "render builtin:triangle --camera 'eye=2,1,3 target=0,0,0' --camera 'eye=3,1,2 target=0,0,0'";
+    EXPECT_TRUE(runTool(folder, two + " -o a.exr" + quick).failedOver("several"));
+    for (int run = 0; run < 2; ++run) EXPECT_EQ(runTool(folder, two + " -o all" + quick).code, 0);
+    EXPECT_TRUE(isExr(folder / "all/1/forward_plus.exr") && isExr(folder / "all/2/forward_plus.exr"));
+    EXPECT_EQ(Json::parse(contentsOf(folder / "all/frames.json"))["frames"].size(), 2u);
+}
+
+// material_id tells the background, which is outside every mean: it is compared whatever was asked for.
+TEST(Command, CompareKnowsTheBackgroundWhateverChannelsAreAskedFor) {
+    const Folder folder;
+    const Json report = parsed(runTool(folder, "compare builtin:triangle --json --channels albedo" + quick));
+    const Json all = parsed(runTool(folder, "compare builtin:triangle --json" + quick));
+    const auto albedo = [](const Json& r) {
+        for (const Json& channel : r["comparisons"][0]["channels"])
+            if (channel["name"] == "albedo") return channel["mean"];
+        return Json();
+    };
+    EXPECT_FALSE(albedo(all).is_null());
+    EXPECT_EQ(albedo(report), albedo(all));
 }
 
 TEST(Command, ScenesAreFoundFromTheCallersFolder) {
