@@ -153,8 +153,7 @@ FrameCamera cameraOf(const View& view) {
         camera.target[i] = target[i];
         camera.up[i] = up[i];
     }
-    constexpr double degrees = 57.295779513082323;
-    camera.fov_degrees = view.camera.orthographic ? 0.0 : view.camera.yfov * degrees;
+    camera.fov_degrees = view.camera.orthographic ? 0.0 : glm::degrees(view.camera.yfov);
     camera.near = view.camera.near;
     camera.far = view.camera.far;
     return camera;

@@ -3,7 +3,10 @@
 // candela and lux, linear Rec.709.
 #pragma once
 
+#include "shared/contract/constants.h"
+
 #include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -53,10 +56,10 @@ struct Material {
     std::string name;
     glm::vec4 base_color{1, 1, 1, 1};  // linear Rec.709
     float metallic = 1, roughness = 1;
-    glm::vec3 emissive{0, 0, 0};       // W/(sr m^2): factor x KHR_materials_emissive_strength
+    glm::vec3 emissive{0, 0, 0};  // W/(sr m^2): factor x KHR_materials_emissive_strength
     float normal_scale = 1, occlusion_strength = 1;
-    float ior = 1.5f;                  // KHR_materials_ior; 0: reflects everything
-    float specular = 1;                // KHR_materials_specular
+    float ior = 1.5f;    // KHR_materials_ior; 0: reflects everything
+    float specular = 1;  // KHR_materials_specular
     glm::vec3 specular_color{1, 1, 1};
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
@@ -73,9 +76,9 @@ struct Primitive {
     std::vector<glm::vec3> normals;    // unit
     std::vector<glm::vec4> tangents;   // w: the bitangent's sign, bitangent = w * cross(normal, tangent)
     std::vector<glm::vec2> texcoords[2];
-    std::vector<glm::vec4> colors;     // linear Rec.709, alpha
+    std::vector<glm::vec4> colors;       // linear Rec.709, alpha
     std::vector<std::uint32_t> indices;  // three a triangle
-    int material = 0;                  // into Scene::materials, always valid
+    int material = 0;                    // into Scene::materials, always valid
 };
 
 struct Mesh {
@@ -85,7 +88,7 @@ struct Mesh {
 
 struct Node {
     std::string name;
-    int parent = -1;           // into Scene::nodes; parents need not come first
+    int parent = -1;  // into Scene::nodes; parents need not come first
     glm::dmat4 parent_from_node{1.0};
     int mesh = -1;
 };
@@ -96,11 +99,11 @@ enum class LightKind { directional, point, spot };
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    glm::vec3 color{1, 1, 1};  // linear Rec.709
-    float intensity = 1;       // directional: lux; point, spot: candela
+    glm::vec3 color{1, 1, 1};                              // linear Rec.709
+    float intensity = 1;                                   // directional: lux; point, spot: candela
     float range = std::numeric_limits<float>::infinity();  // m
-    float inner_cone = 0;                   // rad, from the axis
-    float outer_cone = 0.78539816339744831f;  // rad, pi/4
+    float inner_cone = 0;                                  // rad, from the axis
+    float outer_cone = gpu::PI / 4;                        // rad
     int node = -1;
     glm::dvec3 position{0, 0, 0};
     glm::dvec3 direction{0, 0, -1};  // unit, in which it shines
@@ -110,7 +113,7 @@ struct Light {
 struct Camera {
     std::string name;
     bool orthographic = false;
-    double yfov = 1.0471975511965976;  // rad, vertical
+    double yfov = glm::radians(60.0);  // vertical
     double ymag = 1;                   // orthographic: half the height, m
     double near = 0.1;                 // m
     double far = std::numeric_limits<double>::infinity();
