@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -98,13 +99,16 @@ void checkSize(const Device& device, const Size& size) {
                                              device.info().name, limit, limit));
 }
 
-Image readImage(PassList& passes, ImageRef ref, int components) {
-    Image image;
-    image.width = static_cast<int>(passes.width());
-    image.height = static_cast<int>(passes.height());
-    image.components = components;
-    passes.readBack(ref, components, image.data);
-    return image;
+std::vector<Image> readImages(PassList& passes, const std::vector<PassList::ReadBack>& requests) {
+    std::vector<std::vector<float>> data = passes.readBack(requests);
+    std::vector<Image> images(requests.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        images[i].width = static_cast<int>(passes.width());
+        images[i].height = static_cast<int>(passes.height());
+        images[i].components = requests[i].components;
+        images[i].data = std::move(data[i]);
+    }
+    return images;
 }
 
 FrameTime timeOf(std::vector<double> ms) {
@@ -172,6 +176,7 @@ public:
           path_(functionsOf(settings.path)) {}
 
     Frame make() {
+        const auto start = std::chrono::steady_clock::now();
         frame_.name = std::string(nameOf(settings_.path));
         frame_.scene = scene_.name;
         frame_.settings = settings_;
@@ -182,6 +187,8 @@ public:
         drawTimed();
         capture();
         if (options_.through_gbuffer && settings_.path == Path::forward_plus) explain();
+        frame_.made_in_ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return std::move(frame_);
     }
 
@@ -209,7 +216,7 @@ private:
         frame_.time = timeOf(std::move(ms));
         if (options_.runs > 0)
             for (const PassMs& pass : passes.profile()) frame_.passes.push_back({pass.name, pass.ms});
-        lit_ = readImage(passes, images.lit, 3);
+        lit_ = std::move(readImages(passes, {{images.lit, 3}}).front());
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
         frame_.bytes.images = passes.imageBytes() + shared_.materials.imageBytes();
         frame_.bytes.buffers =
@@ -251,8 +258,11 @@ private:
         PassList passes = passList();
         const std::vector<CapturedImage> captured = add(passes, shot_.inputs, modes);
         passes.run();
+        std::vector<PassList::ReadBack> requests;
+        for (const CapturedImage& c : captured) requests.push_back({c.image, debugMode(c.mode).width});
+        std::vector<Image> read = readImages(passes, requests);
         std::map<int, Image> images;
-        for (const auto& [mode, ref] : captured) images[mode] = readImage(passes, ref, debugMode(mode).width);
+        for (std::size_t i = 0; i < captured.size(); ++i) images[captured[i].mode] = std::move(read[i]);
         return images;
     }
 

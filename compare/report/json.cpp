@@ -87,6 +87,7 @@ Json jsonOf(const Frame& frame) {
             {"size", {frame.settings.size.width, frame.settings.size.height}},
             {"settings", Json::parse(toJson(frame.settings))},
             {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
+            {"made_in_ms", frame.made_in_ms},
             {"passes", passes},
             {"bytes",
              {{"images", frame.bytes.images},

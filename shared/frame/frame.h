@@ -56,6 +56,7 @@ struct Frame {
     std::array<float, 3> background{};  // what pictures show there, W/(sr m^2)
     FrameTime time;
     std::vector<PassTime> passes;
+    double made_in_ms = 0;  // wall clock of all drawing, timing, capturing and reading back for this Frame
     FrameBytes bytes;
     FrameCounters counters;
     std::vector<std::string> notes;  // what a reader must know: what was drawn otherwise than asked

@@ -3,6 +3,9 @@
 
 #include "shared/vulkan/check.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <stdexcept>
 
 namespace diptych {
@@ -204,43 +207,63 @@ std::vector<PassMs> PassList::profile() {
     return times;
 }
 
-void PassList::readBack(ImageRef ref, int components, std::vector<float>& out) {
-    Resource& resource = resources_.at(ref.index);
+std::vector<std::vector<float>> PassList::readBack(std::span<const ReadBack> requests) {
+    constexpr std::size_t stagingBytes = std::size_t{256} << 20;
+    const std::size_t largest = std::size_t{width_} * height_ * 16;
+    const std::size_t atOnce = std::max<std::size_t>(1, stagingBytes / largest);
+    std::vector<std::vector<float>> results(requests.size());
+    for (std::size_t i = 0; i < requests.size(); i += atOnce) {
+        const std::size_t count = std::min(atOnce, requests.size() - i);
+        copyToHost(requests.subspan(i, count), std::span(results).subspan(i, count));
+    }
+    return results;
+}
+
+void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results) {
     const std::size_t texels = std::size_t{width_} * height_;
-    const std::size_t stored = bytesPerTexel(resource.image.info().format) / 4;
-    const GpuBuffer buffer(device_, "read back", texels * stored * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                           MemoryUse::readback);
+    const auto floatsPerTexel = [&](ImageRef image) { return bytesPerTexel(format(image)) / 4; };
+    std::vector<GpuBuffer> buffers;
+    for (const ReadBack& request : requests)
+        buffers.emplace_back(device_, "read back", texels * floatsPerTexel(request.image) * 4,
+                             VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
     device_.submit([&](VkCommandBuffer commands) {
         std::vector<VkImageMemoryBarrier2> barriers;
-        transition(barriers, ref, copySource, false);
+        for (const ReadBack& request : requests) transition(barriers, request.image, copySource, false);
         submitBarriers(commands, barriers);
-        const VkBufferImageCopy copy{.bufferOffset = 0,
-                                     .bufferRowLength = 0,
-                                     .bufferImageHeight = 0,
-                                     .imageSubresource = {resource.image.aspect(), 0, 0, 1},
-                                     .imageOffset = {},
-                                     .imageExtent = {width_, height_, 1}};
-        vkCmdCopyImageToBuffer(commands, resource.image.handle(), copySource.layout, buffer.handle(), 1,
-                               &copy);
-        const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                      .pNext = nullptr,
-                                      .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                      .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                      .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                      .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            const GpuImage& image = resources_.at(requests[i].image.index).image;
+            const VkBufferImageCopy copy{.bufferOffset = 0,
+                                         .bufferRowLength = 0,
+                                         .bufferImageHeight = 0,
+                                         .imageSubresource = {image.aspect(), 0, 0, 1},
+                                         .imageOffset = {},
+                                         .imageExtent = {width_, height_, 1}};
+            vkCmdCopyImageToBuffer(commands, image.handle(), copySource.layout, buffers[i].handle(), 1,
+                                   &copy);
+        }
+        VkMemoryBarrier2 toHost{};
+        toHost.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+        toHost.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+        toHost.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        toHost.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+        toHost.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
         VkDependencyInfo dependency{};
         dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
         dependency.memoryBarrierCount = 1;
         dependency.pMemoryBarriers = &toHost;
         vkCmdPipelineBarrier2(commands, &dependency);
     });
-    const auto* from = static_cast<const float*>(buffer.mapped());
-    const auto kept = static_cast<std::size_t>(components);
-    if (kept > stored)
-        throw std::logic_error("PassList: " + resource.image.info().name + " has too few components");
-    out.resize(texels * kept);
-    for (std::size_t i = 0; i < texels; ++i)
-        for (std::size_t c = 0; c < kept; ++c) out[i * kept + c] = from[i * stored + c];
+    tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t image) {
+        const auto kept = static_cast<std::size_t>(requests[image].components);
+        const std::size_t stored = floatsPerTexel(requests[image].image);
+        if (kept > stored)
+            throw std::logic_error("PassList: an image has fewer components than are read back");
+        const auto* from = static_cast<const float*>(buffers[image].mapped());
+        std::vector<float>& out = results[image];
+        out.reserve(texels * kept);
+        for (std::size_t i = 0; i < texels; ++i)
+            out.insert(out.end(), from + i * stored, from + i * stored + kept);
+    });
 }
 
 std::vector<std::string> PassList::names() const {

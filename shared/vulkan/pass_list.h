@@ -6,6 +6,7 @@
 #include "shared/vulkan/resources.h"
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,9 +70,13 @@ public:
     // The same, each pass in a submit of its own on a CPU device (between time stamps on a GPU).
     std::vector<PassMs> profile();
 
-    // The image as the last run left it: float32, one component (depth), or the first `components` of it.
-    // Row 0 on top, components side by side; `out` holds width x height x components.
-    void readBack(ImageRef image, int components, std::vector<float>& out);
+    // Images as the last run left them, row 0 on top: the first `components` float32 of every texel, side by
+    // side. Copied in one submit, as far as staging memory of 256 MiB allows, and unpacked on all cores.
+    struct ReadBack {
+        ImageRef image;
+        int components = 1;
+    };
+    std::vector<std::vector<float>> readBack(std::span<const ReadBack> requests);
 
     std::vector<std::string> names() const;
     std::uint64_t imageBytes() const;
@@ -87,6 +92,7 @@ private:
                     bool discard);
     void runPass(const Pass& pass, VkCommandBuffer commands);
     std::vector<double> runWithTimestamps();
+    void copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results);
 
     Device& device_;
     std::uint32_t width_, height_;

@@ -42,8 +42,7 @@ std::vector<std::uint32_t> drawProbe(Device& device, const char* fragment, VkFor
         vkCmdDraw(commands, 3, 1, 0, 0);
     });
     passes.run();
-    std::vector<float> texels;
-    passes.readBack(target, 1, texels);
+    const std::vector<float> texels = passes.readBack(std::array{PassList::ReadBack{target, 1}}).front();
     std::vector<std::uint32_t> bits(texels.size());
     for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = std::bit_cast<std::uint32_t>(texels[i]);
     return bits;
