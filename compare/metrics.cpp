@@ -103,6 +103,12 @@ Coverage everyPixel(std::size_t pixels) {
 }
 
 Coverage coverage(const Frame& a, const Frame& b) {
+    for (const Frame* frame : {&a, &b})
+        for (const auto& [mode, image] : frame->channels)
+            if (image.width != frame->settings.size.width || image.height != frame->settings.size.height)
+                throw std::runtime_error(fmt::format(
+                    "{}: {} is {}x{} in a Frame of {}x{}", frame->name, debugMode(mode).name, image.width,
+                    image.height, frame->settings.size.width, frame->settings.size.height));
     const auto mark = backgroundMark(a, b);
     if (!mark) return everyPixel(a.channels.empty() ? 0 : a.channels.begin()->second.pixels());
     const auto [mode, value] = *mark;

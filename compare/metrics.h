@@ -13,7 +13,8 @@
 namespace diptych {
 
 // Which pixels show a surface in at least one of two Frames; the others are background and outside every
-// statistic. Told by material_id (-1), without it by depth (0).
+// statistic. Told by material_id (-1), without it by depth (0). Throws std::runtime_error where a channel is
+// not of its Frame's size.
 struct Coverage {
     std::vector<std::uint8_t> covered;  // 1 per pixel that counts
     std::size_t count = 0;

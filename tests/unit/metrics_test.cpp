@@ -145,6 +145,7 @@ TEST(Metrics, SizesMustAgree) {
 
 Frame ids(std::vector<float> values) {
     Frame frame;
+    frame.settings.size = {static_cast<int>(values.size()), 1};
     frame.channels[gpu::DEBUG_material_id] = row(1, std::move(values));
     return frame;
 }
@@ -158,12 +159,20 @@ TEST(Coverage, APixelIsBackgroundOnlyInBoth) {
 
 TEST(Coverage, DepthTellsWhereThereAreNoIds) {
     Frame frame;
+    frame.settings.size = {2, 1};
     frame.channels[gpu::DEBUG_depth] = row(1, {0, 5});
     EXPECT_EQ(coverage(frame, frame).covered, (std::vector<std::uint8_t>{0, 1}));
     Frame bare;
+    bare.settings.size = {2, 1};
     bare.channels[gpu::DEBUG_lit] = row(3, {0, 0, 0, 1, 1, 1});
     EXPECT_FALSE(coverage(bare, bare).known);
     EXPECT_EQ(coverage(bare, bare).count, 2u);
+}
+
+TEST(Coverage, AChannelOfAnotherSizeIsAnError) {
+    Frame frame = ids({0, 1});
+    frame.channels[gpu::DEBUG_depth] = row(1, {0, 5, 6});
+    EXPECT_THROW(coverage(frame, frame), std::runtime_error);
 }
 
 TEST(Coverage, BackgroundIsOutsideMeansAndErrors) {

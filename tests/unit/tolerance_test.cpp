@@ -29,6 +29,7 @@ struct Pair {
         deferred.settings.path = Path::deferred;
         forward.name = "forward_plus";
         forward.settings.path = Path::forward_plus;
+        deferred.settings.size = forward.settings.size = {1, 1};
         for (const DebugMode& mode : debugModes()) {
             forward.channels[mode.number] = Image(1, 1, mode.width, 0.5f);
             if (mode.maker == MadeBy::both) deferred.channels[mode.number] = forward.channels[mode.number];
