@@ -31,7 +31,7 @@ void print(const DeviceInfo& device) {
     fmt::print("{}  {} ({}, {}, Vulkan {}){}\n", device.index, device.name, device.type, device.driver,
                device.api_version, device.usable() ? "" : ": cannot be used");
     for (const DeviceFact& fact : device.facts)
-        fmt::print("     {:<3}  {:<34} {}{}\n", fact.there ? "yes" : "no", fact.what, fact.note,
+        fmt::print("     {:<3}  {:<38} {}{}\n", fact.there ? "yes" : "no", fact.what, fact.note,
                    fact.required && !fact.there ? " (required)" : "");
 }
 

@@ -124,9 +124,17 @@ Exposure exposureFor(const PictureChoice& choice, const Image* lit, const Covera
     const auto count = static_cast<double>(luminances.size());
     double logs = 0;
     for (const double y : luminances) logs += std::log(std::max(y, 1e-3 * sum / count));
-    const double average = std::exp(logs / count), factor = 0.18 / average;
-    return {factor, choice.tonemap,
-            fmt::format("exposure {:.4g}, automatic: 0.18 / log-average luminance {:.4g}", factor, average)};
+    const double average = std::exp(logs / count), byAverage = 0.18 / average;
+    const auto p95 = luminances.begin() + static_cast<std::ptrdiff_t>(0.95 * (count - 1));
+    std::nth_element(luminances.begin(), p95, luminances.end());
+    const double byHighlights = 0.7 / *p95;
+    if (*p95 > 0 && byHighlights < byAverage)
+        return {byHighlights, choice.tonemap,
+                fmt::format("exposure {:.4g}, automatic: 0.7 / 95th percentile of luminance {:.4g}",
+                            byHighlights, *p95)};
+    return {
+        byAverage, choice.tonemap,
+        fmt::format("exposure {:.4g}, automatic: 0.18 / log-average luminance {:.4g}", byAverage, average)};
 }
 
 PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span<const Frame* const> frames) {

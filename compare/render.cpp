@@ -309,11 +309,12 @@ std::vector<PathPlan> planPaths(Device& device, const Scene& scene, const std::v
         checkSize(device, s.size);
         const Shot shot(device, shared, scene, s);
         const PathFunctions& path = functionsOf(s.path);
+        const std::size_t pipelinesBefore = shared.pipelines.count();
         PassList passes(device, 1, 1);
         path.add(passes, shot.inputs);
         PathPlan plan{std::string(nameOf(s.path)), passes.names(), path.bytesPerPixel(shot.inputs), {}};
         plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", shot.draws.items.size(),
-                                         shot.draws.culled, shared.pipelines.count()));
+                                         shot.draws.culled, shared.pipelines.count() - pipelinesBefore));
         plans.push_back(std::move(plan));
     }
     return plans;

@@ -50,7 +50,7 @@ struct Reflection {
 Reflection reflect(const Words& w) {
     Reflection r;
     for (std::size_t i = 5; i < w.size(); i += w[i] >> 16) {
-        const std::uint32_t op = w[i] & 0xffff, target = w[i + 1];
+        const std::uint32_t op = w[i] & 0xffff, target = i + 1 < w.size() ? w[i + 1] : 0;
         const auto text = [&](std::size_t word) {
             return std::string(reinterpret_cast<const char*>(&w[word]));
         };
@@ -102,7 +102,8 @@ void run(int argc, char** argv) {
     std::string table;
     int structs = 0;
     for (int i = 3; i < argc; ++i) {
-        const std::string name = std::filesystem::path(argv[i]).stem().string();  // "surface.vert", "gbuffer.frag.3"
+        const std::string name =
+            std::filesystem::path(argv[i]).stem().string();  // "surface.vert", "gbuffer.frag.3"
         std::string symbol = name;
         for (char& c : symbol)
             if (c == '.') c = '_';

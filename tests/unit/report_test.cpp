@@ -346,6 +346,16 @@ TEST(Report, OneFrameAsFileOrFolder) {
                  std::runtime_error);
 }
 
+// Nine dark pixels and one bright one in twenty: the log-average alone would burn the bright one out.
+TEST(Picture, HighlightsHoldTheAutomaticExposure) {
+    Image lit(20, 1, 3, 0.01f);
+    for (int x = 0; x < 2; ++x)
+        for (int c = 0; c < 3; ++c) lit.at(x, 0, c) = 2;
+    Coverage all;
+    all.covered.assign(20, true);
+    EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 2, 1e-9);
+}
+
 TEST(Picture, BackgroundAndExposure) {
     const Frame frame = bothFrames()[0];
     const DebugMode& lit = debugMode(gpu::DEBUG_lit);
