@@ -72,17 +72,15 @@ public:
 struct PathFunctions {
     Path path;
     FrameImages (*add)(PassList&, const FrameInputs&);
-    std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, std::span<const int>);
+    std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, const FrameImages&,
+                                          const CaptureRequest&);
     std::uint32_t (*bytesPerPixel)(const FrameInputs&);
 };
 
 const PathFunctions paths[] = {
     {Path::deferred, addDeferred, addDeferredCapture,
      [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; }},
-    {Path::forward_plus, addForwardPlus,
-     [](PassList& passes, const FrameInputs& inputs, std::span<const int> modes) {
-         return addForwardPlusCapture(passes, inputs, modes, false);
-     },
+    {Path::forward_plus, addForwardPlus, addForwardPlusCapture,
      [](const FrameInputs&) { return std::uint32_t{4}; }},
 };
 
@@ -184,9 +182,11 @@ public:
         frame_.background = {scene_.background.r, scene_.background.g, scene_.background.b};
         frame_.notes = scene_.notes;
         frame_.counters.lights = shot_.lights.lights.size();
-        drawTimed();
-        capture();
-        if (options_.through_gbuffer && settings_.path == Path::forward_plus) explain();
+        PassList passes(device_, static_cast<std::uint32_t>(settings_.size.width),
+                        static_cast<std::uint32_t>(settings_.size.height));
+        const FrameImages images = path_.add(passes, shot_.inputs);
+        drawTimed(passes, images);
+        capture(passes, images);
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return std::move(frame_);
@@ -200,22 +200,16 @@ private:
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
-    PassList passList() const {
-        return {device_, static_cast<std::uint32_t>(settings_.size.width),
-                static_cast<std::uint32_t>(settings_.size.height)};
-    }
-
     // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
-    void drawTimed() {
+    void drawTimed(PassList& passes, const FrameImages& images) {
         say("draw");
-        PassList passes = passList();
-        const FrameImages images = path_.add(passes, shot_.inputs);
         passes.run();
         std::vector<double> ms;
         for (int i = 0; i < options_.runs; ++i) ms.push_back(passes.run());
         frame_.time = timeOf(std::move(ms));
         if (options_.runs > 0)
-            for (const PassMs& pass : passes.profile()) frame_.passes.push_back({pass.name, pass.ms});
+            for (const PassMs& pass : passes.profile(0, passes.size()))
+                frame_.passes.push_back({pass.name, pass.ms});
         lit_ = std::move(readImages(passes, {{images.lit, 3}}).front());
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
         frame_.bytes.images = passes.imageBytes() + shared_.materials.imageBytes();
@@ -224,47 +218,40 @@ private:
         frame_.bytes.gbuffer_per_pixel = path_.bytesPerPixel(shot_.inputs);
     }
 
-    // Every channel; lit itself stays the timed pipeline's, and the capture's is held against it.
-    void capture() {
-        say("capture");
-        std::vector<int> modes{static_cast<int>(gpu::DEBUG_lit)};
+    // lit, to be held against the timed one, and every channel asked for that this path can make.
+    CaptureRequest captureRequest() const {
+        CaptureRequest request;
+        request.modes = {lit};
         for (const int mode : options_.channels)
-            if (mode != modes.front() &&
+            if (mode != lit &&
                 (settings_.path == Path::forward_plus || debugMode(mode).maker == MadeBy::both))
-                modes.push_back(mode);
-        for (auto& [mode, image] : captureImages(modes, path_.capture))
-            frame_.channels[mode] = std::move(image);
-        Image& captured = frame_.channels[static_cast<int>(gpu::DEBUG_lit)];
-        frame_.counters.unreproduced_pixels = differentPixels(captured, lit_, device_.info().isCpu());
-        captured = std::move(lit_);
-        if (!asked(static_cast<int>(gpu::DEBUG_lit))) frame_.channels.erase(static_cast<int>(gpu::DEBUG_lit));
+                request.modes.push_back(mode);
+        if (options_.through_gbuffer && settings_.path == Path::forward_plus)
+            for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
+                if (asked(static_cast<int>(mode))) request.through_gbuffer.push_back(static_cast<int>(mode));
+        return request;
     }
 
-    void explain() {
-        say("shade through the G-buffer's encoding");
-        std::vector<int> modes;
-        for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
-            if (asked(static_cast<int>(mode))) modes.push_back(static_cast<int>(mode));
-        if (modes.empty()) return;
-        frame_.through_gbuffer =
-            captureImages(modes, [](PassList& passes, const FrameInputs& inputs, std::span<const int> m) {
-                return addForwardPlusCapture(passes, inputs, m, true);
-            });
-    }
-
-    std::map<int, Image> captureImages(const std::vector<int>& modes,
-                                       std::vector<CapturedImage> (*add)(PassList&, const FrameInputs&,
-                                                                         std::span<const int>)) {
-        PassList passes = passList();
-        const std::vector<CapturedImage> captured = add(passes, shot_.inputs, modes);
-        passes.run();
+    // Every channel, over what the timed frame left; lit itself stays the timed pipeline's.
+    void capture(PassList& passes, const FrameImages& images) {
+        say("capture");
+        const std::size_t first = passes.size();
+        const std::vector<CapturedImage> captured =
+            path_.capture(passes, shot_.inputs, images, captureRequest());
+        passes.run(first, passes.size());
         std::vector<PassList::ReadBack> requests;
         for (const CapturedImage& c : captured) requests.push_back({c.image, debugMode(c.mode).width});
         std::vector<Image> read = readImages(passes, requests);
-        std::map<int, Image> images;
-        for (std::size_t i = 0; i < captured.size(); ++i) images[captured[i].mode] = std::move(read[i]);
-        return images;
+        for (std::size_t i = 0; i < captured.size(); ++i)
+            (captured[i].through_gbuffer ? frame_.through_gbuffer : frame_.channels)[captured[i].mode] =
+                std::move(read[i]);
+        frame_.counters.unreproduced_pixels =
+            differentPixels(frame_.channels[lit], lit_, device_.info().isCpu());
+        frame_.channels[lit] = std::move(lit_);
+        if (!asked(lit)) frame_.channels.erase(lit);
     }
+
+    static constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
 
     Device& device_;
     SharedResources& shared_;

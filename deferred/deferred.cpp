@@ -13,14 +13,6 @@ namespace diptych {
 
 namespace {
 
-struct GBuffer {
-    std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> attachments;  // invalid: the layout has none
-    ImageRef depth;
-    // Owned by the passes that read it.
-    std::shared_ptr<OwnedSampler> sampler;
-    std::shared_ptr<DescriptorSets> sets;
-};
-
 OwnedSampler nearestSampler(Device& device) {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
@@ -48,75 +40,76 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item) {
     return key;
 }
 
-GBuffer addGBuffer(PassList& passes, const FrameInputs& inputs) {
-    GBuffer g;
-    g.depth = passes.image("depth", depthFormat);
-    Pass& pass = passes.draw("G-buffer").depth(g.depth, Load::clear);
-    for (std::size_t i = 0; i < g.attachments.size(); ++i) {
-        const VkFormat format = inputs.gbuffer.formats[i];
-        if (format == VK_FORMAT_UNDEFINED) continue;
-        g.attachments[i] = passes.image(gbufferAttachmentNames[i], format);
-        pass.color(g.attachments[i], Load::clear);
+// The attachments as SET_GBUFFER. Owned by the pass that reads it.
+struct GBufferSet {
+    GBufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& frame)
+        : sampler(nearestSampler(inputs.device)) {
+        std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> types;
+        types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+        sets = DescriptorSets(inputs.device, inputs.layouts.gbuffer, types, 1);
+        for (std::uint32_t i = 0; i < frame.gbuffer.size(); ++i) {
+            // One that is not there is never read; albedo, of the same kind, keeps its binding valid.
+            const ImageRef image =
+                frame.gbuffer[i].valid() ? frame.gbuffer[i] : frame.gbuffer[gpu::GBUFFER_ALBEDO];
+            sets.image(0, i, passes.view(image), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        }
+        sets.image(0, gpu::BINDING_DEPTH, passes.view(frame.depth), sampler,
+                   VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     }
-    pass.record(recordDraws(
-        inputs, [&](const DrawItem& item) { return inputs.pipelines.get(gbufferKey(inputs, item)); }));
-
-    std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> types;
-    types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-    g.sampler = std::make_shared<OwnedSampler>(nearestSampler(inputs.device));
-    g.sets = std::make_shared<DescriptorSets>(inputs.device, inputs.layouts.gbuffer, types, 1);
-    for (std::uint32_t i = 0; i < g.attachments.size(); ++i) {
-        // An attachment that is not there is never read; albedo, of the same kind, keeps its binding valid.
-        const ImageRef image =
-            g.attachments[i].valid() ? g.attachments[i] : g.attachments[gpu::GBUFFER_ALBEDO];
-        g.sets->image(0, i, passes.view(image), *g.sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    }
-    g.sets->image(0, gpu::BINDING_DEPTH, passes.view(g.depth), *g.sampler,
-                  VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-    return g;
-}
+    OwnedSampler sampler;
+    DescriptorSets sets;
+};
 
 // A full-screen pass over what the G-buffer holds: the triangle lies at the far end of depth, and LESS
 // skips every pixel that nothing was drawn to before it is shaded.
-void addResolve(Pass& pass, const FrameInputs& inputs, const GBuffer& g, const std::string& fragment,
-                const Variant& variant, const std::vector<VkFormat>& colors) {
-    for (const ImageRef image : g.attachments)
+void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
+                const std::string& fragment, const Variant& variant, const std::vector<VkFormat>& colors) {
+    for (const ImageRef image : frame.gbuffer)
         if (image.valid()) pass.samples(image);
-    pass.samples(g.depth).depthTest(g.depth);
-    const VkPipeline pipeline = inputs.pipelines.get({.vertex = "full_screen.vert",
-                                                      .fragment = fragment,
-                                                      .variant = variant,
-                                                      .input = VertexInput::none,
-                                                      .colors = colors,
-                                                      .depth = depthFormat,
-                                                      .depth_compare = VK_COMPARE_OP_LESS,
-                                                      .depth_write = false});
-    pass.record([&inputs, pipeline, sampler = g.sampler, sets = g.sets](VkCommandBuffer commands) {
-        recordFullScreen(commands, inputs, pipeline, (*sets)[0]);
+    pass.samples(frame.depth).depthTest(frame.depth);
+    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "full_screen.vert",
+                                                                 .fragment = fragment,
+                                                                 .variant = variant,
+                                                                 .input = VertexInput::none,
+                                                                 .colors = colors,
+                                                                 .depth = depthFormat,
+                                                                 .depth_compare = VK_COMPARE_OP_LESS,
+                                                                 .depth_write = false});
+    const auto set = std::make_shared<GBufferSet>(passes, inputs, frame);
+    pass.record([&inputs, pipeline, set](VkCommandBuffer commands) {
+        recordFullScreen(commands, inputs, pipeline, set->sets[0]);
     });
 }
 
 }  // namespace
 
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
-    const GBuffer g = addGBuffer(passes, inputs);
-    const ImageRef lit = passes.image("lit", litFormat);
-    Pass& shade = passes.draw("shade").color(lit, Load::clear);
-    addResolve(shade, inputs, g, "deferred_shade.frag", inputs.variant, {litFormat});
-    return {lit, g.depth};
+    FrameImages images;
+    images.depth = passes.image("depth", depthFormat);
+    Pass& geometry = passes.draw("G-buffer").depth(images.depth, Load::clear);
+    for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {
+        const VkFormat format = inputs.gbuffer.formats[i];
+        if (format == VK_FORMAT_UNDEFINED) continue;
+        images.gbuffer[i] = passes.image(gbufferAttachmentNames[i], format);
+        geometry.color(images.gbuffer[i], Load::clear);
+    }
+    geometry.record(recordDraws(inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item); }));
+    images.lit = passes.image("lit", litFormat);
+    Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
+    addResolve(passes, shade, inputs, images, "deferred_shade.frag", inputs.variant, {litFormat});
+    return images;
 }
 
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
-                                              std::span<const int> modes) {
+                                              const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    const GBuffer g = addGBuffer(passes, inputs);
-    for (const CaptureGroup& group : captureGroups(modes)) {
+    for (const CaptureGroup& group : captureGroups(request.modes)) {
         Pass& pass = passes.draw("capture");
         for (const CapturedImage& image : addCaptureImages(passes, pass, group)) images.push_back(image);
         Variant variant = inputs.variant;
         group.specialise(variant);
-        addResolve(pass, inputs, g, fmt::format("deferred_capture.frag.{}", group.modes.size()), variant,
-                   group.formats);
+        addResolve(passes, pass, inputs, frame, fmt::format("deferred_capture.frag.{}", group.modes.size()),
+                   variant, group.formats);
     }
     return images;
 }

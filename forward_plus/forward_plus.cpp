@@ -29,55 +29,45 @@ PipelineKey captureKey(const FrameInputs& inputs, const DrawItem& item, const Ca
     PipelineKey key = shadeKey(inputs, item);
     key.fragment = fmt::format("forward_capture.frag.{}", group.modes.size());
     key.colors = group.formats;
+    key.depth_write = false;
     inputs.gbuffer.specialise(key.variant);
     key.variant.set(gpu::FEATURE_quantise_surface, throughGBuffer);
     group.specialise(key.variant);
     return key;
 }
 
-ImageRef addPrepass(PassList& passes, const FrameInputs& inputs) {
-    const ImageRef depth = passes.image("depth", depthFormat);
-    if (inputs.prepass)
-        passes.draw("depth pre-pass")
-            .depth(depth, Load::clear)
-            .record(recordDraws(inputs,
-                                [&](const DrawItem& item) { return inputs.pipelines.get(depthKey(item)); }));
-    return depth;
-}
-
-// Without a pre-pass the pass that shades writes depth itself.
-void addDepth(Pass& pass, const FrameInputs& inputs, ImageRef depth) {
-    if (inputs.prepass)
-        pass.depthTest(depth);
-    else
-        pass.depth(depth, Load::clear);
-}
-
 }  // namespace
 
 FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
-    images.depth = addPrepass(passes, inputs);
+    images.depth = passes.image("depth", depthFormat);
+    if (inputs.prepass)
+        passes.draw("depth pre-pass").depth(images.depth, Load::clear).record(recordDraws(inputs, depthKey));
     images.lit = passes.image("lit", litFormat);
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
-    addDepth(shade, inputs, images.depth);
-    shade.record(recordDraws(
-        inputs, [&](const DrawItem& item) { return inputs.pipelines.get(shadeKey(inputs, item)); }));
+    if (inputs.prepass)
+        shade.depthTest(images.depth);
+    else
+        shade.depth(images.depth, Load::clear);
+    shade.record(recordDraws(inputs, [&](const DrawItem& item) { return shadeKey(inputs, item); }));
     return images;
 }
 
 std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
-                                                 std::span<const int> modes, bool throughGBuffer) {
+                                                 const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    const ImageRef depth = addPrepass(passes, inputs);
-    for (const CaptureGroup& group : captureGroups(modes)) {
-        Pass& pass = passes.draw("capture");
-        for (const CapturedImage& image : addCaptureImages(passes, pass, group)) images.push_back(image);
-        addDepth(pass, inputs, depth);
-        pass.record(recordDraws(inputs, [&](const DrawItem& item) {
-            return inputs.pipelines.get(captureKey(inputs, item, group, throughGBuffer));
-        }));
-    }
+    for (const bool throughGBuffer : {false, true})
+        for (const CaptureGroup& group :
+             captureGroups(throughGBuffer ? request.through_gbuffer : request.modes)) {
+            Pass& pass = passes.draw("capture").depthTest(frame.depth);
+            for (CapturedImage image : addCaptureImages(passes, pass, group)) {
+                image.through_gbuffer = throughGBuffer;
+                images.push_back(image);
+            }
+            pass.record(recordDraws(inputs, [&](const DrawItem& item) {
+                return captureKey(inputs, item, group, throughGBuffer);
+            }));
+        }
     return images;
 }
 

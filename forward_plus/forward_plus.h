@@ -4,7 +4,6 @@
 
 #include "shared/draw/frame_inputs.h"
 
-#include <span>
 #include <vector>
 
 namespace diptych {
@@ -12,9 +11,9 @@ namespace diptych {
 // The passes of a frame as it is timed. `inputs` must outlive the list.
 FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs);
 
-// The passes that write channels. With `throughGBuffer` every surface is encoded as inputs.gbuffer does and
-// decoded again before it is shaded: what the deferred path has to show.
+// The passes that write channels, over the depth that the frame left. With request.through_gbuffer every
+// surface is encoded as inputs.gbuffer does and decoded again before it is shaded.
 std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
-                                                 std::span<const int> modes, bool throughGBuffer);
+                                                 const FrameImages& frame, const CaptureRequest& request);
 
 }  // namespace diptych

@@ -83,9 +83,10 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
     return variant;
 }
 
-std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const PipelineOf& pipelineOf) {
-    std::vector<VkPipeline> pipelines;
-    for (const DrawItem& item : inputs.draws.items) pipelines.push_back(pipelineOf(item));
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf) {
+    std::vector<PipelineKey> keys;
+    for (const DrawItem& item : inputs.draws.items) keys.push_back(keyOf(item));
+    std::vector<VkPipeline> pipelines = inputs.pipelines.get(keys);
     return [&inputs, pipelines = std::move(pipelines)](VkCommandBuffer commands) {
         const auto bind = [&](gpu::uint set, VkDescriptorSet descriptors) {
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline, set,

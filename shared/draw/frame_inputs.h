@@ -7,6 +7,7 @@
 #include "shared/material/gbuffer_layout.h"
 #include "shared/vulkan/pass_list.h"
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -48,8 +49,9 @@ struct FrameInputs {
 };
 
 struct FrameImages {
-    ImageRef lit;    // RGBA32F, linear scene-referred radiance
-    ImageRef depth;  // D32F, reversed
+    ImageRef lit;                                              // RGBA32F, linear scene-referred radiance
+    ImageRef depth;                                            // D32F, reversed
+    std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid where there is none
 };
 
 constexpr VkFormat litFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -59,9 +61,10 @@ constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
                      const GBufferLayout& gbuffer);
 
-// Draws every item in order with the pipeline that `pipelineOf` names for its variant.
-using PipelineOf = std::function<VkPipeline(const DrawItem&)>;
-std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const PipelineOf& pipelineOf);
+// Draws every item in order with the pipeline of its key; pipelines that are not there yet are made on all
+// cores.
+using KeyOf = std::function<PipelineKey(const DrawItem&)>;
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf);
 
 // One triangle over the screen.
 void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
@@ -82,6 +85,13 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes);
 struct CapturedImage {
     int mode = 0;
     ImageRef image;
+    bool through_gbuffer = false;  // forward+: of a surface that was encoded and decoded
+};
+
+// What a capture is asked for: channels as they are, and channels of surfaces that went through the
+// G-buffer's encoding (forward+ only; what the deferred path has to show).
+struct CaptureRequest {
+    std::vector<int> modes, through_gbuffer;
 };
 
 // Adds the group's attachments to a pass, cleared to what the background holds (0; material_id -1).

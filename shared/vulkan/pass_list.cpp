@@ -153,8 +153,8 @@ void PassList::runPass(const Pass& pass, VkCommandBuffer commands) {
 }
 
 // Milliseconds of each pass, from time stamps around it; the device must have true ones.
-std::vector<double> PassList::runWithTimestamps() {
-    const auto count = static_cast<std::uint32_t>(passes_.size() + 1);
+std::vector<double> PassList::runWithTimestamps(std::size_t first, std::size_t last) {
+    const auto count = static_cast<std::uint32_t>(last - first + 1);
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .pNext = nullptr,
                                      .flags = 0,
@@ -167,8 +167,8 @@ std::vector<double> PassList::runWithTimestamps() {
     device_.submit([&](VkCommandBuffer commands) {
         vkCmdResetQueryPool(commands, pool, 0, count);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 0);
-        for (std::uint32_t i = 0; i < passes_.size(); ++i) {
-            runPass(*passes_[i], commands);
+        for (std::uint32_t i = 0; i + 1 < count; ++i) {
+            runPass(*passes_[first + i], commands);
             vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, i + 1);
         }
     });
@@ -177,32 +177,33 @@ std::vector<double> PassList::runWithTimestamps() {
                                 sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "vkGetQueryPoolResults");
     std::vector<double> ms;
-    for (std::size_t i = 0; i < passes_.size(); ++i)
+    for (std::size_t i = 0; i + 1 < count; ++i)
         ms.push_back(static_cast<double>(ticks[i + 1] - ticks[i]) *
                      static_cast<double>(device_.limits().timestampPeriod) * 1e-6);
     return ms;
 }
 
-double PassList::run() {
+double PassList::run(std::size_t first, std::size_t last) {
     if (!device_.info().isCpu() && device_.limits().timestampComputeAndGraphics == VK_TRUE) {
         double total = 0;
-        for (const double ms : runWithTimestamps()) total += ms;
+        for (const double ms : runWithTimestamps(first, last)) total += ms;
         return total;
     }
     return device_.submit([&](VkCommandBuffer commands) {
-        for (const auto& pass : passes_) runPass(*pass, commands);
+        for (std::size_t i = first; i < last; ++i) runPass(*passes_[i], commands);
     });
 }
 
-std::vector<PassMs> PassList::profile() {
+std::vector<PassMs> PassList::profile(std::size_t first, std::size_t last) {
     std::vector<PassMs> times;
     if (!device_.info().isCpu() && device_.limits().timestampComputeAndGraphics == VK_TRUE) {
-        const std::vector<double> ms = runWithTimestamps();
-        for (std::size_t i = 0; i < passes_.size(); ++i) times.push_back({passes_[i]->name_, ms[i]});
+        const std::vector<double> ms = runWithTimestamps(first, last);
+        for (std::size_t i = first; i < last; ++i) times.push_back({passes_[i]->name_, ms[i - first]});
     } else {
-        for (const auto& pass : passes_)
-            times.push_back(
-                {pass->name_, device_.submit([&](VkCommandBuffer commands) { runPass(*pass, commands); })});
+        for (std::size_t i = first; i < last; ++i)
+            times.push_back({passes_[i]->name_, device_.submit([&](VkCommandBuffer commands) {
+                                 runPass(*passes_[i], commands);
+                             })});
     }
     return times;
 }

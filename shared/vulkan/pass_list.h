@@ -63,12 +63,16 @@ public:
 
     Pass& draw(const std::string& name);
 
-    // Runs every pass in one submit. Returns milliseconds: time stamps on a GPU; on a CPU device, whose
-    // time stamps are wrong, the clock from submit to fence.
-    double run();
+    // How many passes there are so far: where those that come next begin.
+    std::size_t size() const { return passes_.size(); }
+
+    // Runs passes [first, last) in one submit. Returns milliseconds: time stamps on a GPU; on a CPU device,
+    // whose time stamps are wrong, the clock from submit to fence. Images keep what earlier runs left.
+    double run(std::size_t first, std::size_t last);
+    double run() { return run(0, size()); }
 
     // The same, each pass in a submit of its own on a CPU device (between time stamps on a GPU).
-    std::vector<PassMs> profile();
+    std::vector<PassMs> profile(std::size_t first, std::size_t last);
 
     // Images as the last run left them, row 0 on top: the first `components` float32 of every texel, side by
     // side. Copied in one submit, as far as staging memory of 256 MiB allows, and unpacked on all cores.
@@ -91,7 +95,7 @@ private:
     void transition(std::vector<VkImageMemoryBarrier2>& barriers, ImageRef image, const ImageState& to,
                     bool discard);
     void runPass(const Pass& pass, VkCommandBuffer commands);
-    std::vector<double> runWithTimestamps();
+    std::vector<double> runWithTimestamps(std::size_t first, std::size_t last);
     void copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results);
 
     Device& device_;

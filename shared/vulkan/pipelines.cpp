@@ -5,6 +5,8 @@
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/spirv.h"
 
+#include <tbb/parallel_for.h>
+
 #include <cstddef>
 #include <stdexcept>
 
@@ -29,9 +31,23 @@ VkShaderModule Pipelines::module(const std::string& name) {
     return modules_.emplace(name, makeShaderModule(device_, name)).first->second;
 }
 
-VkPipeline Pipelines::get(const PipelineKey& key) {
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
+std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
+    std::vector<std::pair<const PipelineKey*, OwnedPipeline*>> missing;
+    for (const PipelineKey& key : keys) {
+        const auto [entry, isNew] = pipelines_.try_emplace(key);
+        if (!isNew) continue;
+        missing.emplace_back(&entry->first, &entry->second);
+        module(key.vertex);
+        if (!key.fragment.empty()) module(key.fragment);
+    }
+    tbb::parallel_for(std::size_t{0}, missing.size(),
+                      [&](std::size_t i) { *missing[i].second = make(*missing[i].first); });
+    std::vector<VkPipeline> pipelines;
+    for (const PipelineKey& key : keys) pipelines.push_back(pipelines_.at(key));
+    return pipelines;
+}
 
+OwnedPipeline Pipelines::make(const PipelineKey& key) const {
     std::array<VkSpecializationMapEntry, gpu::FEATURE_COUNT> entries;
     for (std::uint32_t id = 0; id < gpu::FEATURE_COUNT; ++id) entries[id] = {id, id * 4, 4};
     const VkSpecializationInfo specialization{gpu::FEATURE_COUNT, entries.data(), sizeof key.variant.values(),
@@ -42,7 +58,7 @@ VkPipeline Pipelines::get(const PipelineKey& key) {
                           .pNext = nullptr,
                           .flags = 0,
                           .stage = stage,
-                          .module = module(name),
+                          .module = modules_.at(name),
                           .pName = "main",
                           .pSpecializationInfo = &specialization});
     };
@@ -144,7 +160,7 @@ VkPipeline Pipelines::get(const PipelineKey& key) {
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
           "vkCreateGraphicsPipelines");
-    return pipelines_.emplace(key, OwnedPipeline(device_.handle(), pipeline)).first->second;
+    return {device_.handle(), pipeline};
 }
 
 }  // namespace diptych

@@ -8,6 +8,7 @@
 #include <array>
 #include <compare>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,12 +48,14 @@ public:
     // `layout` must outlive the pipelines.
     Pipelines(Device& device, VkPipelineLayout layout) : device_(device), layout_(layout) {}
 
-    VkPipeline get(const PipelineKey& key);
+    VkPipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
+    std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // new ones are made on all cores
     VkPipelineLayout layout() const { return layout_; }
     std::size_t count() const { return pipelines_.size(); }
 
 private:
     VkShaderModule module(const std::string& name);
+    OwnedPipeline make(const PipelineKey& key) const;  // its modules must be loaded
 
     Device& device_;
     VkPipelineLayout layout_;
