@@ -261,9 +261,13 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
             throw std::logic_error("PassList: an image has fewer components than are read back");
         const auto* from = static_cast<const float*>(buffers[image].mapped());
         std::vector<float>& out = results[image];
-        out.reserve(texels * kept);
-        for (std::size_t i = 0; i < texels; ++i)
-            out.insert(out.end(), from + i * stored, from + i * stored + kept);
+        if (kept == stored) {
+            out.assign(from, from + texels * kept);
+            return;
+        }
+        out.resize(texels * kept);
+        float* to = out.data();
+        for (std::size_t i = 0; i < texels; ++i, from += stored, to += kept) std::copy_n(from, kept, to);
     });
 }
 
