@@ -80,22 +80,25 @@ int runRender(const Options& options) {
     Json result{{"schema", 1},
                 {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
                 {"frames", Json::array()}};
+    // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
+    std::vector<Frame> frames;
     for (const std::string& name : options.scenes) {
         say(options, name);
-        const std::vector<Frame> frames = renderAll(device, loadScene(name), settings, render);
+        for (Frame& frame : renderAll(device, loadScene(name), settings, render))
+            frames.push_back(std::move(frame));
         checkValidation(device);
-        for (const Frame& frame : frames) {
-            Output target = output;
-            if (several) target.path /= std::to_string(result["frames"].size() + 1);
-            writeFrame(frame, made, target, debugMode(options.shown), options.picture, options.force);
-            Json json = jsonOf(frame);
-            json["file"] = target.path.string();
-            result["frames"].push_back(std::move(json));
-            if (!options.json && !options.quiet)
-                fmt::print("{}: {}, {}x{}{}\n", target.path.string(), frame.scene, settings[0].size.width,
-                           settings[0].size.height,
-                           frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
-        }
+    }
+    for (const Frame& frame : frames) {
+        Output target = output;
+        if (several) target.path /= std::to_string(result["frames"].size() + 1);
+        writeFrame(frame, made, target, debugMode(options.shown), options.picture, options.force);
+        Json json = jsonOf(frame);
+        json["file"] = target.path.string();
+        result["frames"].push_back(std::move(json));
+        if (!options.json && !options.quiet)
+            fmt::print("{}: {}, {}x{}{}\n", target.path.string(), frame.scene, settings[0].size.width,
+                       settings[0].size.height,
+                       frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
     }
     if (several) writeFile(output.path / several_mark, jsonText(result));
     if (options.json) fmt::print("{}", jsonText(result));

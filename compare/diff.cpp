@@ -50,7 +50,7 @@ void readCounters(const Frame& frame, Comparison& comparison) {
         comparison.failures.push_back(fmt::format("{}: {} light lists overflowed: lights are missing",
                                                   frame.name, counters.overflowed_lists));
     if (counters.nonfinite_pixels > 0)
-        comparison.notes.push_back(
+        comparison.failures.push_back(
             fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));
 }
 

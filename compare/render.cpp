@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render.h"
 
+#include "compare/metrics.h"
+#include "compare/tolerance.h"
 #include "deferred/deferred.h"
 #include "forward_plus/forward_plus.h"
 #include "shared/contract/debug_mode.h"
@@ -129,23 +131,6 @@ std::uint64_t nonfinitePixels(const Image& image) {
     return count;
 }
 
-// Pixels that are not the same bits; a GPU's compiler may contract the two shaders differently, so there
-// 16 ULP of the pixel's largest component are the same.
-std::uint64_t differentPixels(const Image& a, const Image& b, bool cpu) {
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < a.pixels(); ++i) {
-        const float *p = a.pixel(i), *q = b.pixel(i);
-        if (std::memcmp(p, q, sizeof(float) * static_cast<std::size_t>(a.components)) == 0) continue;
-        float largest = 0, difference = 0;
-        for (int c = 0; c < a.components; ++c) {
-            largest = std::max({largest, std::abs(p[c]), std::abs(q[c])});
-            difference = std::max(difference, std::abs(p[c] - q[c]));
-        }
-        count += cpu || !(difference <= 16 * 0x1p-23f * largest);
-    }
-    return count;
-}
-
 FrameCamera cameraOf(const View& view) {
     FrameCamera camera;
     camera.name = view.camera.name;
@@ -156,6 +141,7 @@ FrameCamera cameraOf(const View& view) {
         camera.up[i] = up[i];
     }
     camera.fov_degrees = view.camera.orthographic ? 0.0 : glm::degrees(view.camera.yfov);
+    camera.ymag = view.camera.orthographic ? view.camera.ymag : 0.0;
     camera.near = view.camera.near;
     camera.far = view.camera.far;
     return camera;
@@ -246,7 +232,7 @@ private:
             (captured[i].through_gbuffer ? frame_.through_gbuffer : frame_.channels)[captured[i].mode] =
                 std::move(read[i]);
         frame_.counters.unreproduced_pixels =
-            differentPixels(frame_.channels[lit], lit_, device_.info().isCpu());
+            unequalPixels(frame_.channels[lit], lit_, device_.info().isCpu() ? 0 : gpuUlps);
         frame_.channels[lit] = std::move(lit_);
         if (!asked(lit)) frame_.channels.erase(lit);
     }

@@ -4,6 +4,7 @@
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
+#include "shared/material/gbuffer_layout.h"
 
 #include <fmt/format.h>
 
@@ -47,7 +48,7 @@ Tolerance unormTolerance(unsigned bits) {
 
 Tolerance emissionTolerance(const FramePair& pair) {
     if (!pair.needs.emission) return {0, "nothing in the scene emits"};
-    if (pair.needs.max_emission > gpu::EMISSION_MAX || pair.needs.min_emission < gpu::EMISSION_MIN)
+    if (gbufferLayout(pair.baseline.settings.gbuffer, pair.needs).wide_emission)
         return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
     // The largest component has its top bit set, so half a step is at most 0.5 / 256 of it; 1/512 of that
     // more where rounding moves the exponent. Below 2^-16 the exponent ends and half a step stays 2^-25.

@@ -60,8 +60,8 @@ struct GBufferSet {
     DescriptorSets sets;
 };
 
-// A full-screen pass over what the G-buffer holds: the triangle lies at the far end of depth, and LESS
-// skips every pixel that nothing was drawn to before it is shaded.
+// A full-screen pass over what the G-buffer holds: the triangle lies at the least depth that can be drawn,
+// and LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded.
 void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                 const std::string& fragment, const Variant& variant, const std::vector<VkFormat>& colors) {
     for (const ImageRef image : frame.gbuffer)
@@ -73,7 +73,7 @@ void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const F
                                                                  .input = VertexInput::none,
                                                                  .colors = colors,
                                                                  .depth = depthFormat,
-                                                                 .depth_compare = VK_COMPARE_OP_LESS,
+                                                                 .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
                                                                  .depth_write = false});
     const auto set = std::make_shared<GBufferSet>(passes, inputs, frame);
     pass.record([&inputs, pipeline, set](VkCommandBuffer commands) {

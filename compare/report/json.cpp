@@ -18,6 +18,7 @@ Json jsonOf(const FrameCamera& camera) {
             {"target", camera.target},
             {"up", camera.up},
             {"fov_degrees", camera.fov_degrees},
+            {"ymag", camera.ymag},
             {"near", camera.near},
             {"far", finiteOrNull(camera.far)}};
 }

@@ -36,16 +36,17 @@ Brdf makeBrdf(Surface s, vec3 v) {
 float distributionGgx(float alpha, vec3 n, vec3 h) {
     vec3 n_cross_h = cross(n, h);
     float a = dot(n, h) * alpha;
-    float k = alpha / (dot(n_cross_h, n_cross_h) + a * a);
-    return k * k * INVERSE_PI;
+    precise float k = alpha / (dot(n_cross_h, n_cross_h) + a * a);
+    precise float d = k * k * INVERSE_PI;
+    return d;
 }
 
 // Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs": height-correlated
 // Smith for GGX, G / (4 (n.l) (n.v)), 1/sr.
 float visibilitySmith(float alpha, float n_dot_v, float n_dot_l) {
     float a2 = alpha * alpha;
-    float lambda_v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - a2) + a2);
-    float lambda_l = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - a2) + a2);
+    precise float lambda_v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - a2) + a2);
+    precise float lambda_l = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - a2) + a2);
     return 0.5 / (lambda_v + lambda_l);
 }
 
@@ -59,7 +60,9 @@ float schlickWeight(float v_dot_h) {
 // Adds what light of `irradiance` (W/m^2, across its direction) from the unit vector `l` sends to `v`.
 void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffuse, inout vec3 specular) {
     float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
-    vec3 h = normalize(l + v);
+    vec3 sum = l + v;  // zero where light and viewer stand opposite: nothing is reflected, but nothing may be NaN
+    float length2 = dot(sum, sum);
+    vec3 h = length2 > 1e-12 ? sum * inversesqrt(length2) : n;
     float weight = schlickWeight(dot(v, h));
     vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * weight;
     float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);

@@ -19,7 +19,7 @@ Incident fromDirectionalLight(Light light) {
 Incident fromLocalLight(Light light, vec3 position) {
     vec3 to_light = light.position - position;
     float d2 = max(dot(to_light, to_light), MIN_LIGHT_DISTANCE_SQUARED);
-    vec3 direction = to_light * inversesqrt(d2);
+    vec3 direction = to_light * inversesqrt(d2);  // zero, and no light, in the light's own centre
     float range2 = light.range * light.range;
     float x = d2 / range2;
     float window = d2 < range2 ? 1.0 - x * x : 0.0;

@@ -43,32 +43,41 @@ bool isCutOut(vec4 base_color) {
     return on(feature_alpha_mask) && base_color.a < materials[constants.material].alpha_cutoff;
 }
 
+// Of the triangle, towards the viewer. The derivatives are scaled first: in a tiny scene the square of their
+// product's length would underflow.
+vec3 triangleNormal(vec3 v) {
+    vec3 dx = dFdxFine(in_world), dy = dFdyFine(in_world);
+    vec3 ax = abs(dx), ay = abs(dy);
+    precise vec3 n = cross(dx / max(max(ax.x, max(ax.y, ax.z)), 1e-37), dy / max(max(ay.x, max(ay.y, ay.z)), 1e-37));
+    float length2 = dot(n, n);
+    if (!(length2 > 0.0)) return v;  // seen edge-on, or without area
+    precise vec3 unit = n * inversesqrt(length2);
+    return dot(unit, v) < 0.0 ? -unit : unit;
+}
+
 // glTF 2.0: tangent space is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as MikkTSpace
-// asks; a back face of a double-sided material turns the result round.
-vec3 shadingNormal() {
-    vec3 n = in_normal;
+// asks; a back face of a double-sided material turns the result round. `triangle` stands in where a normal has
+// vanished: flattened by the node's scale, or by interpolation.
+vec3 shadingNormal(vec3 triangle) {
+    precise vec3 n = in_normal;
     if (on(feature_normal_texture)) {
         vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
         t.xy *= materials[constants.material].normal_scale;
         vec3 bitangent = in_tangent.w * cross(in_normal, in_tangent.xyz);
         n = t.x * in_tangent.xyz + t.y * bitangent + t.z * in_normal;
     }
-    if (on(feature_double_sided) && !gl_FrontFacing) n = -n;
-    return normalize(n);
-}
-
-// Of the triangle, towards the viewer.
-vec3 triangleNormal(vec3 v) {
-    vec3 n = normalize(cross(dFdx(in_world), dFdy(in_world)));
-    return dot(n, v) < 0.0 ? -n : n;
+    float length2 = dot(n, n);
+    if (!(length2 > 0.0)) return triangle;
+    precise vec3 unit = n * inversesqrt(length2);
+    return on(feature_double_sided) && !gl_FrontFacing ? -unit : unit;
 }
 
 Surface surfaceFromMaterial(vec4 base_color) {
     Material m = materials[constants.material];
-    Surface s;
+    precise Surface s;  // the same bits in every shader that asks
     s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
-    s.normal = shadingNormal();
     s.geometric_normal = triangleNormal(viewVector(s.position));
+    s.normal = shadingNormal(s.geometric_normal);
     s.albedo = base_color.rgb;
     s.metallic = m.metallic;
     s.roughness = m.roughness;

@@ -24,7 +24,7 @@ vec3 lit(Radiance radiance) {
 Radiance shade(Surface s) {
     vec3 v = viewVector(s.position);
     Brdf brdf = makeBrdf(s, v);
-    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), s.emission);
+    precise Radiance radiance = Radiance(vec3(0.0), vec3(0.0), s.emission);
     if (on(feature_directional_lights)) {
         for (uint i = 0; i < view.directional_light_count; ++i) {
             Incident light = fromDirectionalLight(lights[i]);

@@ -26,12 +26,18 @@ vec2 slotTexcoord(Material m, uint slot) {
     return vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0)));
 }
 
+// A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's normal.
+vec3 unitOrZero(vec3 v) {
+    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
+}
+
 void main() {
     Draw draw = draws[constants.draw];
     out_world = worldFromVertex(draw, position);
     gl_Position = clipFromVertex(out_world);
-    out_normal = normalize(draw.normal_from_object * normal);
-    out_tangent = vec4(normalize(mat3(draw.world_from_object) * tangent.xyz), tangent.w * draw.handedness);
+    out_normal = unitOrZero(draw.normal_from_object * normal);
+    out_tangent = vec4(unitOrZero(mat3(draw.world_from_object) * tangent.xyz), tangent.w * draw.handedness);
     out_texcoord0 = texcoord0;
     out_texcoord1 = texcoord1;
     out_color = color;

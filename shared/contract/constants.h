@@ -17,8 +17,9 @@ CONTRACT_CONST(float, MIN_PERCEPTUAL_ROUGHNESS, 0.045f);
 // Smallest n.v that is shaded: a normal-mapped surface may face away from the viewer that sees it.
 CONTRACT_CONST(float, MIN_N_DOT_V, 1e-4f);
 
-// Smallest squared distance to a light, m^2: a surface point in the light's own centre stays finite.
-CONTRACT_CONST(float, MIN_LIGHT_DISTANCE_SQUARED, 1e-8f);
+// Smallest squared distance to a light, m^2 (a tenth of a nanometre): a surface point in the light's own
+// centre stays finite, and nothing that a scene in metres can hold is touched.
+CONTRACT_CONST(float, MIN_LIGHT_DISTANCE_SQUARED, 1e-20f);
 
 // F0 of a dielectric with the default index of refraction 1.5: ((1.5 - 1) / (1.5 + 1))^2.
 CONTRACT_CONST(float, DEFAULT_DIELECTRIC_F0, 0.04f);

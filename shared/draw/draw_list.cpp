@@ -14,8 +14,8 @@ namespace diptych {
 
 namespace {
 
-// Columns of the cofactor matrix are the inverse transpose times the determinant, and exist for singular
-// transforms too.
+// Columns of the cofactor matrix are the inverse transpose times the determinant. A transform that flattens
+// one axis has one too, of rank 1: normals along that axis keep theirs, others become zero.
 glm::dmat3 normalFromObject(const glm::dmat3& m) {
     glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const double length =

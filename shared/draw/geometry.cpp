@@ -4,6 +4,8 @@
 #include "shared/contract/geometry.h"
 
 #include <array>
+#include <limits>
+#include <stdexcept>
 
 namespace diptych {
 
@@ -24,6 +26,10 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         ranges_.emplace_back();
         for (const Primitive& p : mesh.primitives) {
+            if (indices.size() + p.indices.size() > std::numeric_limits<std::uint32_t>::max() ||
+                positions.size() + p.positions.size() > std::numeric_limits<std::int32_t>::max())
+                throw std::runtime_error(
+                    "the scene has over 2^32 indices or 2^31 vertices: more than one buffer holds");
             PrimitiveRange range;
             range.first_index = static_cast<std::uint32_t>(indices.size());
             range.index_count = static_cast<std::uint32_t>(p.indices.size());

@@ -41,6 +41,7 @@ struct FrameCamera {
     std::string name;
     double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1}, up[3] = {0, 1, 0};
     double fov_degrees = 0;  // vertical; 0: orthographic
+    double ymag = 0;         // orthographic: half the height, m
     double near = 0, far = 0;  // far: infinity where there is none
 };
 

@@ -144,7 +144,10 @@ void PassList::runPass(const Pass& pass, VkCommandBuffer commands) {
                                .pStencilAttachment = nullptr};
     device_.beginLabel(commands, pass.name_);
     vkCmdBeginRendering(commands, &info);
-    const VkViewport viewport{0, 0, static_cast<float>(width_), static_cast<float>(height_), 0, 1};
+    // Depth is reversed and 0 says that nothing was drawn: what lies exactly on the far plane gets the least
+    // depth above it. Everything else is unchanged, being far larger.
+    constexpr float leastDepth = 1e-37f;
+    const VkViewport viewport{0, 0, static_cast<float>(width_), static_cast<float>(height_), leastDepth, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &info.renderArea);
     if (pass.record_) pass.record_(commands);

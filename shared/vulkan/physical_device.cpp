@@ -73,6 +73,7 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("dynamic rendering", f.v13.dynamicRendering == VK_TRUE);
     need("synchronization2", f.v13.synchronization2 == VK_TRUE);
     need("scalar block layout", f.v12.scalarBlockLayout == VK_TRUE);
+    need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
     need("colour attachments", l.maxColorAttachments >= gpu::CAPTURE_ATTACHMENTS,
          fmt::format("{}, {} needed", l.maxColorAttachments, gpu::CAPTURE_ATTACHMENTS));
     note("picture size", true, fmt::format("up to {} x {}", l.maxImageDimension2D, l.maxImageDimension2D));
@@ -182,6 +183,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v13.dynamicRendering = VK_TRUE;
     wanted.v13.synchronization2 = VK_TRUE;
     wanted.v12.scalarBlockLayout = VK_TRUE;
+    wanted.v10.features.fullDrawIndexUint32 = VK_TRUE;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .pNext = nullptr,

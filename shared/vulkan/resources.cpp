@@ -3,6 +3,8 @@
 
 #include "shared/vulkan/check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -40,6 +42,10 @@ std::uint32_t bytesPerTexel(VkFormat format) {
 GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
                      MemoryUse use)
     : size_(std::max<VkDeviceSize>(size, 1)) {
+    if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0 && size_ > device.limits().maxStorageBufferRange)
+        throw std::runtime_error(
+            fmt::format("the scene's {} take {} MiB; {} reads up to {} MiB of one buffer", name, size_ >> 20,
+                        device.info().name, device.limits().maxStorageBufferRange >> 20));
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                   .pNext = nullptr,
                                   .flags = 0,
@@ -206,6 +212,17 @@ void Uploader::flush() {
     if (!state_->copies.empty())
         state_->device.submit([&](VkCommandBuffer commands) {
             for (const auto& copy : state_->copies) copy(commands);
+            VkMemoryBarrier2 toReaders{};
+            toReaders.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+            toReaders.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+            toReaders.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+            toReaders.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+            toReaders.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
+            VkDependencyInfo dependency{};
+            dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+            dependency.memoryBarrierCount = 1;
+            dependency.pMemoryBarriers = &toReaders;
+            vkCmdPipelineBarrier2(commands, &dependency);
         });
     state_->copies.clear();
     state_->used = 0;

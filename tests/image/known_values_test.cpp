@@ -241,5 +241,77 @@ TEST(KnownValues, DepthAndPosition) {
     }
 }
 
+// The extremes: what once differed or was not a number.
+
+void expectSound(const std::vector<Frame>& frames) {
+    expectSameChannels(frames[0], frames[1]);
+    for (const Frame& frame : frames) {
+        EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name;
+        EXPECT_EQ(coveredPixels(frame), frame.channels.at(0).pixels()) << frame.name;
+        for (const int mode : {normals, 12})
+            for (const float value : frame.channels.at(mode).data)
+                ASSERT_TRUE(std::isfinite(value)) << frame.name << " " << debugMode(mode).name;
+    }
+}
+
+// Reversed depth is 0 at the far plane, and 0 is also what the background is cleared to.
+TEST(Extremes, ASurfaceOnTheFarPlaneIsInBothPictures) {
+    Scene scene = square();
+    for (const double near : {0.1, 0.013, 0.5}) {
+        scene.cameras[0].near = near;
+        scene.cameras[0].far = 1;
+        expectSound(draw(scene, 8));
+    }
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].ymag = 0.9;
+    expectSound(draw(scene, 8));
+}
+
+// Light and viewer in opposite directions have no half vector.
+TEST(Extremes, ALightThatShinesAtTheViewerGivesNothing) {
+    Scene scene = square();
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].ymag = 0.9;
+    scene.cameras[0].far = 10;
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {0, 0, 1};
+    scene.lights = {sun};
+    const auto frames = draw(scene, 8);
+    expectSound(frames);
+    for (const float value : frames[1].channels.at(lit).data) EXPECT_EQ(value, 0.0f);
+}
+
+TEST(Extremes, AFlattenedNodeKeepsItsNormals) {
+    Scene scene = square();
+    scene.nodes[0].parent_from_node[2] = {0, 0, 0, 0};
+    expectSound(draw(scene, 8));
+    for (glm::vec3& n : scene.meshes[0].primitives[0].normals) n = {1, 0, 0};  // in the plane: flattened away
+    const auto frames = draw(scene, 8);
+    expectSound(frames);
+    expectColor(colorAt(frames[1], normals, 4, 4), {0, 0, 1}, float32, "the triangle's normal stands in");
+}
+
+// The same picture at any scale: lengths by s, intensities by s^2.
+TEST(Extremes, ScaleDoesNotChangeThePicture) {
+    Scene scene = square();
+    Light lamp;
+    lamp.intensity = 10;
+    lamp.position = {0.5, 0, 2};
+    scene.lights = {lamp};
+    const glm::vec3 expected = colorAt(draw(scene, 8)[1], lit, 5, 4);
+    for (const double scale : {1e-9, 1e-5, 1e5, 1e9}) {
+        Scene scaled = scene;
+        for (int i = 0; i < 3; ++i) scaled.nodes[0].parent_from_node[i][i] = scale;
+        scaled.cameras[0].world_from_camera[3] = {0, 0, scale, 1};
+        scaled.cameras[0].near *= scale;
+        scaled.lights[0].position *= scale;
+        scaled.lights[0].intensity *= static_cast<float>(scale * scale);
+        const auto frames = draw(scaled, 8);
+        expectSound(frames);
+        expectColor(colorAt(frames[1], lit, 5, 4), expected, 1e-5f * expected.x, std::to_string(scale));
+    }
+}
+
 }  // namespace
 }  // namespace diptych::tests

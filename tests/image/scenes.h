@@ -2,7 +2,9 @@
 // What the picture tests draw, and on what.
 #pragma once
 
+#include "compare/metrics.h"
 #include "compare/render.h"
+#include "compare/tolerance.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/vulkan/device.h"
@@ -81,18 +83,7 @@ inline Settings smallPicture(GBufferEncoding gbuffer) {
 // shaders differently: there 16 ULP of the pixel's largest component are the same.
 inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = device().info().isCpu()) {
     if (a.width != b.width || a.height != b.height || a.components != b.components) return a.pixels() + 1;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.pixels(); ++i) {
-        const float *p = a.pixel(i), *q = b.pixel(i);
-        if (std::memcmp(p, q, sizeof(float) * static_cast<std::size_t>(a.components)) == 0) continue;
-        float largest = 0, difference = 0;
-        for (int c = 0; c < a.components; ++c) {
-            largest = std::max({largest, std::abs(p[c]), std::abs(q[c])});
-            difference = std::max(difference, std::abs(p[c] - q[c]));
-        }
-        count += bits || !(difference <= 16 * 0x1p-23f * largest);
-    }
-    return count;
+    return unequalPixels(a, b, bits ? 0 : gpuUlps);
 }
 
 // Every channel that both Frames have must be the same.

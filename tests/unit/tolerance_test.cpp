@@ -316,15 +316,15 @@ TEST(Diff, AFrameThatItsCaptureDoesNotReproduceFails) {
     EXPECT_NE(c.failures[0].find("forward_plus"), std::string::npos);
 }
 
-TEST(Diff, NonFiniteLitIsSaidThoughBothAgree) {
+TEST(Diff, NonFiniteLitFailsThoughBothAgree) {
     Pair p;
     for (Frame* frame : {&p.deferred, &p.forward}) {
         frame->channels[gpu::DEBUG_lit].data[0] = std::numeric_limits<float>::infinity();
         frame->counters.nonfinite_pixels = 1;
     }
     const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
-    EXPECT_TRUE(c.passed());
-    EXPECT_EQ(c.notes.size(), 2u);
+    EXPECT_FALSE(c.passed());
+    EXPECT_EQ(c.failures.size(), 2u);
 }
 
 TEST(Diff, OtherSizesAndNoCommonChannelAreErrors) {
