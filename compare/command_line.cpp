@@ -135,6 +135,17 @@ void addDevice(CLI::App& app, Options& options) {
     app.add_flag("--validate", options.validate, "with Vulkan validation; any message is a failure");
 }
 
+// --heat is a flag, and a flag takes a value behind = only: so that "--heat off" says what it seems to.
+std::vector<std::string> joinFlagValues(const std::vector<std::string>& words) {
+    std::vector<std::string> joined;
+    for (const std::string& word : words)
+        if (!joined.empty() && joined.back() == "--heat" && (word == "on" || word == "off" || word == "none"))
+            joined.back() += word == "on" ? "=true" : "=false";
+        else
+            joined.push_back(word == "--heat=none" ? "--heat=false" : word);
+    return joined;
+}
+
 // Everything that `command` understands.
 void describe(CLI::App& app, const std::string& command, Options& options, Said& said) {
     if (command == "devices") {
@@ -289,7 +300,9 @@ Options parseCommandLine(const std::vector<std::string>& words) {
 
     const CLI::App* chosen = &app;
     try {
-        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the back
+        const std::vector<std::string> joined = joinFlagValues(words);
+        app.parse(
+            std::vector<std::string>(joined.rbegin(), joined.rend()));  // CLI11 takes them from the back
         chosen = app.get_subcommands().front();
     } catch (const CLI::CallForHelp&) {
         for (const CLI::App* sub : app.get_subcommands()) chosen = sub;

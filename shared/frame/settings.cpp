@@ -210,9 +210,25 @@ std::string keyOf(std::string_view option) {
     return key;
 }
 
-// "none" is how a light rig is called off, on the command line and in a file.
-void simplify(Settings& settings) {
-    if (settings.lights == "none") settings.lights.clear();
+// "off" and "none" say the same of whatever can be called off: the setting's own word for it.
+std::string_view ownWord(std::string_view option, std::string_view word) {
+    constexpr std::pair<std::string_view, std::string_view> called_off[] = {
+        {"prepass", "off"},    {"env", "none"},        {"ambient", "0,0,0"}, {"lights", ""},
+        {"light-cutoff", "0"}, {"shadow-lights", "0"}, {"shadows", "off"},   {"evsm-bleed", "0"},
+        {"msaa", "1"},         {"sort", "off"},        {"haze", "off"}};
+    if (word == "off" || word == "none")
+        for (const auto& [name, own] : called_off)
+            if (name == option) return own;
+    return word;
+}
+
+template <class Value, class Member>
+bool readJson(Member& member, std::string_view option, const Json& json) {
+    if (option == "camera" && json.is_number_unsigned()) return Value::read(member, json.dump());
+    if (!json.is_string()) return Value::fromJson(member, json);
+    const auto& word = json.get_ref<const std::string&>();
+    const std::string_view own = ownWord(option, word);
+    return own == word ? Value::fromJson(member, json) : Value::read(member, own);
 }
 
 // Calls visit(member) for the one field called `option`; throws where there is none.
@@ -255,7 +271,7 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
         const std::string key = keyOf(field.option);
         if (unknown.erase(key) == 0) return;
         using Value = CodecOf<decltype(member)>;
-        if (!Value::fromJson(member, object[key]))
+        if (!readJson<Value>(member, field.option, object[key]))
             throw std::runtime_error(
                 fmt::format("settings: \"{}\": {} is not {}", key,
                             object[key].dump(-1, ' ', false, Json::error_handler_t::replace),
@@ -263,18 +279,16 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
     });
     if (!unknown.empty())
         throw std::runtime_error(fmt::format("settings: unknown key \"{}\"", *unknown.begin()));
-    simplify(settings);
     return settings;
 }
 
 void set(Settings& settings, std::string_view option, const std::string& value) {
     visitField(settings, option, [&](auto& member) {
         using Value = CodecOf<decltype(member)>;
-        if (!Value::read(member, value))
+        if (!Value::read(member, ownWord(option, value)))
             throw std::runtime_error(
                 fmt::format("--{} {}: not {}", option, value, inWords(Value::accepted())));
     });
-    simplify(settings);
 }
 
 std::string valueOf(const Settings& settings, std::string_view option) {

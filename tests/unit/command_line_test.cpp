@@ -63,6 +63,16 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
     }
 }
 
+TEST(CommandLine, OffAndNoneAlwaysWork) {
+    for (const std::string word : {"off", "none"}) {
+        const Options options =
+            parseCommandLine({"render", "--env", word, "--shadows", word, "--haze", word, "--lights", word,
+                              "--heat", word, "--heat=" + word, "a.glb", "--msaa", "1", "--spp", "1"});
+        EXPECT_EQ(options.settings, Settings());
+        EXPECT_EQ(options.scenes, std::vector<std::string>{"a.glb"});
+    }
+}
+
 TEST(CommandLine, SeveralScenesAndCameras) {
     const Options options = parseCommandLine({"compare", "a.glb", "--camera", "1", "b.glb",
                                               "--camera=eye=1,2,3 target=0,0,0", "--size", "8x4", "c.glb"});

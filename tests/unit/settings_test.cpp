@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 #include <set>
@@ -129,7 +130,7 @@ TEST(Settings, BadJsonIsRefusedByName) {
         {R"({"path": "raster"})", "path"},
         {R"({"evsm_bleed": 1e300})", "evsm_bleed"},
         {R"({"haze": 1})", "haze"},
-        {R"({"camera": 0})", "camera"},
+        {R"({"camera": 0.5})", "camera"},
         {R"({"time": null})", "time"},
         {"[1]", "object"},
         {"{", "JSON"},
@@ -217,6 +218,26 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         const std::string problem = s.problem().value_or("none");
         EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
     }
+}
+
+TEST(Settings, OffAndNoneCallOffWhateverCanBe) {
+    for (const char* option : {"prepass", "env", "ambient", "lights", "light-cutoff", "shadow-lights",
+                               "shadows", "evsm-bleed", "msaa", "sort", "haze"})
+        for (const std::string word : {"off", "none"}) {
+            Settings said;
+            ASSERT_NO_THROW(set(said, option, word)) << option << " " << word;
+            EXPECT_EQ(said.problem().value_or(""), "") << option << " " << word;
+            std::string key = option;
+            std::ranges::replace(key, '-', '_');
+            EXPECT_EQ(settingsFromJson("{\"" + key + "\": \"" + word + "\"}"), said) << option;
+            EXPECT_EQ(settingsFromJson(toJson(said)), said) << option;
+        }
+    Settings settings;
+    set(settings, "env", "off");
+    EXPECT_EQ(settings.env, "none");
+    set(settings, "shadows", "none");
+    EXPECT_EQ(valueOf(settings, "shadows"), "off");
+    EXPECT_THROW(set(settings, "gbuffer", "off"), std::runtime_error);
 }
 
 TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
