@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -263,6 +264,12 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
         throw std::runtime_error("settings: a number beyond a double's range");
     }
     if (!object.is_object()) throw std::runtime_error("settings: not a JSON object");
+    if (object.size() == 1 && object.contains("settings") && object["settings"].is_object())
+        object = Json(object["settings"]);
+    for (const char* key : {"settings", "frames"})
+        if (object.contains(key) && object[key].is_structured())
+            throw std::runtime_error(
+                "settings: a whole report or frame; give one frame's \"settings\" object");
 
     Settings settings = base;
     std::set<std::string> unknown;
@@ -277,6 +284,14 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
                             object[key].dump(-1, ' ', false, Json::error_handler_t::replace),
                             inWords(Value::accepted())));
     });
+    for (const char* option : {"debug", "channels", "exposure", "ev100", "no_tonemap", "frames", "fps",
+                               "heat", "runs", "device", "validate", "baseline"})
+        if (unknown.contains(option)) {
+            std::string words(option);
+            std::ranges::replace(words, '_', '-');
+            throw std::runtime_error(fmt::format(
+                "settings: \"{}\" is no setting but an option of the command line: --{}", option, words));
+        }
     if (!unknown.empty())
         throw std::runtime_error(fmt::format("settings: unknown key \"{}\"", *unknown.begin()));
     return settings;

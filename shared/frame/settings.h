@@ -121,12 +121,14 @@ template <class E> std::string_view nameOf(E value) {
 }
 
 // Every setting by its option's name (- written _), as JSON text; and the way back: a key that is absent
-// keeps the value of `base`, an unknown key or a value of the wrong kind throws std::runtime_error.
+// keeps the value of `base`, an unknown key or a value of the wrong kind throws std::runtime_error. The object
+// may stand alone or in { "settings": ... }.
 std::string toJson(const Settings& settings, int indent = 2);
 Settings settingsFromJson(const std::string& text, const Settings& base = {});
 
 // One value from the words of the command line, e.g. set(s, "size", "640x360"). Throws
-// std::runtime_error naming option, value and what is accepted.
+// std::runtime_error naming option, value and what is accepted. Here and in JSON "off" and "none" both call
+// off whatever can be.
 void set(Settings& settings, std::string_view option, const std::string& value);
 
 // The way back, and what set() accepts in short: "deferred|forward_plus|reference", "WxH", "F". Both throw

@@ -220,6 +220,28 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
     }
 }
 
+TEST(Settings, JsonTakesACamerasNumberAndTheWholeSettingsMember) {
+    EXPECT_EQ(settingsFromJson(R"({"camera": 2})").camera, "2");
+    EXPECT_EQ(settingsFromJson(R"({"settings": {"seed": 7}})").seed, 7u);
+}
+
+TEST(Settings, WhatIsNoSettingIsSentToWhereItBelongs) {
+    const std::pair<const char*, const char*> cases[] = {
+        {R"({"runs": 3})", "--runs"},
+        {R"({"debug": "normals"})", "--debug"},
+        {R"({"no_tonemap": true})", "--no-tonemap"},
+        {R"({"frames": 1})", "--frames"},
+        {R"({"frames": [{"settings": {}}]})", "one frame's \"settings\" object"},
+        {R"({"name": "deferred", "settings": {}})", "one frame's \"settings\" object"},
+    };
+    for (const auto& [json, expected] : cases) try {
+            settingsFromJson(json);
+            ADD_FAILURE() << json;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+        }
+}
+
 TEST(Settings, OffAndNoneCallOffWhateverCanBe) {
     for (const char* option : {"prepass", "env", "ambient", "lights", "light-cutoff", "shadow-lights",
                                "shadows", "evsm-bleed", "msaa", "sort", "haze"})
