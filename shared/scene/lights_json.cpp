@@ -88,7 +88,7 @@ LightKind kindOf(const Fields& fields) {
     if (type == "directional") return LightKind::directional;
     if (type == "point") return LightKind::point;
     if (type == "spot") return LightKind::spot;
-    for (const char* area : {"rect", "disc", "tube"})
+    for (const char* area : {"area", "rect", "disc", "tube"})
         if (type == area)
             fields.fail("type", type + " lights are not built yet: point, spot and directional are");
     fields.fail("type", type.empty() ? "is missing: point, spot or directional"
@@ -108,10 +108,10 @@ void readCone(const Fields& fields, Light& light) {
 
 Light readLight(const Json& object, const std::string& who) {
     const Fields fields(object, who);
+    Light light;
+    light.kind = kindOf(fields);  // first: a kind that is not built has fields of its own
     fields.knownOnly({"type", "name", "position", "direction", "color", "intensity", "range", "spot",
                       "innerConeAngle", "outerConeAngle"});
-    Light light;
-    light.kind = kindOf(fields);
     light.name = fields.text("name", "");
     light.position = fields.vector("position", light.position);
     const glm::dvec3 direction = fields.vector("direction", light.direction);

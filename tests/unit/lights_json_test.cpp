@@ -74,8 +74,9 @@ TEST(LightsJson, ConeAnglesMayStandBesideTheType) {
 TEST(LightsJson, ErrorsNameFileLightAndField) {
     const std::pair<const char*, const char*> cases[] = {
         {R"({"type": "rect"})", "type: rect lights are not built yet"},
-        {R"({"type": "disc"})", "disc"},
-        {R"({"type": "tube"})", "tube"},
+        {R"({"type": "area", "width": 2, "height": 1})", "type: area lights are not built yet"},
+        {R"({"type": "disc", "radius": 1})", "type: disc lights are not built yet"},
+        {R"({"type": "tube", "length": 1})", "type: tube lights are not built yet"},
         {R"({"type": "laser"})", "type"},
         {R"({"position": [0, 0, 0]})", "type"},
         {R"({"type": "point", "position": [0, 0]})", "position"},
