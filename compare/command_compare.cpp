@@ -28,6 +28,7 @@ int runCompare(const Options& options) {
     const std::vector<Settings> settings = plan(options, {Path::deferred, Path::forward_plus});
     const std::filesystem::path folder = reportFolder(options);
     if (options.path_given) note(options, "--path is not used: compare draws both");
+    if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
     RenderOptions render = renderOptions(options);
     render.through_gbuffer = true;
 

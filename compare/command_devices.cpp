@@ -38,7 +38,12 @@ void print(const DeviceInfo& device) {
 }  // namespace
 
 int runDevices(const Options& options) {
+    refuseOut(options);
     std::vector<DeviceInfo> devices = listDevices();
+    if (!options.device.empty()) {
+        const DeviceInfo chosen = Device({options.device, options.validate}).info();
+        std::erase_if(devices, [&](const DeviceInfo& device) { return device.index != chosen.index; });
+    }
     for (DeviceInfo& device : devices) {
         if (!device.usable()) continue;
         Device opened({std::to_string(device.index), options.validate});

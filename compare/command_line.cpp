@@ -10,6 +10,7 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace diptych {
@@ -149,7 +150,10 @@ std::vector<std::string> joinFlagValues(const std::vector<std::string>& words) {
 // Everything that `command` understands.
 void describe(CLI::App& app, const std::string& command, Options& options, Said& said) {
     if (command == "devices") {
-        app.add_flag("--validate", options.validate, "with Vulkan validation; any message is a failure");
+        addSettings(app, said);
+        addPicture(app, options, said);
+        addDevice(app, options);
+        addFiles(app, options, "refused: devices writes no file, --json prints one");
         return addOutput(app, options);
     }
 
@@ -186,7 +190,8 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
                  "X.exr: every channel; X.png: the picture; else a folder for both (diptych-render)");
         app.add_flag("--list-scenes", options.list_scenes, "name the built-in scenes and end");
     } else {
-        addFiles(app, options, "where to write");
+        addFiles(app, options,
+                 command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
     }
     addOutput(app, options);
     if (command == "choose") {
@@ -246,7 +251,8 @@ void resolve(Options& options, const Said& said) {
     options.cameras = said.cameras.empty() ? std::vector{options.settings.camera} : said.cameras;
     options.path_given =
         std::ranges::any_of(said.settings, [](const auto& pair) { return pair.first == "path"; });
-    if (!said.debug.empty()) options.shown = channelNumber(said.debug, "--debug");
+    options.debug_given = !said.debug.empty();
+    if (options.debug_given) options.shown = channelNumber(said.debug, "--debug");
     if (said.channels != "all") options.channels = channelNumbers(said.channels);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 
@@ -267,6 +273,15 @@ void resolve(Options& options, const Said& said) {
         throw std::runtime_error(
             fmt::format("--baseline {} is not built yet; use deferred or forward_plus", said.baseline));
     options.baseline = said.baseline == "deferred" ? Path::deferred : Path::forward_plus;
+}
+
+// CLI11 calls an option that was given too often "--size: At Most 1 required but received 3".
+std::string inOurWords(const std::string& error) {
+    constexpr std::string_view tooOften = ": At Most 1 required but received ";
+    const std::size_t at = error.find(tooOften);
+    if (at == std::string::npos) return error;
+    return fmt::format("{}: given {} times; once is enough", error.substr(0, at),
+                       error.substr(at + tooOften.size()));
 }
 
 }  // namespace
@@ -313,7 +328,7 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         return options;
     } catch (const CLI::ParseError& error) {
         for (const CLI::App* sub : app.get_subcommands()) chosen = sub;
-        throw std::runtime_error(fmt::format("{}; see diptych {}--help", error.what(),
+        throw std::runtime_error(fmt::format("{}; see diptych {}--help", inOurWords(error.what()),
                                              chosen == &app ? "" : chosen->get_name() + " "));
     }
 

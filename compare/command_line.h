@@ -28,6 +28,7 @@ struct Options {
     bool path_given = false;               // --path stood on the command line
     Path baseline = Path::deferred;        // compare: the left panel
     int shown = 0;                         // debug mode of the picture
+    bool debug_given = false;              // --debug stood on the command line
     std::vector<int> channels;             // debug modes, ascending; empty: all that can be made
     int runs = 5;                          // timed frames
     PictureChoice picture;

@@ -13,13 +13,25 @@ using Json = nlohmann::ordered_json;
 struct ScenePlan {
     std::string scene;
     Requirements needs;
+    std::vector<Requirements::Line> lines;
     std::vector<std::string> notes;  // what was read otherwise than the file says
     std::vector<PathPlan> paths;
 };
 
+// What the scene needs, in words; the sun that the tool adds to an unlit scene is not the scene's.
+std::vector<Requirements::Line> linesOf(const Scene& scene, const Requirements& needs,
+                                        const Settings& settings) {
+    std::vector<Requirements::Line> lines = needs.lines();
+    if (settings.lights.empty() && poseAt(scene, settings.time).lights.empty())
+        for (Requirements::Line& line : lines)
+            if (line.what == "directional lights")
+                line.why = "the default sun, added because the scene has no light";
+    return lines;
+}
+
 Json jsonOf(const ScenePlan& plan) {
     Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
-    for (const auto& line : plan.needs.lines())
+    for (const auto& line : plan.lines)
         (line.modelled ? modelled : leftOut).push_back({{"what", line.what}, {"why", line.why}});
     for (const PathPlan& path : plan.paths)
         paths.push_back({{"path", path.path},
@@ -45,7 +57,7 @@ void print(const ScenePlan& plan) {
                needs.directional_lights + needs.point_lights + needs.spot_lights);
     for (const bool modelled : {true, false}) {
         fmt::print("  {}\n", modelled ? "modelled" : "left out");
-        for (const auto& line : needs.lines())
+        for (const auto& line : plan.lines)
             if (line.modelled == modelled) fmt::print("    {:<26} {}\n", line.what, line.why);
     }
     for (const PathPlan& path : plan.paths) {
@@ -59,6 +71,7 @@ void print(const ScenePlan& plan) {
 }  // namespace
 
 int runPlan(const Options& options) {
+    refuseOut(options);
     std::vector<Path> paths{Path::deferred, Path::forward_plus};
     if (options.path_given) paths = {options.settings.path};
     const std::vector<Settings> settings = plan(options, paths);
@@ -66,7 +79,8 @@ int runPlan(const Options& options) {
     Json scenes = Json::array();
     for (const std::string& name : options.scenes) {
         const Scene scene = loadScene(name);
-        const ScenePlan result{scene.name, needsOf(scene, options.settings), scene.notes,
+        const Requirements needs = needsOf(scene, options.settings);
+        const ScenePlan result{scene.name, needs, linesOf(scene, needs, options.settings), scene.notes,
                                planPaths(device, scene, settings)};
         if (options.json)
             scenes.push_back(jsonOf(result));

@@ -55,6 +55,12 @@ ReportDevice reportDevice(const Device& device) {
     return {device.info().name, device.info().driver, device.info().type};
 }
 
+void refuseOut(const Options& options) {
+    if (!options.out.empty())
+        throw std::runtime_error(fmt::format("-o {}: {} writes no file; {} --json > FILE keeps what it says",
+                                             options.out.string(), options.command, options.command));
+}
+
 void checkValidation(const Device& device) {
     if (const std::uint64_t count = device.validationMessages(); count > 0)
         throw std::runtime_error(

@@ -33,6 +33,9 @@ RenderOptions renderOptions(const Options& options);
 DeviceOptions deviceOptions(const Options& options);
 ReportDevice reportDevice(const Device& device);
 
+// Throws where -o was given to a command that writes no file.
+void refuseOut(const Options& options);
+
 // With --validate any message of the layers is a failure: throws how many there were and the first one.
 void checkValidation(const Device& device);
 

@@ -112,6 +112,27 @@ TEST(Command, DevicesListsFacts) {
               std::string::npos);
 }
 
+TEST(Command, DevicesCanBeLimitedToOne) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "devices --json --device 0");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    ASSERT_EQ(parsed(ran)["devices"].size(), 1u);
+    EXPECT_EQ(parsed(ran)["devices"][0]["index"], 0);
+    const Ran none = runTool(folder, "devices --device 999");
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.err.find("--device 999"), std::string::npos) << none.err;
+}
+
+TEST(Command, WhatWritesNoFileRefusesAPlaceForIt) {
+    const Folder folder;
+    for (const std::string command : {"plan", "devices"}) {
+        const Ran ran = runTool(folder, command + " -o p");
+        EXPECT_EQ(ran.code, 2);
+        EXPECT_NE(ran.err.find("-o p"), std::string::npos) << ran.err;
+        EXPECT_FALSE(fs::exists(folder / "p"));
+    }
+}
+
 TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     const Folder folder;
     const Ran ran = runTool(folder, "plan --json builtin:gallery");

@@ -63,6 +63,14 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
     }
 }
 
+TEST(CommandLine, DevicesParsesWhatAllCommandsShare) {
+    const Options options = parseCommandLine(
+        {"devices", "--size", "3x3", "--device", "0", "--validate", "--debug", "1", "--env", "none", "-q"});
+    EXPECT_EQ(options.device, "0");
+    EXPECT_TRUE(options.validate);
+    EXPECT_EQ(options.settings.size, (Size{3, 3}));
+}
+
 TEST(CommandLine, OffAndNoneAlwaysWork) {
     for (const std::string word : {"off", "none"}) {
         const Options options =
@@ -145,7 +153,8 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"compare", "--size"}, "--size"},
         {{"compare", "--size", "big"}, "--size big"},
         {{"compare", "--gbuffer", "huge"}, "--gbuffer huge"},
-        {{"compare", "--size", "1x1", "--size", "2x2"}, "--size"},
+        {{"compare", "--size", "1x1", "--size", "2x2", "--size", "3x3"},
+         "--size: given 3 times; once is enough"},
         {{"compare", "--runs", "x"}, "--runs"},
         {{"compare", "--runs", "-1"}, "--runs -1"},
         {{"compare", "--exposure", "1", "--ev100", "1"}, "--ev100"},
