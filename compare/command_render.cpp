@@ -16,7 +16,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* single_mark = "frame.json";    // in a folder that holds one Frame
 constexpr const char* several_mark = "frames.json";  // in a folder that holds a folder for each Frame
+
+std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame) {
+    return folder / std::to_string(frame + 1);
+}
+
+// One Frame may replace several and the other way round. Whatever cannot be replaced is said before the
+// first Frame is drawn.
+void checkFolder(const Output& output, std::size_t count, bool force) {
+    const bool single = output.kind != OutputKind::folder || isOurMark(output.path / single_mark);
+    checkReplaceable(output, single ? single_mark : several_mark, force);
+    for (std::size_t i = 0; count > 1 && i < count; ++i)
+        checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_mark, force);
+}
+
+// What an earlier render left that `count` Frames do not replace.
+void removeStale(const std::filesystem::path& folder, std::size_t count, bool severalBefore) {
+    if (count > 1) removeListed(folder, single_mark);
+    for (std::size_t i = count > 1 ? count : 0; severalBefore && isOurMark(numbered(folder, i) / single_mark);
+         ++i)
+        removeListed(numbered(folder, i), single_mark);
+    if (count == 1) removeListed(folder, several_mark);
+}
 
 int listScenes(const Options& options) {
     Json names = Json::array();
@@ -70,7 +93,8 @@ int runRender(const Options& options) {
     if (several && output.kind != OutputKind::folder)
         throw std::runtime_error(fmt::format(
             "-o {}: holds one Frame, and several were asked for; give a folder", output.path.string()));
-    checkReplaceable(output, several ? several_mark : "frame.json", options.force);
+    checkFolder(output, settings.size() * options.scenes.size(), options.force);
+    const bool severalBefore = isOurMark(output.path / several_mark);
     RenderOptions render = renderOptions(options);
     render.channels = channelsFor(output.kind, options, render.channels);
 
@@ -78,6 +102,7 @@ int runRender(const Options& options) {
     say(options, "on " + device.info().name);
     const ReportDevice made = reportDevice(device);
     Json result{{"schema", 1},
+                {"software", softwareName},
                 {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
                 {"frames", Json::array()}};
     // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
@@ -90,8 +115,9 @@ int runRender(const Options& options) {
     }
     for (const Frame& frame : frames) {
         Output target = output;
-        if (several) target.path /= std::to_string(result["frames"].size() + 1);
-        writeFrame(frame, made, target, debugMode(options.shown), options.picture, options.force);
+        if (several) target.path = numbered(output.path, result["frames"].size());
+        // checkFolder() has seen that it may be replaced.
+        writeFrame(frame, made, target, debugMode(options.shown), options.picture, true);
         Json json = jsonOf(frame);
         json["file"] = target.path.string();
         result["frames"].push_back(std::move(json));
@@ -101,6 +127,7 @@ int runRender(const Options& options) {
                        frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
     }
     if (several) writeFile(output.path / several_mark, jsonText(result));
+    if (output.kind == OutputKind::folder) removeStale(output.path, frames.size(), severalBefore);
     if (options.json) fmt::print("{}", jsonText(result));
     return 0;
 }

@@ -14,20 +14,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// EXR attributes and PNG text stand before the pixels, within the first kilobytes.
+// Both stand before the pixels: the EXR attribute (name, type, size, value) and the PNG chunk (size, type,
+// keyword, text), byte for byte as they are written.
 bool isOurFile(const fs::path& file) {
-    std::string head(4096, '\0');
+    using namespace std::string_literals;
+    std::string head(1 << 16, '\0');
     std::ifstream stream(file, std::ios::binary);
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(stream.gcount()));
-    return head.find("diptych") != std::string::npos;
+    const auto says = [&](const std::string& magic, const std::string& software) {
+        return head.starts_with(magic) && head.find(software + softwareName) != std::string::npos;
+    };
+    return says("\x76\x2f\x31\x01"s, "software\0string\0\7\0\0\0"s) ||
+           says("\x89PNG\r\n\x1a\n"s, "\0\0\0\x10tEXtSoftware\0"s);
 }
 
-bool isOurFolder(const fs::path& folder, const std::string& mark) {
-    if (fs::is_empty(folder)) return true;
-    std::ifstream stream(folder / mark);
-    const auto json = nlohmann::json::parse(stream, nullptr, false);
-    return json.is_object() && json.contains("schema");
+// Null where the file is not ours.
+nlohmann::json ourJson(const fs::path& file) {
+    std::ifstream stream(file);
+    nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    const auto says = [&](const char* key, const auto& value) {
+        return json.contains(key) && json[key] == value;
+    };
+    return json.is_object() && says("software", softwareName) && says("schema", 1) ? json : nlohmann::json();
+}
+
+bool isPlainName(const fs::path& name) {
+    constexpr const char* endings[] = {".png", ".exr", ".html", ".xml", ".json"};
+    return name.filename() == name && std::ranges::count(endings, name.extension()) > 0;
 }
 
 }  // namespace
@@ -46,13 +60,39 @@ Output outputOf(const fs::path& out) {
                     out.string(), out.extension().string()));
 }
 
+bool isOurMark(const fs::path& file) {
+    return ourJson(file).is_object();
+}
+
+std::vector<std::string> listedIn(const fs::path& mark) {
+    const nlohmann::json json = ourJson(mark);
+    std::vector<std::string> names;
+    if (json.contains("files") && json["files"].is_array())
+        for (const auto& name : json["files"])
+            if (name.is_string() && isPlainName(name.get<std::string>())) names.push_back(name);
+    return names;
+}
+
+void removeListed(const fs::path& folder, const std::string& mark) {
+    if (!isOurMark(folder / mark)) return;
+    std::vector<std::string> names = listedIn(folder / mark);
+    names.push_back(mark);
+    std::error_code error;
+    for (const std::string& name : names)
+        if (fs::is_regular_file(fs::symlink_status(folder / name, error)) &&
+            !fs::remove(folder / name, error))
+            throw std::runtime_error(fmt::format("{}: {}", (folder / name).string(), error.message()));
+    if (fs::is_empty(folder, error)) fs::remove(folder, error);
+}
+
 void checkReplaceable(const Output& output, const std::string& mark, bool force) {
     std::error_code error;
     const fs::file_status there = fs::status(output.path, error);
     if (!fs::exists(there) || force) return;
-    const bool ours = output.kind == OutputKind::folder
-                          ? fs::is_directory(there) && isOurFolder(output.path, mark)
-                          : fs::is_regular_file(there) && isOurFile(output.path);
+    const bool ours =
+        output.kind == OutputKind::folder
+            ? fs::is_directory(there) && (fs::is_empty(output.path) || isOurMark(output.path / mark))
+            : fs::is_regular_file(there) && isOurFile(output.path);
     if (!ours)
         throw std::runtime_error(fmt::format(
             "-o {}: is there and was not written by diptych; --force replaces it", output.path.string()));

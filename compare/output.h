@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace diptych {
 
@@ -18,8 +19,22 @@ struct Output {
 // is one whatever its ending. Throws std::runtime_error naming -o for any other ending.
 Output outputOf(const std::filesystem::path& out);
 
-// A file that says in its first bytes that diptych wrote it, or a folder that is empty or holds `mark`, a
-// JSON file of ours, may be replaced; whatever else is there needs `force`. Throws std::runtime_error naming
+// Every JSON, EXR and PNG of ours says so: what to look for, and what to write.
+inline constexpr const char* softwareName = "diptych";
+
+// A JSON file that says "software": "diptych" and "schema": 1.
+bool isOurMark(const std::filesystem::path& file);
+
+// What a mark of ours lists under "files": plain names that end as files of ours do, so that an edited list
+// reaches neither outside the folder nor what diptych never writes. Empty where the mark is not ours.
+std::vector<std::string> listedIn(const std::filesystem::path& mark);
+
+// Removes what folder / `mark` lists, the mark, and the folder if that leaves it empty. Nothing happens where
+// the mark is not ours. Throws std::runtime_error naming the file.
+void removeListed(const std::filesystem::path& folder, const std::string& mark);
+
+// An EXR or PNG that names diptych as its software, or a folder that is empty or holds `mark`, a JSON file of
+// ours, may be replaced; whatever else is there needs `force`. Throws std::runtime_error naming
 // -o. Files of others in such a folder are left alone.
 void checkReplaceable(const Output& output, const std::string& mark, bool force);
 

@@ -26,7 +26,7 @@ void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const 
               {"driver", device.driver},
               {"scene", frame.scene},
               {"settings", toJson(frame.settings, -1)},
-              {"software", "diptych"}});
+              {"software", softwareName}});
 }
 
 // RFC 4648, section 4.
@@ -73,6 +73,7 @@ void writeFrame(const Frame& frame, const ReportDevice& device, const Output& ou
     writePicture(folder / files[1]);
     nlohmann::ordered_json json{
         {"schema", 1},
+        {"software", softwareName},
         {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
         {"frame", jsonOf(frame)},
         {"files", files}};

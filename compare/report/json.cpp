@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/json.h"
 
+#include "compare/output.h"
+
 #include <cmath>
 
 namespace diptych {
@@ -111,6 +113,7 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
     for (const Comparison& comparison : report.comparisons) comparisons.push_back(jsonOf(report, comparison));
     Json json{
         {"schema", 1},
+        {"software", softwareName},
         {"verdict", report.passed() ? "pass" : "fail"},
         {"device",
          {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/report_folder.h"
 
+#include "compare/output.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <unistd.h>
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 namespace diptych {
@@ -14,18 +14,6 @@ namespace diptych {
 namespace fs = std::filesystem;
 
 namespace {
-
-// Plain names only: an edited list must not reach outside the folder.
-std::vector<std::string> listedIn(const fs::path& mark) {
-    std::ifstream stream(mark);
-    const auto json = nlohmann::json::parse(stream, nullptr, false);
-    std::vector<std::string> names;
-    if (json.is_object() && json.contains("files") && json["files"].is_array())
-        for (const auto& name : json["files"])
-            if (name.is_string() && fs::path(name.get<std::string>()).filename() == name.get<std::string>())
-                names.push_back(name);
-    return names;
-}
 
 [[noreturn]] void fail(const fs::path& folder, const std::error_code& error) {
     throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));

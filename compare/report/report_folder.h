@@ -20,8 +20,8 @@ public:
 
     std::filesystem::path operator/(const std::string& file) const { return temporary_ / file; }
 
-    // Moves `files` into place, `mark` as the last, and removes what the earlier mark, a JSON file, lists
-    // under "files" beside them.
+    // Moves `files` into place, `mark` as the last, and removes what the earlier mark, if it is ours,
+    // lists beside them.
     void put(const std::vector<std::string>& files, const std::string& mark);
 
 private:

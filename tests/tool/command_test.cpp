@@ -257,6 +257,37 @@ TEST(Command, SeveralFramesGetAFolderEach) {
     EXPECT_EQ(Json::parse(contentsOf(folder / "all/frames.json"))["frames"].size(), 2u);
 }
 
+// A folder of its own takes any number of Frames; nothing of an earlier render that is no longer true stays.
+TEST(Command, RenderReplacesItsOwnFolderWhateverItHeld) {
+    const Folder folder;
+    const auto render = [&](int frames) {
+        std::string command = "render builtin:triangle -q -o all" + quick;
+        for (int i = 0; i < frames; ++i)
+            command += " --camera 'eye=" + std::to_string(i + 1) + ",1,3 target=0,0,0'";
+        const Ran ran = runTool(folder, command);
+        EXPECT_EQ(ran.code, 0) << frames << ": " << ran.err;
+    };
+    const auto there = [&](const char* file) { return fs::exists(folder / ("all/" + std::string(file))); };
+    render(3);
+    folder.write("all/mine.txt", "keep");
+    folder.write("all/3/mine.txt", "keep");
+    render(2);
+    EXPECT_TRUE(there("2/frame.json"));
+    EXPECT_FALSE(there("3/frame.json") || there("3/forward_plus.exr"));
+    EXPECT_TRUE(there("3/mine.txt")) << "another's file in a folder of ours";
+    render(1);
+    EXPECT_TRUE(there("frame.json"));
+    EXPECT_FALSE(there("1") || there("2") || there("frames.json"));
+    render(2);
+    EXPECT_TRUE(there("1/frame.json") && there("frames.json"));
+    EXPECT_FALSE(there("frame.json") || there("forward_plus.exr"));
+    EXPECT_TRUE(there("mine.txt"));
+    // 3/ is somebody else's by now, which is said before anything is drawn.
+    EXPECT_TRUE(runTool(folder, "render builtin:triangle builtin:triangle builtin:triangle -o all" + quick)
+                    .failedOver("all/3"));
+    EXPECT_FALSE(there("3/frame.json"));
+}
+
 // material_id tells the background, which is outside every mean: it is compared whatever was asked for.
 TEST(Command, CompareKnowsTheBackgroundWhateverChannelsAreAskedFor) {
     const Folder folder;

@@ -305,6 +305,42 @@ TEST(Report, AnEditedListRemovesNothingOutside) {
     EXPECT_EQ(contentsOf(here / "outside.txt"), "keep");
 }
 
+// Another tool's report.json has a schema and a list of files, too.
+TEST(Report, AStrangersListRemovesNothing) {
+    const fs::path out = folder() / "theirs";
+    fs::create_directories(out);
+    writeFile(out / "mine.txt", "keep");
+    writeFile(out / "mine.png", "keep");
+    const std::string files = R"("files": ["mine.txt", "mine.png"]})";
+    for (const std::string start : {R"({"schema": 1, )", R"({"schema": 1, "software": "other", )",
+                                    R"({"schema": 2, "software": "diptych", )", R"([1, {"schema": 1, )"}) {
+        writeFile(out / "report.json", start + files);
+        EXPECT_THROW(writeReport(passing(), out, {}), std::runtime_error) << start;
+        EXPECT_EQ(namesIn(out), (std::vector<std::string>{"mine.png", "mine.txt", "report.json"}));
+    }
+    ReportOptions force;
+    force.force = true;
+    writeReport(passing(), out, force);
+    EXPECT_TRUE(fs::exists(out / "mine.png")) << "--force replaces files, it does not clear folders";
+
+    Json json = Json::parse(contentsOf(out / "report.json"));
+    EXPECT_EQ(json["software"], "diptych");
+    json["files"] = {"mine.txt"};
+    writeFile(out / "report.json", json.dump());
+    writeReport(passing(), out, {});
+    EXPECT_EQ(contentsOf(out / "mine.txt"), "keep") << "diptych never writes .txt";
+}
+
+// The name alone, in a picture's comment or a scene's path, makes no file ours.
+TEST(Report, AFileThatOnlyMentionsDiptychIsNotOurs) {
+    const fs::path here = folder();
+    for (const std::string& text : {std::string("diptych"), std::string("\x76\x2f\x31\x01 diptych"),
+                                    std::string("\x89PNG\r\n\x1a\n diptych")}) {
+        writeFile(here / "a.exr", text);
+        EXPECT_THROW(checkReplaceable({OutputKind::exr, here / "a.exr"}, "", false), std::runtime_error);
+    }
+}
+
 TEST(Report, SeveralComparisonsShareAFolder) {
     const fs::path out = folder() / "report";
     std::vector<Frame> frames = bothFrames("scenes/One.glb"), more = bothFrames("builtin:one");
