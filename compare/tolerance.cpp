@@ -103,12 +103,14 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
                     "forward+ shading what the G-buffer gives back is a NaN or infinity against a number at "
                     "{} pixel(s), which explains nothing",
                     effect.infinite)};
-    return {effect.max,
-            fmt::format(
-                "forward+ shading what the {} G-buffer gives back moves by up to {:.3g} (mean {:.3g}, worst "
-                "at {},{}); deferred must equal that {}",
-                nameOf(pair.of(Path::forward_plus)->settings.gbuffer), effect.max, effect.mean,
-                effect.worst_x, effect.worst_y, pair.cpu ? "bit for bit" : "within 16 ULP")};
+    const std::string place =
+        effect.worst_x < 0 ? "" : fmt::format(", worst at {},{}", effect.worst_x, effect.worst_y);
+    return {
+        effect.max,
+        fmt::format("forward+ shading what the {} G-buffer gives back moves by up to {:.3g} (mean {:.3g}{}); "
+                    "deferred must equal that {}",
+                    nameOf(pair.of(Path::forward_plus)->settings.gbuffer), effect.max, effect.mean, place,
+                    pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {

@@ -75,6 +75,10 @@ std::string notes(const Report& report) {
 
 std::string used(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
+    // There max meets the tolerance by construction, and a full meter would read as "just barely".
+    if (channel.unexplained_pixels)
+        return fmt::format("<span class=\"soft\">explained by the encoding, {} pixels left over</span>",
+                           *channel.unexplained_pixels);
     const double share =
         channel.tolerance.max > 0 ? std::min(channel.stats.max / channel.tolerance.max, 1.0) : 1.0;
     return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",

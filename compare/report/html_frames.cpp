@@ -57,7 +57,7 @@ std::string costs(const Frame& a, const Frame& b) {
     };
     row("images", [](const Frame& f) { return bytes(f.bytes.images); });
     row("buffers", [](const Frame& f) { return bytes(f.bytes.buffers); });
-    row("geometry per pixel", [](const Frame& f) { return bytes(f.bytes.gbuffer_per_pixel); });
+    row("G-buffer and depth per pixel", [](const Frame& f) { return bytes(f.bytes.gbuffer_per_pixel); });
     count("lights", &FrameCounters::lights);
     count("overflowed light lists", &FrameCounters::overflowed_lists);
     count("NaN or infinite lit pixels", &FrameCounters::nonfinite_pixels);

@@ -18,6 +18,12 @@ std::string failure(const std::string& message, const std::string& text) {
     return fmt::format("<failure message=\"{}\">{}</failure>", markup(message), markup(text));
 }
 
+std::string systemOut(const std::vector<std::string>& notes) {
+    std::string lines;
+    for (const std::string& note : notes) lines += markup("note: " + note) + "\n";
+    return lines.empty() ? "" : fmt::format("    <system-out>{}</system-out>\n", lines);
+}
+
 std::string outcomeOf(const ChannelDiff& channel) {
     if (channel.verdict == Verdict::forward_only)
         return fmt::format("<skipped message=\"forward-only: {}\"/>", markup(channel.tolerance.because));
@@ -56,7 +62,7 @@ std::string reportJunit(const Report& report) {
         suites += fmt::format(
             "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}"
             "  </testsuite>\n",
-            suite, tests, failures, skipped, cases);
+            suite, tests, failures, skipped, cases + systemOut(notesOf(report, comparison)));
         allTests += tests;
         allFailures += failures;
         allSkipped += skipped;

@@ -55,7 +55,8 @@ tr.differs td { color: var(--accent); }
 .pictures.one { grid-template-columns: minmax(0, 2fr); }
 figure { margin: 0; } figcaption { font-size: 13px; color: var(--soft); margin-top: 7px; display: flex; flex-wrap: wrap; gap: 4px 12px; align-items: center; }
 .stage { position: relative; overflow: hidden; border-radius: 5px; background: #000; line-height: 0; touch-action: pan-y; }
-.stage img { width: 100%; height: auto; display: block; }
+.stage { display: grid; align-items: center; min-height: 56px; }
+.stage img { width: 100%; height: auto; display: block; } img.enlarged { image-rendering: pixelated; }
 .pair { display: grid; gap: 3px; } .pair.wipe > .stage { grid-area: 1 / 1; }
 .pair.wipe .left { z-index: 1; clip-path: inset(0 calc(100% - var(--w)) 0 0); }
 .pair.side { grid-template-columns: 1fr 1fr; } .pair.side .divider, .pair.side input { display: none; }
@@ -93,6 +94,8 @@ footer a + a::before { content: "\00b7"; color: var(--soft); margin: 0 7px; }
   body { padding: 18px 14px 48px; } h1 { font-size: 22px; }
   .pictures { grid-template-columns: minmax(0, 1fr); } .card .body { padding: 0 12px 14px; } .card > summary { padding: 12px; }
   .optional { display: none; }
+  .box { padding: 12px; } th, td { padding-right: 8px; } th:first-child, td:first-child { white-space: normal; overflow-wrap: anywhere; }
+  .verdict { padding: 1px 6px; font-size: 11px; } td.n + td:not(.n), th.n + th:not(.n) { padding-left: 4px; }
 }
 @media print { .card { break-inside: avoid; } .buttons { display: none; } }
 )css";
@@ -110,6 +113,9 @@ for (const figure of document.querySelectorAll('.flip')) {
   slider.addEventListener('input', () => show('wipe', +slider.value));
   buttons.forEach(b => b.addEventListener('click', () => show(b.dataset.mode, +b.dataset.at)));
 }
+const pixelate = img => img.classList.toggle('enlarged', img.clientWidth > +img.getAttribute('width'));
+const sizes = new ResizeObserver(entries => entries.forEach(e => pixelate(e.target)));
+document.querySelectorAll('.stage img').forEach(img => sizes.observe(img));
 const open = () => { const card = document.getElementById(location.hash.slice(1)); if (card && card.tagName === 'DETAILS') card.open = true; };
 addEventListener('hashchange', open); open();
 )js";

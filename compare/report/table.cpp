@@ -7,19 +7,26 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace diptych {
 namespace {
 
 using Row = std::array<std::string, 7>;
 
+// Where the encoding's effect is known pixel by pixel the largest says little: max meets it by construction.
+std::string toleranceOf(const ChannelDiff& channel) {
+    if (!channel.unexplained_pixels) return number(channel.tolerance.max);
+    return *channel.unexplained_pixels == 0 ? "explained"
+                                            : fmt::format("{} px left", *channel.unexplained_pixels);
+}
+
 Row rowOf(const ChannelDiff& channel) {
     const std::string verdict(channel.verdict == Verdict::fail ? "FAIL" : nameOf(channel.verdict));
     const std::string name(channel.mode->name), metric(nameOf(channel.mode->metric));
     if (channel.verdict == Verdict::forward_only) return {name, metric, "-", "-", "-", "-", verdict};
     const ChannelStats& s = channel.stats;
-    return {name,   metric, number(s.max), number(s.mean), number(s.p999), number(channel.tolerance.max),
-            verdict};
+    return {name, metric, number(s.max), number(s.mean), number(s.p999), toleranceOf(channel), verdict};
 }
 
 std::string frameLine(const Frame& frame) {
@@ -27,13 +34,15 @@ std::string frameLine(const Frame& frame) {
     if (frame.time.runs > 0)
         line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {} runs)", frame.time.median, frame.time.min,
                             frame.time.max, frame.time.runs);
-    return line + fmt::format(", {} bytes a pixel of geometry\n", frame.bytes.gbuffer_per_pixel);
+    return line + fmt::format(", {} bytes a pixel of {}\n", frame.bytes.gbuffer_per_pixel,
+                              frame.settings.path == Path::deferred ? "G-buffer and depth" : "depth");
 }
 
 }  // namespace
 
 std::string reportTable(const Report& report) {
     std::string out;
+    std::set<std::string> said;  // several comparisons of one scene share their notes
     for (const Comparison& comparison : report.comparisons) {
         const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
         out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, cameraTitle(baseline),
@@ -59,7 +68,8 @@ std::string reportTable(const Report& report) {
                     out += fmt::format(", worst at {},{}", channel.stats.worst_x, channel.stats.worst_y);
                 out += fmt::format(" ({})\n", channel.tolerance.because);
             }
-        for (const std::string& note : comparison.notes) out += "  note: " + note + "\n";
+        for (const std::string& note : notesOf(report, comparison))
+            if (said.insert(note).second) out += "  note: " + note + "\n";
     }
     return out + verdictLine(report) + "\n";
 }

@@ -90,6 +90,15 @@ std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison) {
     return channels;
 }
 
+std::vector<std::string> notesOf(const Report& report, const Comparison& comparison) {
+    std::vector<std::string> notes;
+    for (const auto* source :
+         {&comparison.notes, &report.baseline(comparison).notes, &report.test(comparison).notes})
+        for (const std::string& note : *source)
+            if (std::ranges::count(notes, note) == 0) notes.push_back(note);
+    return notes;
+}
+
 std::string verdictLine(const Report& report) {
     std::size_t compared = 0, failedFrames = 0;
     std::vector<std::string_view> failed;

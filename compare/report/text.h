@@ -25,6 +25,9 @@ std::string pairTitle(const Report& report, const Comparison& comparison);
 std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison);
 
 // "pass: 14 channels within tolerance", "FAIL: lit, normals".
+// The comparison's notes and those of its two Frames, each once.
+std::vector<std::string> notesOf(const Report& report, const Comparison& comparison);
+
 std::string verdictLine(const Report& report);
 
 }  // namespace diptych

@@ -3,6 +3,7 @@
 #include "compare/report/report.h"
 #include "compare/picture.h"
 #include "compare/report/files.h"
+#include "compare/report/json.h"
 #include "compare/report/text.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
@@ -361,6 +362,36 @@ TEST(Report, TheTableSaysFailuresFirstAndTheVerdictLast) {
     EXPECT_LT(table.find("roughness"), table.find("lit "));
     EXPECT_TRUE(table.ends_with("FAIL: albedo, roughness beyond tolerance\n")) << table;
     EXPECT_TRUE(reportTable(passing()).ends_with("pass: all 14 channels are within tolerance\n"));
+}
+
+TEST(Report, NotesOfTheSceneAreSaidOnce) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames) frame.notes = {"1 material <Lens> drawn opaque"};
+    const Report report = reportOf(std::move(frames));
+    const auto count = [](const std::string& text, const std::string& word) {
+        std::size_t found = 0;
+        for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+        return found;
+    };
+    EXPECT_EQ(count(reportTable(report), "note: 1 material <Lens> drawn opaque\n"), 1u);
+    const std::string junit = reportJunit(report);
+    EXPECT_EQ(markupFault(junit), "");
+    EXPECT_EQ(count(junit, "note: 1 material &lt;Lens&gt; drawn opaque\n"), 1u);
+    EXPECT_EQ(reportJunit(passing()).find("system-out"), std::string::npos);
+}
+
+// max equals the tolerance there whatever is drawn: what is left over is what counts.
+TEST(Report, ExplainedChannelsCountWhatIsLeftOver) {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].channels[gpu::DEBUG_lit].at(1, 2) = 0.75f;
+    const Report report = reportOf(frames);
+    EXPECT_NE(reportTable(report).find("  explained  pass"), std::string::npos) << reportTable(report);
+    const fs::path out = folder();
+    writeReport(report, out, {});
+    EXPECT_NE(contentsOf(out / "index.html").find("explained by the encoding, 0 pixels left over"),
+              std::string::npos);
+    frames[1].through_gbuffer[gpu::DEBUG_lit].at(1, 2) = 0.25f;
+    EXPECT_NE(reportTable(reportOf(frames)).find("  1 px left  FAIL"), std::string::npos);
 }
 
 TEST(Report, OneFrameAsFileOrFolder) {
