@@ -42,6 +42,7 @@ RenderOptions renderOptions(const Options& options) {
     render.channels = options.channels;
     if (render.channels.empty())
         for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
+    render.asked = render.channels;
     render.runs = options.runs;
     render.progress = [&options](const std::string& step) { say(options, step); };
     return render;

@@ -93,8 +93,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
 
     bool shared = false;
     for (const DebugMode& mode : debugModes()) {
-        const bool onLeft = left.channels.contains(mode.number),
-                   onRight = right.channels.contains(mode.number);
+        const bool onLeft = left.channels.contains(mode.number) && left.isAsked(mode.number),
+                   onRight = right.channels.contains(mode.number) && right.isAsked(mode.number);
         if (onLeft && onRight) {
             shared = true;
             comparison.channels.push_back({&mode, {}, {}, {}, Verdict::pass, {}});

@@ -53,7 +53,7 @@ struct Report {
     const Frame& test(const Comparison& comparison) const { return frames[comparison.test]; }
 };
 
-// frames[test] against frames[baseline] of the report, over their common channels; what only one of them has
+// frames[test] against frames[baseline] of the report, over their common channels that were asked for; what only one of them has
 // and only forward+ can make is listed as forward-only and never counts. Throws std::runtime_error where the
 // two differ in size or share no channel.
 Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,

@@ -173,6 +173,7 @@ public:
         const FrameImages images = path_.add(passes, shot_.inputs);
         drawTimed(passes, images);
         capture(passes, images);
+        frame_.asked = options_.asked;
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return std::move(frame_);

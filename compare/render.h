@@ -16,6 +16,7 @@ class Device;
 
 struct RenderOptions {
     std::vector<int> channels;     // debug modes; a forward-only one is left out of a deferred Frame
+    std::vector<int> asked;        // of these, Frame::asked; empty: all
     int runs = 5;                  // timed frames; 0: no times, no profile
     bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding
     // Called before each step with a word on it, for a progress line.

@@ -19,7 +19,8 @@ namespace diptych {
 
 void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device) {
     std::vector<ExrLayerView> layers;
-    for (const auto& [mode, image] : frame.channels) layers.push_back({exrChannels(debugMode(mode)), &image});
+    for (const auto& [mode, image] : frame.channels)
+        if (frame.isAsked(mode)) layers.push_back({exrChannels(debugMode(mode)), &image});
     writeExr(file, layers,
              {{"camera", jsonOf(frame)["camera"].dump()},
               {"device", device.name},

@@ -8,7 +8,7 @@
 
 namespace diptych {
 
-// Every channel of the Frame as float32 layers named after the debug modes; scene, camera, settings and
+// Every channel of the Frame that was asked for as float32 layers named after the debug modes; scene, camera, settings and
 // device as attributes.
 void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device);
 

@@ -5,6 +5,7 @@
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -51,6 +52,9 @@ struct Frame {
     Settings settings;
     FrameCamera camera;
     std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
+    // What of it was asked for and is compared and written; the rest helps (exposure, background). Empty: all.
+    std::vector<int> asked;
+    bool isAsked(int mode) const { return asked.empty() || std::ranges::count(asked, mode) > 0; }
     // Forward+: lit, lit_diffuse and lit_specular of a surface that went through the encoding of
     // settings.gbuffer and back: what the deferred path must show. It explains a difference of lit.
     std::map<int, Image> through_gbuffer;

@@ -394,6 +394,21 @@ TEST(Report, ExplainedChannelsCountWhatIsLeftOver) {
     EXPECT_NE(reportTable(reportOf(frames)).find("  1 px left  FAIL"), std::string::npos);
 }
 
+TEST(Report, HelpersAreNeitherComparedNorWritten) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames) frame.asked = {static_cast<int>(gpu::DEBUG_normals)};
+    const fs::path out = folder() / "report";
+    const Report report = reportOf(std::move(frames));
+    writeReport(report, out, {});
+    ASSERT_EQ(report.comparisons[0].channels.size(), 1u);
+    EXPECT_EQ(report.comparisons[0].channels[0].mode->name, "normals");
+    EXPECT_EQ(report.comparisons[0].coverage.count, 1u)
+        << "the helper material_id still tells the background";
+    const std::vector<ExrLayer> layers = readExr(out / "deferred.exr");
+    ASSERT_EQ(layers.size(), 1u);
+    EXPECT_EQ(layers[0].name, "normals");
+}
+
 TEST(Report, OneFrameAsFileOrFolder) {
     const fs::path here = folder();
     const Frame frame = bothFrames()[1];
