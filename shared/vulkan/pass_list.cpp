@@ -245,17 +245,8 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
             vkCmdCopyImageToBuffer(commands, image.handle(), copySource.layout, buffers[i].handle(), 1,
                                    &copy);
         }
-        VkMemoryBarrier2 toHost{};
-        toHost.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-        toHost.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-        toHost.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        toHost.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        toHost.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        VkDependencyInfo dependency{};
-        dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &toHost;
-        vkCmdPipelineBarrier2(commands, &dependency);
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
     tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t image) {
         const auto kept = static_cast<std::size_t>(requests[image].components);

@@ -126,6 +126,21 @@ VkImageMemoryBarrier2 barrier(VkImage image, VkImageAspectFlags aspect, const Im
             .subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
 }
 
+void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+                   VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
+    VkMemoryBarrier2 memory{};
+    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    memory.srcStageMask = fromStage;
+    memory.srcAccessMask = fromAccess;
+    memory.dstStageMask = toStage;
+    memory.dstAccessMask = toAccess;
+    VkDependencyInfo dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
 void submitBarriers(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> barriers) {
     if (barriers.empty()) return;
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
@@ -212,17 +227,8 @@ void Uploader::flush() {
     if (!state_->copies.empty())
         state_->device.submit([&](VkCommandBuffer commands) {
             for (const auto& copy : state_->copies) copy(commands);
-            VkMemoryBarrier2 toReaders{};
-            toReaders.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-            toReaders.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-            toReaders.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-            toReaders.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-            toReaders.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
-            VkDependencyInfo dependency{};
-            dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-            dependency.memoryBarrierCount = 1;
-            dependency.pMemoryBarriers = &toReaders;
-            vkCmdPipelineBarrier2(commands, &dependency);
+            memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                          VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
         });
     state_->copies.clear();
     state_->used = 0;

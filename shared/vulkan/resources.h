@@ -64,6 +64,9 @@ struct ImageState {
 };
 VkImageMemoryBarrier2 barrier(VkImage image, VkImageAspectFlags aspect, const ImageState& from,
                               const ImageState& to);
+// Makes writes of one stage visible to another, in all of memory.
+void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromStage, VkAccessFlags2 fromAccess,
+                   VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess);
 void submitBarriers(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> barriers);
 
 // Copies data to device buffers and images through a staging buffer of bounded size; what was given is

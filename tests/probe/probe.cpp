@@ -89,17 +89,8 @@ std::vector<float> Probes::run(const std::string& shader, const std::vector<floa
                                 nullptr);
         vkCmdPushConstants(commands, pipelineLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof count, &count);
         vkCmdDispatch(commands, (count + groupSize - 1) / groupSize, 1, 1);
-        VkMemoryBarrier2 toHost{};
-        toHost.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-        toHost.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-        toHost.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-        toHost.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        toHost.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        VkDependencyInfo dependency{};
-        dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &toHost;
-        vkCmdPipelineBarrier2(commands, &dependency);
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
     std::vector<float> result(rows * outWidth);
     std::memcpy(result.data(), out.mapped(), result.size() * sizeof(float));
