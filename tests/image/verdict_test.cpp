@@ -5,6 +5,8 @@
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"
 
+#include <ostream>
+
 namespace diptych::tests {
 namespace {
 
@@ -64,6 +66,10 @@ struct Twin {
     const char* channel;
     void (*change)(Scene&);
 };
+
+void PrintTo(const Twin& twin, std::ostream* out) {
+    *out << twin.channel;
+}
 
 class VerdictTwin : public testing::TestWithParam<Twin> {};
 
