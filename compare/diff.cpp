@@ -113,7 +113,10 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                     fmt::format("{} is in {} alone and was not compared", mode.name, one));
         }
     }
-    if (!shared) throw std::runtime_error(fmt::format("{} and {} share no channel", left.name, right.name));
+    if (!shared)
+        throw std::runtime_error(
+            fmt::format("{} and {} share no channel that was asked for; add one that both make to --channels",
+                        left.name, right.name));
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];
         if (channel.verdict != Verdict::forward_only) channel = diffChannel(*channel.mode, pair);

@@ -49,8 +49,8 @@ DescriptorSets::DescriptorSets(Device& device, VkDescriptorSetLayout layout,
     check(vkAllocateDescriptorSets(device_, &info, sets_.data()), "vkAllocateDescriptorSets");
 }
 
-void DescriptorSets::buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer) {
-    const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
+void DescriptorSets::write(std::size_t set, std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
+                           const VkDescriptorImageInfo* image) {
     const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                      .pNext = nullptr,
                                      .dstSet = sets_.at(set),
@@ -58,26 +58,21 @@ void DescriptorSets::buffer(std::size_t set, std::uint32_t binding, VkBuffer buf
                                      .dstArrayElement = 0,
                                      .descriptorCount = 1,
                                      .descriptorType = types_.at(binding),
-                                     .pImageInfo = nullptr,
-                                     .pBufferInfo = &info,
+                                     .pImageInfo = image,
+                                     .pBufferInfo = buffer,
                                      .pTexelBufferView = nullptr};
     vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+}
+
+void DescriptorSets::buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer) {
+    const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
+    write(set, binding, &info, nullptr);
 }
 
 void DescriptorSets::image(std::size_t set, std::uint32_t binding, VkImageView view, VkSampler sampler,
                            VkImageLayout layout) {
     const VkDescriptorImageInfo info{sampler, view, layout};
-    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                     .pNext = nullptr,
-                                     .dstSet = sets_.at(set),
-                                     .dstBinding = binding,
-                                     .dstArrayElement = 0,
-                                     .descriptorCount = 1,
-                                     .descriptorType = types_.at(binding),
-                                     .pImageInfo = &info,
-                                     .pBufferInfo = nullptr,
-                                     .pTexelBufferView = nullptr};
-    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+    write(set, binding, nullptr, &info);
 }
 
 }  // namespace diptych

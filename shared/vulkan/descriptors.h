@@ -25,6 +25,9 @@ public:
                VkImageLayout layout);
 
 private:
+    void write(std::size_t set, std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
+               const VkDescriptorImageInfo* image);
+
     VkDevice device_ = VK_NULL_HANDLE;
     std::vector<VkDescriptorType> types_;
     OwnedDescriptorPool pool_;

@@ -3,6 +3,7 @@
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
+#include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
 
@@ -18,28 +19,6 @@ namespace diptych {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder of this test's own, empty.
-fs::path folder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path path = fs::path(testing::TempDir()) / "diptych_image" / test->name();
-    fs::remove_all(path);
-    fs::create_directories(path);
-    return path;
-}
-
-std::string contentsOf(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-// Names in the folder, hidden ones too.
-std::vector<std::string> namesIn(const fs::path& path) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path)) names.push_back(entry.path().filename());
-    std::ranges::sort(names);
-    return names;
-}
 
 // The message of what `act` throws; empty where it does not.
 template <class Act>

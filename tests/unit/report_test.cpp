@@ -8,6 +8,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
+#include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,25 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-fs::path folder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path path = fs::path(testing::TempDir()) / "diptych_report" / test->name();
-    fs::remove_all(path);
-    fs::create_directories(path);
-    return path;
-}
-
-std::string contentsOf(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-std::vector<std::string> namesIn(const fs::path& path) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path)) names.push_back(entry.path().filename());
-    std::ranges::sort(names);
-    return names;
-}
 
 // The fault of a text that is no well-formed markup: an unclosed or crossed element, a bare & or <. `voids`
 // are elements that HTML closes by itself.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Files that a test makes and looks at.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// A folder of the running test's own, empty.
+inline std::filesystem::path folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / "diptych" / test->test_suite_name() / test->name();
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+    return path;
+}
+
+inline std::string contentsOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Names in the folder, hidden ones too, sorted.
+inline std::vector<std::string> namesIn(const std::filesystem::path& path) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path))
+        names.push_back(entry.path().filename());
+    std::ranges::sort(names);
+    return names;
+}
+
+}  // namespace diptych
