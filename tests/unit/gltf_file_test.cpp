@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/gltf_maker.h"
+
+#include <functional>
+
+using namespace diptych;
+using Json = nlohmann::json;
+
+TEST(GltfDoor, BinaryHoldsTheSame) {
+    GltfFile f = GltfFile::triangle();
+    std::ofstream(testFolder() / "scene.GLB", std::ios::binary) << f.binary();
+    const Scene scene = loadScene((testFolder() / "scene.GLB").string());
+    EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}
+
+// Each change makes one number of a valid file wrong; the error names file, object and fault on one line.
+TEST(GltfDoor, WrongNumbersAreRefusedByName) {
+    struct Case {
+        const char* expected;
+        std::function<void(GltfFile&)> change;
+    };
+    const Case cases[] = {
+        {"accessor 0: 4 vertices of 12 bytes end at 48, past bufferView 0 (36 bytes)",
+         [](GltfFile& f) { f.json["accessors"][0]["count"] = 4; }},
+        {"accessor 0: 9223372036854775807 vertices",
+         [](GltfFile& f) { f.json["accessors"][0]["count"] = 9223372036854775807; }},
+        {"accessor 0: 6148914691236517206 vertices",
+         [](GltfFile& f) { f.json["accessors"][0]["count"] = 6148914691236517206; }},  // x 12 wraps
+        {"accessor 0: 3 vertices", [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }},
+        {"accessor 0: 3 vertices",
+         [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 18446744073709551600u; }},
+        {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 37; }},
+        {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 18446744073709551600u; }},
+        {"bufferView 0: buffer 1", [](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 1; }},
+        {"stride of 8", [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 8; }},
+        {"accessor 7", [](GltfFile& f) { f.primitive()["attributes"]["POSITION"] = 7; }},
+        {"POSITION: accessor 0 is not VEC3", [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC4"; }},
+        {"mesh 3", [](GltfFile& f) { f.json["nodes"][0]["mesh"] = 3; }},
+        {"material 2", [](GltfFile& f) { f.primitive()["material"] = 2; }},
+        {"NORMAL: 2 elements for 3 positions",
+         [](GltfFile& f) {
+             f.primitive()["attributes"]["NORMAL"] = f.accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
+         }},
+        {"index 1 of its indices is 3, past its 3 vertices",
+         [](GltfFile& f) {
+             f.primitive()["indices"] = f.accessor<std::uint8_t>({0, 3, 2}, UBYTE, "SCALAR", 1);
+         }},
+        {"is not SCALAR",
+         [](GltfFile& f) {
+             f.primitive()["indices"] = f.accessor<float>({0, 1, 2}, FLOAT, "SCALAR", 1);
+         }},
+        {"POSITION: vertex 2 is not finite", [](GltfFile& f) { f.data.replace(24, 4, "\xff\xff\xff\xff"); }},
+        {"is no mode", [](GltfFile& f) { f.primitive()["mode"] = 9; }},
+        {"at most",
+         [](GltfFile& f) {
+             f.json["accessors"][0].erase("bufferView");
+             f.json["accessors"][0]["count"] = 4000000000u;
+         }},
+        {"node 0: is its own ancestor",
+         [](GltfFile& f) {
+             f.json["nodes"] = {{{"children", {1}}}, {{"children", {0}}}};
+         }},
+        {"node 0: is its own ancestor",
+         [](GltfFile& f) {
+             f.json["nodes"] = {{{"children", {0}}}};
+         }},
+        {"node 2: is a child of node 0 and of node 1",
+         [](GltfFile& f) {
+             f.json["nodes"] = {{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}};
+         }},
+        {"node 0: child 5", [](GltfFile& f) { f.json["nodes"][0]["children"] = {5}; }},
+        {"scene 0: node 4", [](GltfFile& f) { f.json["scenes"][0]["nodes"] = {4}; }},
+        {"scene 3", [](GltfFile& f) { f.json["scene"] = 3; }},
+        {"node 0: matrix has 15 numbers",
+         [](GltfFile& f) { f.json["nodes"][0]["matrix"] = std::vector<double>(15, 0.0); }},
+        {"node 0: camera 0", [](GltfFile& f) { f.json["nodes"][0]["camera"] = 0; }},
+        {"extensionsRequired: KHR_draco_mesh_compression, EXT_odd is not built",
+         [](GltfFile& f) {
+             f.json["extensionsRequired"] = {"KHR_draco_mesh_compression", "KHR_texture_transform",
+                                             "EXT_odd"};
+         }},
+        {"asset: version 1.0", [](GltfFile& f) { f.json["asset"]["version"] = "1.0"; }},
+        {"nests deeper",
+         [](GltfFile& f) {
+             Json deep;
+             for (int i = 0; i < 200; ++i) deep = Json::array({deep});
+             f.json["extras"] = deep;
+         }},
+    };
+    for (const Case& c : cases) {
+        GltfFile f = GltfFile::triangle();
+        ASSERT_EQ(f.error(), "");
+        c.change(f);
+        const std::string error = f.error();
+        EXPECT_TRUE(error.starts_with((testFolder() / "scene.gltf").string() + ": "))
+            << c.expected << " -> " << error;
+        EXPECT_NE(error.find(c.expected), error.npos) << c.expected << " -> " << error;
+        EXPECT_EQ(error.find('\n'), error.npos);
+    }
+}
+
+TEST(GltfDoor, UrisStayInTheFolder) {
+    std::ofstream(testFolder().parent_path() / "outside.bin", std::ios::binary) << std::string(36, '\0');
+    for (const char* uri :
+         {"../outside.bin", "%2e%2e/outside.bin", "a/../../outside.bin", "/etc/passwd", "file:///etc/passwd",
+          "http://example.org/x.bin", "..\\outside.bin", "C:/x.bin", "a%00b"}) {
+        GltfFile f = GltfFile::triangle();
+        f.written();
+        f.json["buffers"][0]["uri"] = uri;
+        std::ofstream(testFolder() / "uri.gltf") << f.json.dump();
+        try {
+            loadScene((testFolder() / "uri.gltf").string());
+            FAIL() << uri;
+        } catch (const std::runtime_error& e) {
+            EXPECT_NE(std::string(e.what()).find("buffer 0"), std::string::npos) << uri << ": " << e.what();
+        }
+    }
+}
+
+// Every prefix of a binary file, and every file with one wrong byte in its lengths, ends in an error or a
+// scene.
+TEST(GltfDoor, TruncatedBinariesAreRefused) {
+    const std::string whole = GltfFile::triangle().binary();
+    EXPECT_EQ(loadBytes(whole), "");
+    for (std::size_t size = 0; size < whole.size(); size += size < 40 ? 1 : 37)
+        EXPECT_NE(loadBytes(whole.substr(0, size)), "") << size;
+    for (std::size_t at = 4; at < 20; ++at)
+        for (const char value : {'\x00', '\x01', '\x7f', '\xff'}) {
+            std::string changed = whole;
+            if (changed[at] == value) continue;
+            changed[at] = value;
+            EXPECT_NE(loadBytes(changed), "") << at;
+        }
+}
+
+TEST(GltfDoor, MissingBuffersAreNamed) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    f.json["buffers"][0]["uri"] = "gone.bin";
+    std::ofstream(testFolder() / "gone.gltf") << f.json.dump();
+    try {
+        loadScene((testFolder() / "gone.gltf").string());
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("buffer 0: gone.bin: no such file"), std::string::npos)
+            << e.what();
+    }
+}
+
+TEST(GltfDoor, OtherFilesAreRefusedInOneLine) {
+    EXPECT_THROW(loadScene("scene.obj"), std::runtime_error);
+    EXPECT_THROW(loadScene("no/such/scene.gltf"), std::runtime_error);
+    for (const char* text :
+         {"", "{", "[]", "{}", "null", "{\"asset\": {}}", "{\"asset\": {\"version\": 2}}"}) {
+        const std::string error = loadBytes(text, "scene.gltf");
+        EXPECT_NE(error, "") << text;
+        EXPECT_EQ(error.find('\n'), error.npos);
+    }
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// glTF files that a test makes: a small one that is right, then one thing changed.
+#pragma once
+
+#include "shared/scene/scene.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// A folder of the running test's own; what is in it stays while the test runs.
+inline std::filesystem::path testFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto path =
+        std::filesystem::path(testing::TempDir()) / "diptych_gltf" / test->test_suite_name() / test->name();
+    std::filesystem::create_directories(path);
+    return path;
+}
+
+// Component types.
+constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126;
+
+// A file in the making: buffer 0 grows, and every accessor has a bufferView of its own.
+struct GltfFile {
+    nlohmann::json json = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"scene", 0}};
+    std::string data;
+
+    template <class T>
+    int accessor(const std::vector<T>& values, int componentType, const char* type, std::size_t width,
+                 bool normalized = false) {
+        while (data.size() % 4) data += '\0';
+        json["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", data.size()}, {"byteLength", values.size() * sizeof(T)}});
+        data.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                     {"componentType", componentType},
+                                     {"count", values.size() / width},
+                                     {"type", type},
+                                     {"normalized", normalized}});
+        return static_cast<int>(json["accessors"].size()) - 1;
+    }
+
+    // One triangle in the plane z = 0, facing +Z, in mesh 0 of node 0.
+    static GltfFile triangle() {
+        GltfFile f;
+        const int positions = f.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, FLOAT, "VEC3", 3);
+        f.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}}};
+        f.json["nodes"] = {{{"mesh", 0}}};
+        return f;
+    }
+
+    nlohmann::json& primitive() { return json["meshes"][0]["primitives"][0]; }
+
+    std::string written(const std::string& name = "scene.gltf") {
+        if (!data.empty()) {
+            json["buffers"] = {{{"byteLength", data.size()}, {"uri", "a%20buffer.bin"}}};
+            std::ofstream(testFolder() / "a buffer.bin", std::ios::binary) << data;
+        }
+        std::ofstream(testFolder() / name) << json.dump();
+        return (testFolder() / name).string();
+    }
+
+    std::string binary() {
+        json["buffers"] = {{{"byteLength", data.size()}}};
+        std::string text = json.dump(), bytes = data;
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+        const auto word = [](std::size_t v) {
+            const auto w = static_cast<std::uint32_t>(v);
+            return std::string{static_cast<char>(w), static_cast<char>(w >> 8), static_cast<char>(w >> 16),
+                               static_cast<char>(w >> 24)};
+        };
+        return "glTF" + word(2) + word(12 + 8 + text.size() + 8 + bytes.size()) + word(text.size()) + "JSON" +
+               text + word(bytes.size()) + std::string("BIN\0", 4) + bytes;
+    }
+
+    Scene load() { return loadScene(written()); }
+    const Primitive& only(const Scene& scene) const { return scene.meshes.at(0).primitives.at(0); }
+    std::string error() {
+        try {
+            load();
+        } catch (const std::runtime_error& e) {
+            return e.what();
+        }
+        return "";
+    }
+};
+
+// What loading these bytes as a file ends in; empty: a scene.
+inline std::string loadBytes(const std::string& bytes, const char* name = "scene.glb") {
+    std::ofstream(testFolder() / name, std::ios::binary) << bytes;
+    try {
+        loadScene((testFolder() / name).string());
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+inline bool mentions(const std::vector<std::string>& notes, const std::string& text) {
+    for (const std::string& note : notes)
+        if (note.find(text) != note.npos) return true;
+    return false;
+}
+
+// A 2 x 1 PNG, red and half-transparent green; 8 bits, no filter.
+inline const char* const twoPixels =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAA"
+    "D0lEQVR4nGP4z8DwHwgbABB5A359Y87XAAAAAElFTkSuQmCC";
+
+}  // namespace diptych

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/gltf_maker.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace diptych;
+using Json = nlohmann::json;
+
+// A child before its parent in the list, TRS and matrix, and what no scene reaches is not drawn.
+TEST(GltfNode, NodesAreChainedInAnyOrder) {
+    GltfFile f = GltfFile::triangle();
+    const double s = std::sqrt(0.5);
+    f.json["nodes"] = {
+        {{"mesh", 0}, {"translation", {1, 0, 0}}},
+        {{"children", {0}}, {"rotation", {0, 0, s, s}}, {"scale", {2, 2, 2}}},  // 90 degrees around +Z
+        {{"mesh", 0}},
+        {{"children", {1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1}}}};
+    f.json["scenes"] = {{{"nodes", {3}}}};
+    const Scene scene = f.load();
+    ASSERT_EQ(scene.nodes.size(), 3u);
+    const Pose pose = poseAt(scene, 0);
+    ASSERT_EQ(pose.instances.size(), 1u);
+    const glm::dvec4 origin = pose.instances[0].world_from_object * glm::dvec4(0, 0, 0, 1);
+    const glm::dvec4 x = pose.instances[0].world_from_object * glm::dvec4(1, 0, 0, 1);
+    const double expected[2][3] = {{10, 22, 30}, {10, 24, 30}};
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(origin[c], expected[0][c], 1e-12);
+        EXPECT_NEAR(x[c], expected[1][c], 1e-12);
+    }
+    EXPECT_NEAR(worldBounds(scene, pose).min.x, 8, 1e-12);
+}
+
+TEST(GltfNode, DeepHierarchiesNeedNoStack) {
+    GltfFile f = GltfFile::triangle();
+    constexpr int depth = 20000;
+    for (int i = 0; i < depth; ++i)
+        f.json["nodes"][static_cast<std::size_t>(i)] = {{"children", {i + 1}}, {"translation", {1, 0, 0}}};
+    f.json["nodes"][depth] = {{"mesh", 0}};
+    const Scene scene = f.load();
+    EXPECT_EQ(poseAt(scene, 0).instances.at(0).world_from_object[3].x, depth);
+}
+
+TEST(GltfNode, SingularTransformsEndWell) {
+    GltfFile f = GltfFile::triangle();
+    f.json["nodes"][0]["scale"] = {0, 0, 0};
+    const Scene scene = f.load();
+    const Bounds bounds = worldBounds(scene, poseAt(scene, 0));
+    EXPECT_FALSE(bounds.empty());
+    EXPECT_EQ(bounds.radius(), 0);
+}
+
+TEST(GltfNode, LightsOfEveryKindDirectionalFirst) {
+    GltfFile f = GltfFile::triangle();
+    f.json["extensionsUsed"] = f.json["extensionsRequired"] = {"KHR_lights_punctual"};
+    f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"},
+         {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}},
+         {"range", 7},
+         {"intensity", 30}},
+        {{"type", "point"}, {"color", {1, 0.5, 0}}, {"name", "bulb"}},
+        {{"type", "directional"}, {"intensity", 3}}};
+    const auto lit = [](int light) { return Json{{"KHR_lights_punctual", {{"light", light}}}}; };
+    const double s = std::sqrt(0.5);
+    f.json["nodes"] = {{{"mesh", 0}, {"children", {1, 2, 3}}, {"scale", {2, 3, 4}}},
+                       {{"extensions", lit(0)},
+                        {"rotation", {-s, 0, 0, s}},
+                        {"name", "lamp"}},  // -90 degrees around +X: -Z to -Y
+                       {{"extensions", lit(1)}, {"translation", {1, 1, 1}}},
+                       {{"extensions", lit(2)}}};
+    const Scene scene = f.load();
+    const Pose pose = poseAt(scene, 0);
+    ASSERT_EQ(pose.lights.size(), 3u);
+    const Light &sun = pose.lights[0], &spot = pose.lights[1], &point = pose.lights[2];
+    EXPECT_EQ(sun.kind, LightKind::directional);
+    EXPECT_EQ(sun.intensity, 3);
+    EXPECT_EQ(sun.direction, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(spot.name, "lamp");
+    EXPECT_NEAR(glm::length(spot.direction - glm::dvec3(0, -1, 0)), 0, 1e-12) << "scale does not count";
+    EXPECT_EQ(spot.range, 7);
+    EXPECT_EQ(spot.inner_cone, 0.25f);
+    EXPECT_EQ(spot.outer_cone, 0.5f);
+    EXPECT_EQ(point.name, "bulb");
+    EXPECT_EQ(point.position, glm::dvec3(2, 3, 4));
+    EXPECT_EQ(point.color, glm::vec3(1, 0.5, 0));
+    EXPECT_TRUE(std::isinf(point.range));
+}
+
+TEST(GltfNode, Cameras) {
+    GltfFile f = GltfFile::triangle();
+    f.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.5}}}, {"name", "wide"}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}}};
+    f.json["nodes"] = {{{"mesh", 0}, {"children", {1, 2}}},
+                       {{"camera", 1}, {"name", "plan"}},
+                       {{"camera", 0}, {"translation", {0, 0, 5}}}};
+    const Scene scene = f.load();
+    const Pose pose = poseAt(scene, 0);
+    ASSERT_EQ(pose.cameras.size(), 2u);
+    EXPECT_EQ(pose.cameras[0].name, "wide");
+    EXPECT_EQ(pose.cameras[0].world_from_camera[3].z, 5);
+    EXPECT_TRUE(std::isinf(pose.cameras[0].far));
+    EXPECT_EQ(pose.cameras[1].name, "plan");
+    EXPECT_TRUE(pose.cameras[1].orthographic);
+    EXPECT_EQ(pose.cameras[1].ymag, 3);
+    EXPECT_EQ(pose.cameras[1].far, 9);
+    f.json["cameras"][0]["perspective"]["yfov"] = 4;
+    EXPECT_NE(f.error().find("camera 0: yfov"), std::string::npos);
+}
