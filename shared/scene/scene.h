@@ -4,6 +4,7 @@
 #pragma once
 
 #include "shared/contract/constants.h"
+#include "shared/scene/motion.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
@@ -64,6 +65,7 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
+    bool unlit = false;  // KHR_materials_unlit: base colour, alpha and double_sided count, nothing else
     // In the order of SLOT_* of contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture;
@@ -77,13 +79,17 @@ struct Primitive {
     std::vector<glm::vec4> tangents;   // w: the bitangent's sign, bitangent = w * cross(normal, tangent)
     std::vector<glm::vec2> texcoords[2];
     std::vector<glm::vec4> colors;       // linear Rec.709, alpha
+    std::vector<JointSet> joint_sets;    // none where no skin moves it
+    std::vector<MorphTarget> targets;    // as many in every primitive of a mesh
     std::vector<std::uint32_t> indices;  // three a triangle
     int material = 0;                    // into Scene::materials, always valid
+    bool flat = false;  // the normals are the triangles' own: they follow from the positions, posed or not
 };
 
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
+    std::vector<float> weights = {};  // of its morph targets, one each, at rest
 };
 
 struct Node {
@@ -91,6 +97,9 @@ struct Node {
     int parent = -1;  // into Scene::nodes; parents need not come first
     glm::dmat4 parent_from_node{1.0};
     int mesh = -1;
+    int skin = -1;       // into Scene::skins; moves those primitives of the mesh that have joint sets
+    int transform = -1;  // into Scene::transforms: parent_from_node in parts, where an animation moves it
+    int weights = -1;    // into Scene::weights: in place of its mesh's
 };
 
 enum class LightKind { directional, point, spot };
@@ -130,8 +139,12 @@ struct Scene {
     std::vector<TextureImage> images;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    glm::vec3 background{0, 0, 0};   // what pictures show where nothing is; channels hold 0 there
-    std::vector<std::string> notes;  // what was read otherwise than the file says
+    std::vector<Transform> transforms;        // of the nodes that an animation moves
+    std::vector<std::vector<float>> weights;  // of morph targets, of the nodes that have their own
+    std::vector<Skin> skins;                  // those that something is drawn with
+    std::vector<Animation> animations;        // what of them moves a node of this scene
+    glm::vec3 background{0, 0, 0};            // what pictures show where nothing is; channels hold 0 there
+    std::vector<std::string> notes;           // what was read otherwise than the file says
 };
 
 // A mesh's primitive where the node tree puts it.
