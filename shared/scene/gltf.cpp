@@ -5,6 +5,7 @@
 #include "shared/scene/gltf_material.h"
 #include "shared/scene/gltf_mesh.h"
 #include "shared/scene/gltf_node.h"
+#include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_value.h"
 
 #include <fmt/format.h>
@@ -16,25 +17,41 @@ namespace diptych {
 
 namespace {
 
-void noteWhatIsLeftOut(const tinygltf::Model& model, std::vector<std::string>& notes) {
-    for (const std::string& name : model.extensionsUsed)
-        if (!gltf::isBuilt(name)) notes.push_back(fmt::format("{}: left out, it is not built", name));
-    if (!model.animations.empty())
-        notes.push_back(fmt::format("{} animation{}: left out, animation is not built yet",
-                                    model.animations.size(), model.animations.size() == 1 ? "" : "s"));
+void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
+    for (const std::string& name : document.left_out)
+        notes.push_back(fmt::format("{}: left out, it is not read", name));
+    const std::size_t animations = document.model.animations.size();
+    if (animations)
+        notes.push_back(fmt::format("{} animation{}: left out, animation is not built yet", animations,
+                                    animations == 1 ? "" : "s"));
 }
 
-Scene readScene(const std::string& file) {
-    const tinygltf::Model model = gltf::openFile(file);
+// The encoded bytes of those images that somebody reads.
+void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
+    gltf::forEachInParallel(imageOf.size(), [&](std::size_t i) {
+        tinygltf::Image& image = document.model.images[static_cast<std::size_t>(imageOf[i])];
+        if (image.bufferView >= 0 || image.uri.empty()) return;
+        const std::string uri = std::move(image.uri);
+        image.uri = gltf::uriName(uri);
+        try {
+            image.image = document.resources.read(uri);
+        } catch (const std::runtime_error& e) {
+            throw std::runtime_error(fmt::format("image {}: {}", imageOf[i], e.what()));
+        }
+    });
+}
+
+Scene readScene(gltf::Document document, const std::string& choice) {
     Scene scene;
-    scene.name = file;
-    noteWhatIsLeftOut(model, scene.notes);
-    gltf::readNodes(model, scene);
+    noteWhatIsLeftOut(document, scene.notes);
+    gltf::readNodes(document.model, choice, scene);
     std::vector<int> imageOf;
-    gltf::readMaterials(model, scene, imageOf);
+    gltf::readMaterials(document.model, scene, imageOf);
+    fetchImages(document, imageOf);
 
     // Pixels and vertices know nothing of each other; each fails only after the other has ended, meshes
     // first.
+    const tinygltf::Model& model = document.model;
     std::exception_ptr meshFailure, imageFailure;
     std::vector<std::string> meshNotes, imageNotes;
     const auto guarded = [](std::exception_ptr& failure, const auto& run) {
@@ -56,16 +73,32 @@ Scene readScene(const std::string& file) {
     return scene;
 }
 
+// Whatever goes wrong in `read` as one line that begins with the file's name.
+template <class Read>
+Scene named(const std::string& name, const Read& read) {
+    try {
+        Scene scene = read();
+        scene.name = name;
+        return scene;
+    } catch (const std::bad_alloc&) {
+        throw std::runtime_error(name + ": does not fit in memory");
+    } catch (const std::exception& e) {
+        throw std::runtime_error(name + ": " + e.what());
+    }
+}
+
 }  // namespace
 
-Scene loadGltf(const std::string& file) {
-    try {
-        return readScene(file);
-    } catch (const std::bad_alloc&) {
-        throw std::runtime_error(file + ": does not fit in memory");
-    } catch (const std::exception& e) {
-        throw std::runtime_error(file + ": " + e.what());
-    }
+Scene loadGltf(const std::string& file, const std::string& scene) {
+    return named(file, [&] {
+        const std::filesystem::path path(file);
+        const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+        return readScene(gltf::open(gltf::readFile(path), folder), scene);
+    });
+}
+
+Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name) {
+    return named(name, [&] { return readScene(gltf::open(std::move(bytes), {}), ""); });
 }
 
 }  // namespace diptych

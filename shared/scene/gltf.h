@@ -4,11 +4,16 @@
 #include "shared/scene/scene.h"
 
 #include <string>
+#include <vector>
 
 namespace diptych {
 
-// A .gltf or .glb file, version 2.0, its default scene. Throws std::runtime_error:
-// "FILE: OBJECT INDEX: what is wrong". What is read otherwise than the file says is in Scene::notes.
-Scene loadGltf(const std::string& file);
+// A .gltf or .glb file, version 2.0. `scene` is one of its scenes by index or name; empty: its default, which
+// is its first where it names none. What is read otherwise than the file says is in Scene::notes. Throws
+// std::runtime_error: "FILE: OBJECT INDEX: what is wrong".
+Scene loadGltf(const std::string& file, const std::string& scene = "");
+
+// The same from memory, called `name`; its buffers and images are inside it.
+Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name);
 
 }  // namespace diptych

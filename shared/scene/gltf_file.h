@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
-#include <string_view>
+#include "shared/scene/gltf_resources.h"
 
-namespace tinygltf {
-class Model;
-}
+#include <tiny_gltf.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace diptych::gltf {
 
-// The door: everything about a file that is checked before its contents are believed. The container's
-// lengths, the nesting of its JSON, the version, that every URI stays in the file's folder and that
-// what the file requires is built. Then tinygltf parses it: buffers are loaded, images are left encoded.
-// Indices between objects are not checked here. Throws std::runtime_error without the file's name.
-tinygltf::Model openFile(const std::filesystem::path& file);
+// A file that has come through the door: its model's numbers have the types and ranges of the schema, its
+// indices name objects that are there, its buffers are loaded. What lies behind accessors is not checked yet.
+struct Document {
+    tinygltf::Model model;
+    Resources resources;             // images are read from there, when somebody needs them
+    std::set<std::string> left_out;  // extensions that are not read
+};
 
-bool isBuilt(std::string_view extension);
+// The door. Checked before anything is believed: the container's lengths, the size and nesting of the JSON,
+// the version, what the file requires, and the schema (gltf_schema.h). tinygltf then parses what the schema
+// left, without reading a file. `folder` holds the buffers and images; empty: data URIs only. Throws
+// std::runtime_error without the file's name.
+Document open(std::vector<unsigned char> bytes, const std::filesystem::path& folder);
 
 }  // namespace diptych::gltf

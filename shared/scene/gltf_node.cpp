@@ -24,6 +24,10 @@ std::string nameOf(std::size_t node) {
     return fmt::format("node {}", node);
 }
 
+std::string quotedName(const std::string& name) {
+    return name.empty() ? "" : fmt::format(" \"{}\"", name);
+}
+
 // ---- transforms --------------------------------------------------------------------------------------
 
 // As many numbers as asked for, or none.
@@ -89,11 +93,27 @@ void refuseCircles(const std::vector<int>& parent) {
     }
 }
 
-// The nodes that the default scene reaches. Without any scene, all of them.
-std::vector<bool> reached(const tinygltf::Model& model, const std::vector<int>& parent) {
-    if (model.scenes.empty() && model.defaultScene < 0) return std::vector<bool>(model.nodes.size(), true);
-    const int index =
-        checkedIndex(std::max(model.defaultScene, 0), model.scenes.size(), "the default scene", "scene");
+// The scene that was asked for, by index or name, or else the file's default. -1: the file has none.
+int chooseScene(const tinygltf::Model& model, const std::string& choice, std::vector<std::string>& notes) {
+    const int count = static_cast<int>(model.scenes.size());
+    if (choice.empty()) {
+        const int index = count == 0 ? -1 : std::max(model.defaultScene, 0);
+        if (count > 1)
+            notes.push_back(
+                fmt::format("{} scenes: scene {}{} is drawn; FILE?scene=INDEX or NAME draws another", count,
+                            index, quotedName(model.scenes[static_cast<std::size_t>(index)].name)));
+        return index;
+    }
+    for (int i = 0; i < count; ++i)
+        if (choice == std::to_string(i)) return i;
+    for (int i = 0; i < count; ++i)
+        if (choice == model.scenes[static_cast<std::size_t>(i)].name) return i;
+    fail("scene=" + choice, fmt::format("names none of the file's {} scene{}", count, count == 1 ? "" : "s"));
+}
+
+// The nodes that the scene reaches. Without any scene, all of them.
+std::vector<bool> reached(const tinygltf::Model& model, int index, const std::vector<int>& parent) {
+    if (index < 0) return std::vector<bool>(model.nodes.size(), true);
     const std::string who = fmt::format("scene {}", index);
     std::vector<bool> result(model.nodes.size(), false);
     std::vector<int> waiting = model.scenes[static_cast<std::size_t>(index)].nodes;
@@ -171,10 +191,10 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who) {
 
 }  // namespace
 
-void readNodes(const tinygltf::Model& model, Scene& scene) {
+void readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene) {
     const std::vector<int> parent = parentsOf(model);
     refuseCircles(parent);
-    const std::vector<bool> inScene = reached(model, parent);
+    const std::vector<bool> inScene = reached(model, chooseScene(model, choice, scene.notes), parent);
 
     std::vector<int> place(model.nodes.size(), -1);  // in Scene::nodes
     int count = 0;

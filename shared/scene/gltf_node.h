@@ -9,8 +9,9 @@ class Model;
 
 namespace diptych::gltf {
 
-// The nodes of the default scene in the file's order, each with one parent and in no circle, and the lights
-// and cameras that hang there: lights in node order, cameras in the file's order.
-void readNodes(const tinygltf::Model& model, Scene& scene);
+// The nodes of one scene in the file's order, each with one parent and in no circle, and the lights and
+// cameras that hang there: lights in node order, cameras in the file's order. `choice` is the scene's index
+// or name; empty: the file's default.
+void readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene);
 
 }  // namespace diptych::gltf

@@ -29,12 +29,17 @@ Scene loadScene(const std::string& where) {
     if (where.starts_with(builtinPrefix)) {
         scene = makeBuiltin(where.substr(builtinPrefix.size()));
     } else {
-        const std::string ending = lowerCase(std::filesystem::path(where).extension().string());
+        // FILE?scene=INDEX or NAME; a file that is called so comes first.
+        constexpr std::string_view key = "?scene=";
+        const std::size_t question = std::filesystem::exists(where) ? where.npos : where.rfind(key);
+        const std::string file = where.substr(0, question);
+        const std::string choice = question == where.npos ? "" : where.substr(question + key.size());
+        const std::string ending = lowerCase(std::filesystem::path(file).extension().string());
         if (ending != ".gltf" && ending != ".glb")
             throw std::runtime_error(fmt::format(
                 "{}: not a scene: expected a .gltf or .glb file or builtin:NAME (--list-scenes names them)",
                 where));
-        scene = loadGltf(where);
+        scene = loadGltf(file, choice);
     }
     scene.name = where;
     return scene;

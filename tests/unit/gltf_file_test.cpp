@@ -22,20 +22,21 @@ TEST(GltfDoor, WrongNumbersAreRefusedByName) {
     const Case cases[] = {
         {"accessor 0: 4 vertices of 12 bytes end at 48, past bufferView 0 (36 bytes)",
          [](GltfFile& f) { f.json["accessors"][0]["count"] = 4; }},
-        {"accessor 0: 9223372036854775807 vertices",
+        {"accessor 0: count is 9223372036854775807, not at most 9007199254740992",
          [](GltfFile& f) { f.json["accessors"][0]["count"] = 9223372036854775807; }},
-        {"accessor 0: 6148914691236517206 vertices",
+        {"accessor 0: count is 6148914691236517206, not at most",
          [](GltfFile& f) { f.json["accessors"][0]["count"] = 6148914691236517206; }},  // x 12 wraps
         {"accessor 0: 3 vertices", [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }},
-        {"accessor 0: 3 vertices",
+        {"accessor 0: byteOffset is 18446744073709551600, not at most",
          [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 18446744073709551600u; }},
         {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 37; }},
         {"bufferView 0", [](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 18446744073709551600u; }},
         {"bufferView 0: buffer 1", [](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 1; }},
         {"stride of 8", [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 8; }},
-        {"accessor 7", [](GltfFile& f) { f.primitive()["attributes"]["POSITION"] = 7; }},
+        {"mesh 0, primitive 0: attributes: POSITION names accessor 7, but the file has 1",
+         [](GltfFile& f) { f.primitive()["attributes"]["POSITION"] = 7; }},
         {"POSITION: accessor 0 is not VEC3", [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC4"; }},
-        {"mesh 3", [](GltfFile& f) { f.json["nodes"][0]["mesh"] = 3; }},
+        {"node 0: mesh 3, but the file has 1", [](GltfFile& f) { f.json["nodes"][0]["mesh"] = 3; }},
         {"material 2", [](GltfFile& f) { f.primitive()["material"] = 2; }},
         {"NORMAL: 2 elements for 3 positions",
          [](GltfFile& f) {
@@ -50,7 +51,7 @@ TEST(GltfDoor, WrongNumbersAreRefusedByName) {
              f.primitive()["indices"] = f.accessor<float>({0, 1, 2}, FLOAT, "SCALAR", 1);
          }},
         {"POSITION: vertex 2 is not finite", [](GltfFile& f) { f.data.replace(24, 4, "\xff\xff\xff\xff"); }},
-        {"is no mode", [](GltfFile& f) { f.primitive()["mode"] = 9; }},
+        {"mesh 0, primitive 0: mode is 9, not from 0 to 6", [](GltfFile& f) { f.primitive()["mode"] = 9; }},
         {"at most",
          [](GltfFile& f) {
              f.json["accessors"][0].erase("bufferView");
@@ -68,16 +69,17 @@ TEST(GltfDoor, WrongNumbersAreRefusedByName) {
          [](GltfFile& f) {
              f.json["nodes"] = {{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}};
          }},
-        {"node 0: child 5", [](GltfFile& f) { f.json["nodes"][0]["children"] = {5}; }},
-        {"scene 0: node 4", [](GltfFile& f) { f.json["scenes"][0]["nodes"] = {4}; }},
-        {"scene 3", [](GltfFile& f) { f.json["scene"] = 3; }},
+        {"node 0: children names node 5, but the file has 1",
+         [](GltfFile& f) { f.json["nodes"][0]["children"] = {5}; }},
+        {"scene 0: nodes names node 4, but the file has 1",
+         [](GltfFile& f) { f.json["scenes"][0]["nodes"] = {4}; }},
+        {"scene 3, but the file has 1", [](GltfFile& f) { f.json["scene"] = 3; }},
         {"node 0: matrix has 15 numbers",
          [](GltfFile& f) { f.json["nodes"][0]["matrix"] = std::vector<double>(15, 0.0); }},
         {"node 0: camera 0", [](GltfFile& f) { f.json["nodes"][0]["camera"] = 0; }},
-        {"extensionsRequired: KHR_draco_mesh_compression, EXT_odd is not built",
+        {"extensionsRequired: KHR_texture_basisu, EXT_odd is not read",
          [](GltfFile& f) {
-             f.json["extensionsRequired"] = {"KHR_draco_mesh_compression", "KHR_texture_transform",
-                                             "EXT_odd"};
+             f.json["extensionsRequired"] = {"KHR_texture_basisu", "KHR_texture_transform", "EXT_odd"};
          }},
         {"asset: version 1.0", [](GltfFile& f) { f.json["asset"]["version"] = "1.0"; }},
         {"nests deeper",

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// How much a file may ask of its reader: each limit with its reason. Beyond one there is an error that says
+// so.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace diptych::gltf {
+
+// An accessor without a bufferView is all zeros but for its sparse elements: it costs the file a few bytes,
+// and the reader up to 16 a vertex and attribute.
+constexpr std::size_t MAX_ZERO_ELEMENTS = std::size_t(1) << 24;
+
+// A file of a few kilobytes may name one accessor from a thousand primitives. What its geometry and its
+// motion decode to may be this much, and beyond that this many times the bytes that its buffers hold: a
+// vertex of 4 bytes (quantized) decodes to 44, and every corner of a strip of 1 byte may become one.
+constexpr std::size_t FREE_DECODED_BYTES = std::size_t(256) << 20;
+constexpr std::size_t DECODED_BYTES_PER_BYTE = 32;
+
+// A scene file, a buffer or an image file. A .glb cannot be larger: its lengths have 32 bits.
+constexpr std::uint64_t maxFileBytes = std::uint64_t(4) << 30;
+
+// All buffers together.
+constexpr std::uint64_t maxBufferBytes = std::uint64_t(8) << 30;
+
+// The JSON text. Parsed it takes some 16 times as much; a million nodes are 60 to 100 MiB of it.
+constexpr std::uint64_t maxJsonBytes = std::uint64_t(256) << 20;
+
+// Arrays and objects inside each other. Scenes nest some ten deep.
+constexpr int maxJsonNesting = 64;
+
+}  // namespace diptych::gltf

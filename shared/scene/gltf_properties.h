@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// What is read of glTF 2.0 and its extensions, as data: every property's type, range and what it names.
+// Source: Khronos, glTF 2.0 Specification, 2021, section 5, and the extensions' own texts.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace diptych::gltf::schema {
+
+// ---- what a property may be --------------------------------------------------------------------------
+
+enum class Kind {
+    whole,           // from min to max
+    number,          // from min to max
+    flag,            // true or false
+    text,            // one of `choices`, or anything where there are none
+    name,            // text for people
+    numbers,         // `least` to `most` of them, each from min to max
+    index,           // into `of`
+    indices,         // into `of`
+    names,           // array of strings
+    attributes,      // an object of indices into `of`
+    attribute_sets,  // array of such
+    object,          // of `properties`
+    objects,         // array of such
+    extensions,      // an object whose known members are `properties`; others are taken out and remembered
+};
+
+struct Property {
+    std::string_view key;
+    Kind kind;
+    bool required = false;
+    double min = 0, max = 0;
+    std::size_t least = 0, most = 0;
+    std::string_view of = {};  // the collection that an index leads into; what one of `objects` is called
+    std::string_view choices = {};  // separated by spaces
+    std::span<const Property> properties = {};
+};
+
+constexpr double any = std::numeric_limits<double>::max();
+constexpr double maxInt = std::numeric_limits<int>::max();
+constexpr double maxSize = 9007199254740992.0;  // 2^53: every whole number up to it is a double
+constexpr std::size_t anyLength = std::numeric_limits<std::size_t>::max();
+
+constexpr Property whole(std::string_view key, double min = 0, double max = maxInt) {
+    return {.key = key, .kind = Kind::whole, .min = min, .max = max};
+}
+constexpr Property number(std::string_view key, double min = -any, double max = any) {
+    return {.key = key, .kind = Kind::number, .min = min, .max = max};
+}
+constexpr Property numbers(std::string_view key, std::size_t least, std::size_t most) {
+    return {.key = key, .kind = Kind::numbers, .min = -any, .max = any, .least = least, .most = most};
+}
+constexpr Property numbers(std::string_view key, std::size_t count) {
+    return numbers(key, count, count);
+}
+constexpr Property flag(std::string_view key) {
+    return {.key = key, .kind = Kind::flag};
+}
+constexpr Property text(std::string_view key, std::string_view choices = {}) {
+    return {.key = key, .kind = Kind::text, .choices = choices};
+}
+constexpr Property name() {
+    return {.key = "name", .kind = Kind::name};
+}
+constexpr Property index(std::string_view key, std::string_view of) {
+    return {.key = key, .kind = Kind::index, .of = of};
+}
+constexpr Property indices(std::string_view key, std::string_view of) {
+    return {.key = key, .kind = Kind::indices, .of = of};
+}
+constexpr Property names(std::string_view key) {
+    return {.key = key, .kind = Kind::names};
+}
+constexpr Property attributes(std::string_view key, std::string_view of) {
+    return {.key = key, .kind = Kind::attributes, .of = of};
+}
+constexpr Property object(std::string_view key, std::span<const Property> properties) {
+    return {.key = key, .kind = Kind::object, .properties = properties};
+}
+constexpr Property objects(std::string_view key, std::string_view one, std::span<const Property> properties) {
+    return {.key = key, .kind = Kind::objects, .of = one, .properties = properties};
+}
+constexpr Property extensions(std::span<const Property> properties) {
+    return {.key = "extensions", .kind = Kind::extensions, .properties = properties};
+}
+constexpr Property required(Property property) {
+    property.required = true;
+    return property;
+}
+
+// ---- the schema: what is read of glTF 2.0 ------------------------------------------------------------
+
+constexpr Property sparseIndices[] = {required(index("bufferView", "bufferViews")), whole("byteOffset"),
+                                      required(whole("componentType"))};
+constexpr Property sparseValues[] = {required(index("bufferView", "bufferViews")), whole("byteOffset")};
+constexpr Property sparse[] = {required(whole("count")), required(object("indices", sparseIndices)),
+                               required(object("values", sparseValues))};
+constexpr Property accessor[] = {index("bufferView", "bufferViews"),
+                                 whole("byteOffset", 0, maxSize),
+                                 required(whole("componentType")),
+                                 flag("normalized"),
+                                 required(whole("count", 0, maxSize)),
+                                 required(text("type", "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4")),
+                                 object("sparse", sparse),
+                                 name()};
+
+constexpr Property meshopt[] = {required(index("buffer", "buffers")),
+                                whole("byteOffset", 0, maxSize),
+                                required(whole("byteLength", 0, maxSize)),
+                                required(whole("byteStride", 1, 256)),
+                                required(whole("count", 0, maxInt)),
+                                required(text("mode", "ATTRIBUTES TRIANGLES INDICES")),
+                                text("filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL")};
+constexpr Property meshoptFallback[] = {flag("fallback")};
+constexpr Property viewExtensions[] = {object("EXT_meshopt_compression", meshopt)};
+constexpr Property bufferExtensions[] = {object("EXT_meshopt_compression", meshoptFallback)};
+constexpr Property bufferView[] = {required(index("buffer", "buffers")),
+                                   whole("byteOffset", 0, maxSize),
+                                   required(whole("byteLength", 0, maxSize)),
+                                   whole("byteStride", 4, 252),
+                                   name(),
+                                   extensions(viewExtensions)};
+constexpr Property buffer[] = {text("uri"), required(whole("byteLength", 0, maxSize)), name(),
+                               extensions(bufferExtensions)};
+
+constexpr Property image[] = {text("uri"), index("bufferView", "bufferViews"), text("mimeType"), name()};
+constexpr Property sampler[] = {whole("magFilter"), whole("minFilter"), whole("wrapS"), whole("wrapT"),
+                                name()};
+constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"), name()};
+
+constexpr Property textureTransform[] = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
+                                         whole("texCoord")};
+constexpr Property infoExtensions[] = {object("KHR_texture_transform", textureTransform)};
+constexpr Property textureInfo[] = {required(index("index", "textures")), whole("texCoord"),
+                                    extensions(infoExtensions)};
+constexpr Property normalInfo[] = {required(index("index", "textures")), whole("texCoord"), number("scale"),
+                                   extensions(infoExtensions)};
+constexpr Property occlusionInfo[] = {required(index("index", "textures")), whole("texCoord"),
+                                      number("strength"), extensions(infoExtensions)};
+constexpr Property metallicRoughness[] = {
+    numbers("baseColorFactor", 4), object("baseColorTexture", textureInfo), number("metallicFactor"),
+    number("roughnessFactor"), object("metallicRoughnessTexture", textureInfo)};
+constexpr Property emissiveStrength[] = {number("emissiveStrength", 0)};
+constexpr Property ior[] = {number("ior")};
+constexpr Property specular[] = {number("specularFactor"), object("specularTexture", textureInfo),
+                                 numbers("specularColorFactor", 3),
+                                 object("specularColorTexture", textureInfo)};
+constexpr Property materialExtensions[] = {
+    object("KHR_materials_emissive_strength", emissiveStrength), object("KHR_materials_ior", ior),
+    object("KHR_materials_specular", specular), object("KHR_materials_unlit", {})};
+constexpr Property material[] = {name(),
+                                 object("pbrMetallicRoughness", metallicRoughness),
+                                 object("normalTexture", normalInfo),
+                                 object("occlusionTexture", occlusionInfo),
+                                 object("emissiveTexture", textureInfo),
+                                 numbers("emissiveFactor", 3),
+                                 text("alphaMode", "OPAQUE MASK BLEND"),
+                                 number("alphaCutoff"),
+                                 flag("doubleSided"),
+                                 extensions(materialExtensions)};
+
+// The values of these attributes are ids inside the compressed stream.
+constexpr Property draco[] = {required(index("bufferView", "bufferViews")),
+                              required(attributes("attributes", {}))};
+constexpr Property primitiveExtensions[] = {object("KHR_draco_mesh_compression", draco)};
+constexpr Property primitive[] = {required(attributes("attributes", "accessors")),
+                                  index("indices", "accessors"),
+                                  index("material", "materials"),
+                                  whole("mode", 0, 6),
+                                  {.key = "targets", .kind = Kind::attribute_sets, .of = "accessors"},
+                                  extensions(primitiveExtensions)};
+constexpr Property mesh[] = {required(objects("primitives", "primitive", primitive)),
+                             numbers("weights", 0, anyLength), name()};
+
+constexpr Property nodeLight[] = {index("light", "KHR_lights_punctual")};
+constexpr Property nodeExtensions[] = {object("KHR_lights_punctual", nodeLight)};
+constexpr Property node[] = {index("camera", "cameras"),
+                             indices("children", "nodes"),
+                             index("skin", "skins"),
+                             numbers("matrix", 16),
+                             index("mesh", "meshes"),
+                             numbers("rotation", 4),
+                             numbers("scale", 3),
+                             numbers("translation", 3),
+                             numbers("weights", 0, anyLength),
+                             name(),
+                             extensions(nodeExtensions)};
+constexpr Property scene[] = {indices("nodes", "nodes"), name()};
+constexpr Property skin[] = {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
+                             required(indices("joints", "nodes")), name()};
+
+constexpr Property perspective[] = {number("aspectRatio"), required(number("yfov")), number("zfar"),
+                                    required(number("znear"))};
+constexpr Property orthographic[] = {required(number("xmag")), required(number("ymag")),
+                                     required(number("zfar")), required(number("znear"))};
+constexpr Property camera[] = {required(text("type", "perspective orthographic")),
+                               object("perspective", perspective), object("orthographic", orthographic),
+                               name()};
+
+constexpr Property channelTarget[] = {index("node", "nodes"), required(text("path"))};
+constexpr Property channel[] = {required(whole("sampler")), required(object("target", channelTarget))};
+constexpr Property animationSampler[] = {required(index("input", "accessors")),
+                                         text("interpolation", "LINEAR STEP CUBICSPLINE"),
+                                         required(index("output", "accessors"))};
+constexpr Property animation[] = {required(objects("channels", "channel", channel)),
+                                  required(objects("samplers", "sampler", animationSampler)), name()};
+
+constexpr Property spot[] = {number("innerConeAngle"), number("outerConeAngle")};
+constexpr Property light[] = {numbers("color", 3),  number("intensity"),
+                              number("range"),      required(text("type", "directional point spot")),
+                              object("spot", spot), name()};
+constexpr Property lights[] = {objects("lights", "light", light)};
+constexpr Property documentExtensions[] = {object("KHR_lights_punctual", lights)};
+constexpr Property asset[] = {text("version"), text("minVersion")};
+constexpr Property document[] = {required(object("asset", asset)),
+                                 names("extensionsUsed"),
+                                 names("extensionsRequired"),
+                                 index("scene", "scenes"),
+                                 objects("accessors", "accessor", accessor),
+                                 objects("animations", "animation", animation),
+                                 objects("buffers", "buffer", buffer),
+                                 objects("bufferViews", "bufferView", bufferView),
+                                 objects("cameras", "camera", camera),
+                                 objects("images", "image", image),
+                                 objects("materials", "material", material),
+                                 objects("meshes", "mesh", mesh),
+                                 objects("nodes", "node", node),
+                                 objects("samplers", "sampler", sampler),
+                                 objects("scenes", "scene", scene),
+                                 objects("skins", "skin", skin),
+                                 objects("textures", "texture", texture),
+                                 extensions(documentExtensions)};
+
+}  // namespace diptych::gltf::schema

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych::gltf {
+
+// A regular file's bytes, at most maxFileBytes of them. Throws std::runtime_error without its name.
+std::vector<unsigned char> readFile(const std::filesystem::path& file);
+
+// What a scene's URIs may name: data inside the URI, and files in the scene's folder or below it. Symbolic
+// links are followed, but what they lead to must be there as well.
+class Resources {
+public:
+    // Empty: there is no folder, only data URIs are read.
+    explicit Resources(const std::filesystem::path& folder);
+
+    // Throws std::runtime_error: "a.bin: no such file", without the name of who asks.
+    std::vector<unsigned char> read(const std::string& uri) const;
+
+private:
+    std::filesystem::path folder_;  // canonical
+};
+
+// How a line names it: a data URI without its data.
+std::string uriName(const std::string& uri);
+
+// RFC 3986, 2.1.
+std::string percentDecoded(std::string_view uri);
+
+}  // namespace diptych::gltf

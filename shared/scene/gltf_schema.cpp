@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf_schema.h"
+
+#include "shared/scene/gltf_properties.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+using schema::Kind;
+using schema::Property;
+
+// Where the walk is: "mesh 0, primitive 1: attributes". Put into words only where something is wrong.
+struct Where {
+    const Where* outer = nullptr;
+    std::string_view what = {};
+    std::size_t item = none;
+
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+    std::string words() const {
+        if (what.empty()) return {};
+        std::string text = outer ? outer->words() : std::string();
+        if (!text.empty()) text += item == none ? ": " : ", ";
+        text += what;
+        if (item != none) text += fmt::format(" {}", item);
+        return text;
+    }
+};
+
+[[noreturn]] void fail(const Where& where, const std::string& why) {
+    const std::string words = where.words();
+    throw std::runtime_error(words.empty() ? why : words + ": " + why);
+}
+
+// A value as a line shows it.
+std::string quoted(const Json& value) {
+    switch (value.type()) {
+        case Json::value_t::object:
+            return "an object";
+        case Json::value_t::array:
+            return "an array";
+        case Json::value_t::string:
+            return fmt::format("\"{}\"", shown(value.get_ref<const std::string&>()));
+        default:
+            return value.dump();
+    }
+}
+
+class Walk {
+public:
+    explicit Walk(const Json& document) : document_(document) {}
+
+    std::set<std::string> unknown_extensions;
+
+    // Takes out what is not read and checks the rest.
+    void object(Json& value, std::span<const Property> properties, const Where& where) {
+        if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
+        for (auto at = value.begin(); at != value.end();) {
+            const auto property = std::ranges::find(properties, at.key(), &Property::key);
+            if (property == properties.end()) {
+                at = value.erase(at);
+                continue;
+            }
+            check(at.value(), *property, where);
+            ++at;
+        }
+        for (const Property& property : properties)
+            if (property.required && !value.contains(property.key))
+                fail(where, fmt::format("has no {}", property.key));
+    }
+
+private:
+    const Json& document_;
+
+    void check(Json& value, const Property& p, const Where& where) {
+        switch (p.kind) {
+            case Kind::whole:
+                return whole(value, p, where);
+            case Kind::number:
+                return number(value, p, where);
+            case Kind::flag:
+                if (!value.is_boolean()) wrong(value, p.key, "true or false", where);
+                return;
+            case Kind::text:
+                return text(value, p, where);
+            case Kind::name:
+                if (!value.is_string()) wrong(value, p.key, "text", where);
+                value = shown(value.get_ref<const std::string&>());
+                return;
+            case Kind::numbers:
+                return numbers(value, p, where);
+            case Kind::index:
+                return index(value, p.key, p.of, where);
+            case Kind::indices:
+                for (Json& item : array(value, p, where)) index(item, p.key, p.of, where);
+                return;
+            case Kind::names:
+                for (Json& item : array(value, p, where))
+                    if (!item.is_string()) wrong(item, p.key, "text", where);
+                return;
+            case Kind::attributes:
+                return attributes(value, p, {&where, p.key});
+            case Kind::attribute_sets:
+                for (std::size_t i = 0; Json & item : array(value, p, where))
+                    attributes(item, p, {&where, "morph target", i++});
+                return;
+            case Kind::object:
+                return object(value, p.properties, {&where, p.key});
+            case Kind::objects:
+                for (std::size_t i = 0; Json & item : array(value, p, where))
+                    object(item, p.properties, {&where, p.of, i++});
+                return;
+            case Kind::extensions:
+                return extensions(value, p, where);
+        }
+    }
+
+    [[noreturn]] static void wrong(const Json& value, std::string_view key, std::string_view expected,
+                                   const Where& where) {
+        fail(where, fmt::format("{} is {}, not {}", key, quoted(value), expected));
+    }
+
+    static Json& array(Json& value, const Property& p, const Where& where) {
+        if (!value.is_array()) wrong(value, p.key, "an array", where);
+        return value;
+    }
+
+    // In range, whatever the type that it is written in.
+    static void range(const Json& value, const Property& p, const Where& where) {
+        const double v = value.get<double>();
+        if (v >= p.min && v <= p.max) return;
+        const bool bounded = p.max < std::numeric_limits<int>::max();
+        wrong(value, p.key,
+              bounded     ? fmt::format("from {} to {}", p.min, p.max)
+              : v < p.min ? fmt::format("at least {}", p.min)
+                          : fmt::format("at most {}", p.max),
+              where);
+    }
+
+    static void number(const Json& value, const Property& p, const Where& where) {
+        if (!value.is_number()) wrong(value, p.key, "a number", where);
+        range(value, p, where);
+    }
+
+    static void whole(Json& value, const Property& p, const Where& where) {
+        if (!value.is_number()) wrong(value, p.key, "a whole number", where);
+        const double v = value.get<double>();
+        if (v != std::floor(v)) wrong(value, p.key, "a whole number", where);
+        range(value, p, where);
+        value = static_cast<std::int64_t>(v);
+    }
+
+    static void text(const Json& value, const Property& p, const Where& where) {
+        if (!value.is_string()) wrong(value, p.key, "text", where);
+        if (p.choices.empty()) return;
+        const std::string padded = fmt::format(" {} ", value.get_ref<const std::string&>());
+        if (fmt::format(" {} ", p.choices).find(padded) == std::string::npos)
+            wrong(value, p.key, fmt::format("one of {}", p.choices), where);
+    }
+
+    static void numbers(Json& value, const Property& p, const Where& where) {
+        array(value, p, where);
+        if (value.size() < p.least || value.size() > p.most)
+            fail(where, fmt::format("{} has {} numbers, not {}", p.key, value.size(), p.least));
+        for (std::size_t i = 0; i < value.size(); ++i)
+            if (!value[i].is_number()) wrong(value[i], fmt::format("{}[{}]", p.key, i), "a number", where);
+    }
+
+    struct Collection {
+        std::size_t count;
+        std::string_view one;  // what a message calls an item
+    };
+
+    // What an index may lead to.
+    Collection collection(std::string_view key) const {
+        static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+        if (key.empty()) return {std::numeric_limits<int>::max(), ""};
+        if (key == "KHR_lights_punctual")
+            return {document_.contains(lights) ? document_[lights].size() : 0, "light"};
+        const auto at = document_.find(key);
+        return {at == document_.end() || !at->is_array() ? 0 : at->size(),
+                std::ranges::find(schema::document, key, &Property::key)->of};
+    }
+
+    void index(Json& value, std::string_view key, std::string_view of, const Where& where) const {
+        if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
+            wrong(value, key, "an index", where);
+        const double v = value.get<double>();
+        const auto [count, one] = collection(of);
+        if (!(v >= 0 && v < static_cast<double>(count)))
+            fail(where,
+                 fmt::format("{}{} {}, but the file has {}", key == one ? "" : fmt::format("{} names ", key),
+                             one, value.dump(), count));
+        value = static_cast<std::int64_t>(v);
+    }
+
+    void attributes(Json& value, const Property& p, const Where& where) const {
+        if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
+        for (auto at = value.begin(); at != value.end(); ++at)
+            index(at.value(), shown(at.key()), p.of, where);
+    }
+
+    void extensions(Json& value, const Property& p, const Where& where) {
+        if (!value.is_object()) wrong(value, p.key, "an object", where);
+        for (auto at = value.begin(); at != value.end();) {
+            const auto property = std::ranges::find(p.properties, at.key(), &Property::key);
+            if (property == p.properties.end()) {
+                unknown_extensions.insert(shown(at.key()));
+                at = value.erase(at);
+                continue;
+            }
+            check(at.value(), *property, where);
+            ++at;
+        }
+    }
+};
+
+}  // namespace
+
+std::string shown(std::string_view text) {
+    constexpr std::size_t longest = 200;  // a line that people read
+    std::string line(text.substr(0, longest));
+    if (text.size() > longest) {
+        while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xc0) == 0x80) line.pop_back();
+        if (!line.empty() && static_cast<unsigned char>(line.back()) >= 0xc0) line.pop_back();
+        line += "...";
+    }
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    // Names of files need not be UTF-8, and everything that shows a line is.
+    if (std::ranges::any_of(line, [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
+        line =
+            Json::parse(Json(line).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+    return line;
+}
+
+std::set<std::string> applySchema(nlohmann::json& document) {
+    Walk walk(document);
+    walk.object(document, schema::document, {});
+    if (const auto used = document.find("extensionsUsed"); used != document.end())
+        for (const Json& name : *used)
+            walk.unknown_extensions.insert(shown(name.get_ref<const std::string&>()));
+    return std::move(walk.unknown_extensions);
+}
+
+}  // namespace diptych::gltf
