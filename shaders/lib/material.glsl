@@ -78,6 +78,18 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
     s.geometric_normal = triangleNormal(viewVector(s.position));
     s.normal = shadingNormal(s.geometric_normal);
+    s.material_id = constants.material;
+    s.texcoord = in_texcoord0;
+    if (on(feature_unlit)) {  // see contract/material.h
+        s.albedo = vec3(0.0);
+        s.metallic = 0.0;
+        s.roughness = 1.0;
+        s.occlusion = 1.0;
+        s.emission = base_color.rgb;
+        s.dielectric_f0 = vec3(0.0);
+        s.dielectric_f90 = 0.0;
+        return s;
+    }
     s.albedo = base_color.rgb;
     s.metallic = m.metallic;
     s.roughness = m.roughness;
@@ -107,8 +119,6 @@ Surface surfaceFromMaterial(vec4 base_color) {
             s.dielectric_f90 *= texture(specular_texture, slotTexcoord(SLOT_specular)).a;
         s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
     }
-    s.material_id = constants.material;
-    s.texcoord = in_texcoord0;
     return s;
 }
 

@@ -22,7 +22,7 @@
     X(10, alpha_mask)                                                                                 \
     X(11, double_sided)                                                                               \
     X(12, emission)                   /* the scene emits light */                                     \
-    X(13, dielectric_specular)        /* KHR_materials_specular or _ior somewhere in the scene */     \
+    X(13, dielectric_specular)        /* KHR_materials_specular, _ior, _unlit in the scene */     \
     X(14, directional_lights)         /* the scene has some */                                        \
     X(15, local_lights)               /* the scene has point or spot lights */                        \
     X(16, gbuffer_encoding)           /* GBUFFER_* of gbuffer.h */                                    \
@@ -37,13 +37,14 @@
     X(25, capture_5)                                                                                  \
     X(26, capture_6)                                                                                  \
     X(27, capture_7)                                                                                  \
-    X(28, orthographic)
+    X(28, orthographic)                                                                               \
+    X(29, unlit)                      /* KHR_materials_unlit: emits its base colour, reflects nothing */
 
 CONTRACT_BEGIN
 #define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
 FEATURES(DIPTYCH_FEATURE_ID)
 #undef DIPTYCH_FEATURE_ID
-CONTRACT_CONST(uint, FEATURE_COUNT, 29);
+CONTRACT_CONST(uint, FEATURE_COUNT, 30);
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

@@ -21,6 +21,10 @@ struct TextureTransform {
     vec3 v;
 };
 
+// KHR_materials_unlit has an exact physical equivalent: a surface that reflects nothing and emits its base
+// colour. So an unlit surface has that colour, factor x texture x COLOR_0, in the channel `emission` and 0 in
+// `albedo` and `specular`, and no lighting code knows of it. Its normal, metallic (0), roughness (1) and
+// occlusion (1) are never from textures. Alpha mode, cutoff and double-sidedness count as ever.
 struct Material {
     vec4 base_color;          // linear Rec.709, alpha
     vec3 emission;            // W/(sr m^2): emissiveFactor x emissiveStrength

@@ -2,6 +2,7 @@
 #include "shared/material/materials.h"
 
 #include "shared/contract/material.h"
+#include "shared/scene/material_slots.h"
 #include "shared/scene/mipmap.h"
 #include "shared/vulkan/check.h"
 
@@ -22,50 +23,25 @@ constexpr std::array<VkDescriptorType, gpu::SLOT_COUNT> slotTypes = [] {
     return types;
 }();
 
-// One slot of a material: what fills it, whether its texels are sRGB, and the feature that reads it.
-struct Slot {
-    const TextureSlot Material::*texture;
-    bool srgb;
-    gpu::uint feature;
-};
-// In the order of SLOT_*.
-constexpr std::array<Slot, gpu::SLOT_COUNT> slots{{
-    {&Material::base_color_texture, true, gpu::FEATURE_base_color_texture},
-    {&Material::metallic_roughness_texture, false, gpu::FEATURE_metallic_roughness_texture},
-    {&Material::normal_texture, false, gpu::FEATURE_normal_texture},
-    {&Material::occlusion_texture, false, gpu::FEATURE_occlusion_texture},
-    {&Material::emissive_texture, true, gpu::FEATURE_emissive_texture},
-    {&Material::specular_texture, false, gpu::FEATURE_specular_texture},
-    {&Material::specular_color_texture, true, gpu::FEATURE_specular_color_texture},
-}};
-
-// A texture whose factor is zero changes nothing and is not read.
-bool reads(const Material& material, std::size_t slot) {
-    if ((material.*slots[slot].texture).texture < 0) return false;
-    switch (slot) {
-        case gpu::SLOT_normal:
-            return material.normal_scale != 0;
-        case gpu::SLOT_occlusion:
-            return material.occlusion_strength != 0;
-        case gpu::SLOT_emissive:
-            return material.emissive != glm::vec3(0);
-        default:
-            return true;
-    }
-}
+// The feature that reads each slot.
+constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{
+    gpu::FEATURE_base_color_texture,    gpu::FEATURE_metallic_roughness_texture,
+    gpu::FEATURE_normal_texture,        gpu::FEATURE_occlusion_texture,
+    gpu::FEATURE_emissive_texture,      gpu::FEATURE_specular_texture,
+    gpu::FEATURE_specular_color_texture};
 
 Variant variantOf(const Material& material) {
     Variant variant;
-    for (std::size_t slot = 0; slot < slots.size(); ++slot) {
-        if (!reads(material, slot)) continue;
-        const TextureSlot& texture = material.*slots[slot].texture;
-        variant.set(slots[slot].feature);
+    for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
+        if (!readsSlot(material, slot)) continue;
+        const TextureSlot& texture = material.*materialSlots[slot].texture;
+        variant.set(slotFeatures[slot]);
         if (texture.texcoord == 1) variant.set(gpu::FEATURE_second_texcoord);
-        if (texture.u != glm::dvec3(1, 0, 0) || texture.v != glm::dvec3(0, 1, 0))
-            variant.set(gpu::FEATURE_texture_transform);
+        if (isTransformed(texture)) variant.set(gpu::FEATURE_texture_transform);
     }
     if (material.alpha_mode == AlphaMode::mask) variant.set(gpu::FEATURE_alpha_mask);
     if (material.double_sided) variant.set(gpu::FEATURE_double_sided);
+    if (material.unlit) variant.set(gpu::FEATURE_unlit);
     return variant;
 }
 
@@ -81,8 +57,8 @@ gpu::Material gpuMaterial(const Material& m) {
     g.normal_scale = m.normal_scale;
     g.occlusion_strength = m.occlusion_strength;
     g.alpha_cutoff = m.alpha_cutoff;
-    for (std::size_t slot = 0; slot < slots.size(); ++slot) {
-        const TextureSlot& texture = m.*slots[slot].texture;
+    for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
+        const TextureSlot& texture = m.*materialSlots[slot].texture;
         if (texture.texcoord == 1) g.second_texcoord |= 1u << slot;
         g.transforms[slot] = {glm::vec3(texture.u), glm::vec3(texture.v)};
     }
@@ -148,8 +124,9 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
     for (const Material& material : scene.materials) {
         variants_.push_back(variantOf(material));
         data.push_back(gpuMaterial(material));
-        for (std::size_t slot = 0; slot < slots.size(); ++slot)
-            if (reads(material, slot)) imageUse(material.*slots[slot].texture, slots[slot].srgb);
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+            if (readsSlot(material, slot))
+                imageUse(material.*materialSlots[slot].texture, materialSlots[slot].srgb);
     }
     buffer_ =
         makeBuffer<gpu::Material>(device, uploader, "materials", data, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -167,10 +144,10 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
 
     sets_ = DescriptorSets(device, layout_, slotTypes, count());
     for (std::uint32_t m = 0; m < count(); ++m)
-        for (std::uint32_t slot = 0; slot < slots.size(); ++slot) {
-            const TextureSlot& texture = scene.materials[m].*slots[slot].texture;
-            const bool read = reads(scene.materials[m], slot);
-            const std::size_t image = read ? imageUse(texture, slots[slot].srgb) : 0;
+        for (std::uint32_t slot = 0; slot < materialSlots.size(); ++slot) {
+            const TextureSlot& texture = scene.materials[m].*materialSlots[slot].texture;
+            const bool read = readsSlot(scene.materials[m], slot);
+            const std::size_t image = read ? imageUse(texture, materialSlots[slot].srgb) : 0;
             const std::size_t sampler =
                 read ? samplerOf(scene.textures[static_cast<std::size_t>(texture.texture)].sampler) : 0;
             while (samplers_.size() < kinds.size())

@@ -4,6 +4,7 @@
 #include "shared/scene/gltf_accessor.h"
 #include "shared/scene/gltf_value.h"
 #include "shared/scene/image_decode.h"
+#include "shared/scene/material_slots.h"
 
 #include <fmt/format.h>
 
@@ -130,7 +131,7 @@ public:
         m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
         readEmission(m);
         readSpecular(m);
-        return m;
+        return extension(file_.extensions, "KHR_materials_unlit") ? unlit(m) : m;
     }
 
 private:
@@ -182,6 +183,19 @@ private:
         return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
     }
 
+    // KHR_materials_unlit: all other parameters are ignored, though they had to be right.
+    static Material unlit(const Material& lit) {
+        Material m;
+        m.unlit = true;
+        m.name = lit.name;
+        m.base_color = lit.base_color;
+        m.base_color_texture = lit.base_color_texture;
+        m.alpha_mode = lit.alpha_mode;
+        m.alpha_cutoff = lit.alpha_cutoff;
+        m.double_sided = lit.double_sided;
+        return m;
+    }
+
     void readEmission(Material& m) {
         double strength = 1;
         if (const auto* e = extension(file_.extensions, "KHR_materials_emissive_strength"))
@@ -230,12 +244,10 @@ void noteMaterials(const tinygltf::Model& model, const Test& test, const char* w
 void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
     std::vector<bool> used(imageCount, false);
     for (const Material& m : scene.materials)
-        for (const TextureSlot* slot :
-             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
-              &m.emissive_texture, &m.specular_texture, &m.specular_color_texture})
-            if (slot->texture >= 0)
-                used[static_cast<std::size_t>(
-                    scene.textures[static_cast<std::size_t>(slot->texture)].image)] = true;
+        for (const MaterialSlot& slot : materialSlots)
+            if (const int texture = (m.*slot.texture).texture; texture >= 0)
+                used[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] =
+                    true;
     std::vector<int> placeOf(imageCount, -1);
     for (std::size_t i = 0; i < imageCount; ++i) {
         if (!used[i]) continue;
@@ -256,12 +268,6 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
     noteMaterials(
         model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
         "with alphaMode BLEND: drawn opaque, blending is not built yet", scene);
-    noteMaterials(
-        model,
-        [&](std::size_t i) {
-            return extension(model.materials[i].extensions, "KHR_materials_unlit") != nullptr;
-        },
-        "with KHR_materials_unlit: drawn lit, unlit is not built yet", scene);
 
     const bool needsDefault =
         std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {

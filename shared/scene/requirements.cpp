@@ -1,45 +1,40 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/requirements.h"
 
+#include "shared/scene/material_slots.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 namespace diptych {
 
 namespace {
 
-std::array<const TextureSlot*, 7> slotsOf(const Material& m) {
-    return {&m.base_color_texture,    &m.metallic_roughness_texture, &m.normal_texture,
-            &m.occlusion_texture,     &m.emissive_texture,           &m.specular_texture,
-            &m.specular_color_texture};
-}
-
-bool isTransformed(const TextureSlot& slot) {
-    return slot.u != glm::dvec3(1, 0, 0) || slot.v != glm::dvec3(0, 1, 0);
-}
-
 void addMaterial(Requirements& r, const Material& m, std::set<int>& textures) {
-    r.normal_maps |= m.normal_texture.texture >= 0;
     r.alpha_mask |= m.alpha_mode == AlphaMode::mask;
     r.alpha_blend |= m.alpha_mode == AlphaMode::blend;
     r.double_sided |= m.double_sided;
-    r.occlusion |= m.occlusion_texture.texture >= 0 && m.occlusion_strength > 0;
-    r.dielectric_specular |= m.ior != 1.5f || m.specular != 1.0f || m.specular_color != glm::vec3(1) ||
-                             m.specular_texture.texture >= 0 || m.specular_color_texture.texture >= 0;
-    const float emission = std::max({m.emissive.r, m.emissive.g, m.emissive.b});
+    r.unlit |= m.unlit;
+    r.dielectric_specular |= m.unlit || m.ior != 1.5f || m.specular != 1.0f ||
+                             m.specular_color != glm::vec3(1) || m.specular_texture.texture >= 0 ||
+                             m.specular_color_texture.texture >= 0;
+    const glm::vec3 emitted = m.unlit ? glm::vec3(m.base_color) : m.emissive;
+    const float emission = std::max({emitted.r, emitted.g, emitted.b});
     if (emission > 0) {
         r.min_emission = r.emission ? std::min(r.min_emission, emission) : emission;
         r.max_emission = std::max(r.max_emission, emission);
         r.emission = true;
     }
-    for (const TextureSlot* slot : slotsOf(m)) {
-        if (slot->texture < 0) continue;
-        textures.insert(slot->texture);
-        r.second_texcoord |= slot->texcoord == 1;
-        r.texture_transform |= isTransformed(*slot);
+    r.normal_maps |= readsSlot(m, gpu::SLOT_normal);
+    r.occlusion |= readsSlot(m, gpu::SLOT_occlusion);
+    for (std::size_t i = 0; i < materialSlots.size(); ++i) {
+        if (!readsSlot(m, i)) continue;
+        const TextureSlot& slot = m.*materialSlots[i].texture;
+        textures.insert(slot.texture);
+        r.second_texcoord |= slot.texcoord == 1;
+        r.texture_transform |= isTransformed(slot);
     }
 }
 
@@ -104,7 +99,10 @@ std::vector<Requirements::Line> Requirements::lines() const {
             ? fmt::format("materials emit {:g} W/(sr m^2)", max_emission)
             : fmt::format("materials emit {:g} to {:g} W/(sr m^2)", min_emission, max_emission),
         "no material emits: no emission attachment");
-    say(dielectric_specular, "dielectric specular", "a material has KHR_materials_specular or _ior",
+    say(unlit, "unlit materials",
+        "a material has KHR_materials_unlit: it emits its base colour and reflects nothing",
+        "no material has KHR_materials_unlit");
+    say(dielectric_specular, "dielectric specular", "a material has KHR_materials_specular, _ior or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
     say(directional_lights > 0, "directional lights", fmt::format("{} in the scene", directional_lights),
         "none in the scene");

@@ -15,12 +15,13 @@ struct Requirements {
     bool normal_maps = false, alpha_mask = false, alpha_blend = false, double_sided = false;
     bool vertex_colors = false, second_texcoord = false, texture_transform = false;
     bool occlusion = false;            // an occlusion texture of non-zero strength
-    bool emission = false;
-    bool dielectric_specular = false;  // KHR_materials_specular or _ior differs from its default
-    float max_emission = 0;            // largest component over all factors (textures only darken), W/(sr m^2)
-    float min_emission = 0;            // smallest non-zero largest-component of a factor
-    std::uint32_t materials = 0;       // all of the scene's, used or not: ids run below this
-    std::uint32_t textures = 0;        // that the used materials read
+    bool unlit = false;                // KHR_materials_unlit: emits its base colour
+    bool emission = false;             // of unlit materials too
+    bool dielectric_specular = false;  // KHR_materials_specular or _ior differs from its default, or unlit
+    float max_emission = 0;       // largest component over all factors (textures only darken), W/(sr m^2)
+    float min_emission = 0;       // smallest non-zero largest-component of a factor
+    std::uint32_t materials = 0;  // all of the scene's, used or not: ids run below this
+    std::uint32_t textures = 0;   // that the used materials read
     std::uint32_t directional_lights = 0, point_lights = 0, spot_lights = 0;
     std::uint64_t draws = 0, triangles = 0, vertices = 0;  // as instanced
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/scene/requirements.h"
 #include "tests/unit/gltf_maker.h"
 
 #include <cmath>
@@ -78,15 +79,53 @@ TEST(GltfMaterial, MaterialsTexturesSamplersAndTransforms) {
 
 TEST(GltfMaterial, WhatIsDrawnOtherwiseIsNoted) {
     GltfFile f = GltfFile::triangle();
-    f.json["extensionsUsed"] = {"KHR_materials_unlit", "KHR_materials_clearcoat"};
-    f.json["materials"] = {{{"name", "glass"}, {"alphaMode", "BLEND"}},
-                           {{"name", "sign"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+    f.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
+    f.json["materials"] = {{{"name", "glass"}, {"alphaMode", "BLEND"}}, {{"name", "plain"}}};
     const Scene scene = f.load();
     EXPECT_EQ(scene.materials.size(), 3u);
     EXPECT_EQ(f.only(scene).material, 2) << "the default material comes last";
     EXPECT_TRUE(mentions(scene.notes, "(glass) with alphaMode BLEND: drawn opaque"));
-    EXPECT_TRUE(mentions(scene.notes, "(sign) with KHR_materials_unlit: drawn lit"));
     EXPECT_TRUE(mentions(scene.notes, "KHR_materials_clearcoat"));
+}
+
+// Base colour, alpha and double-sidedness stay; the rest is ignored, its images are not even opened.
+TEST(GltfMaterial, UnlitKeepsBaseColourAlphaAndSidesAlone) {
+    GltfFile f = GltfFile::triangle();
+    f.primitive()["material"] = 0;
+    f.json["extensionsUsed"] = f.json["extensionsRequired"] = {"KHR_materials_unlit"};
+    f.json["images"] = {{{"uri", twoPixels}}, {{"uri", "missing.png"}}};
+    f.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+    f.json["materials"] = {{{"name", "sign"},
+                            {"pbrMetallicRoughness",
+                             {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                              {"baseColorTexture", {{"index", 0}}},
+                              {"metallicFactor", 0.25},
+                              {"metallicRoughnessTexture", {{"index", 1}}}}},
+                            {"normalTexture", {{"index", 1}}},
+                            {"occlusionTexture", {{"index", 1}}},
+                            {"emissiveFactor", {1, 1, 1}},
+                            {"emissiveTexture", {{"index", 1}}},
+                            {"alphaMode", "MASK"},
+                            {"alphaCutoff", 0.25},
+                            {"doubleSided", true},
+                            {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+    const Scene scene = f.load();
+    const Material& m = scene.materials.at(0);
+    EXPECT_TRUE(m.unlit);
+    EXPECT_EQ(m.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(m.base_color_texture.texture, 0);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(m.alpha_cutoff, 0.25f);
+    EXPECT_TRUE(m.double_sided);
+    EXPECT_EQ(m.emissive, glm::vec3(0));
+    for (const TextureSlot* slot : {&m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
+                                    &m.emissive_texture, &m.specular_texture, &m.specular_color_texture})
+        EXPECT_EQ(slot->texture, -1);
+    EXPECT_EQ(scene.images.size(), 1u);
+    EXPECT_TRUE(scene.notes.empty());
+    const Requirements r = requirements(scene, poseAt(scene, 0));
+    EXPECT_TRUE(r.unlit && r.emission && r.dielectric_specular);
+    EXPECT_EQ(r.max_emission, 0.3f) << "the base colour is what it emits";
 }
 
 TEST(GltfMaterial, BrokenImagesInUseAreRefused) {

@@ -107,6 +107,28 @@ TEST(Requirements, OcclusionOfStrengthZeroIsNone) {
     EXPECT_FALSE(of(scene).occlusion);
 }
 
+// An unlit surface is one that emits its base colour and has neither F0 nor F90: even a black one needs the
+// latter said. What it ignores asks for nothing.
+TEST(Requirements, UnlitAsksForEmissionAndSpecularAlone) {
+    Scene scene = plainScene();
+    Material& m = scene.materials[0];
+    m.unlit = true;
+    m.base_color = {0.25f, 0.5f, 0, 1};
+    m.emissive = {9, 9, 9};
+    m.normal_texture = {0, 1};
+    m.occlusion_texture = {0, 0, {2, 0, 0}};
+    Requirements r = of(scene);
+    EXPECT_TRUE(r.unlit && r.emission && r.dielectric_specular);
+    EXPECT_FALSE(r.normal_maps || r.occlusion || r.second_texcoord || r.texture_transform);
+    EXPECT_EQ(r.textures, 0u);
+    EXPECT_EQ(r.min_emission, 0.5f);
+    EXPECT_EQ(r.max_emission, 0.5f);
+    m.base_color = {0, 0, 0, 1};
+    r = of(scene);
+    EXPECT_TRUE(r.unlit && r.dielectric_specular);
+    EXPECT_FALSE(r.emission);
+}
+
 TEST(Requirements, EmissionRangesOverTheMaterialsInUse) {
     Scene scene = plainScene();
     scene.materials.resize(4);

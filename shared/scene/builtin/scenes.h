@@ -21,6 +21,7 @@ Scene cutout();
 Scene occlusion();
 Scene manyMaterials();
 Scene vertexColors();
+Scene unlitMaterials();
 
 // places.cpp: where things are, and what covers what
 Scene coplanar();

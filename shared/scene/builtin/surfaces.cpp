@@ -184,6 +184,41 @@ Scene manyMaterials() {
     return std::move(b.scene);
 }
 
+// Unlit cards between lit ones, each of whose other parameters would show if anything read them: base colour
+// alone, with a texture, with vertex colours, cut out, cut out by the colour's alpha, from behind.
+Scene unlitMaterials() {
+    Builder b;
+    b.camera("front", {0, 0.3, 6}, {0, 0, 0}, 34, 0.1, 100);
+    b.scene.background = {0.04f, 0.05f, 0.08f};
+    const TextureSlot checks =
+        b.texture(checker("checker", 128, 8, {250, 180, 40, 255}, {30, 60, 160, 255}), 1);
+    const TextureSlot openings = b.texture(lattice("lattice", 256), 1);
+    const TextureSlot relief = b.texture(normalMap("relief", weaveHeights(256), 24), 2);
+    const TextureSlot depths = b.texture(diptych::occlusion("depths", brickHeights(256)));
+    const Primitive card = quad({-0.55, -0.55, 0}, {1.1, 0, 0}, {0, 1.1, 0}, 8, 8);
+    const auto rainbow = [](const glm::vec3& p) { return glm::vec4(0.5f + 0.8f * p, 0.5f + 0.8f * p.x); };
+    for (const bool unlit : {true, false})
+        for (int i = 0; i < 6; ++i) {
+            if (!unlit && i % 3 != 0) continue;
+            const int made = b.material(fmt::format("{} {}", unlit ? "unlit" : "lit", i),
+                                        {{0.9f, 0.6f, 0.3f}, 0.8f, 0.3f, {0.4f, 0, 0.6f}});
+            Material& m = b.scene.materials.back();
+            m.unlit = unlit;
+            m.normal_texture = relief;
+            m.occlusion_texture = m.metallic_roughness_texture = depths;
+            m.specular_color = {1.5f, 0.5f, 1};
+            if (i == 1 || i == 5) m.base_color_texture = checks;
+            if (i == 3) m.base_color_texture = openings;
+            if (i == 3 || i == 4) m.alpha_mode = AlphaMode::mask;
+            m.double_sided = i >= 3;
+            const bool painted = i == 2 || i == 4;
+            b.add(m.name, painted ? paint(Primitive(card), rainbow) : card, made,
+                  at(1.25 * (i - 2.5), unlit ? 0.6 : -0.6, 0) * turned(i == 5 ? 180 : 12.0 * (i - 2)));
+        }
+    studio(b);
+    return std::move(b.scene);
+}
+
 Scene vertexColors() {
     Builder b;
     b.camera("front", {0, 0.6, 5}, {0, 0, 0}, 34, 0.1, 100);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The square of which pixels are known by hand, and what is asked of its pictures.
+#pragma once
+
+#include "tests/image/scenes.h"
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+
+constexpr int lit = 0, albedo = 1, normals = 2, metallic = 3, roughness = 4, emission = 5, occlusion = 6,
+              specular = 7;
+
+// Corners (-1, -1) to (1, 1) in z = 0, uv (0, 0) at the top left; camera at (0, 0, 1), 90 degrees.
+inline Scene square() {
+    Scene scene;
+    scene.name = "square";
+    Primitive p;
+    p.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    p.normals.assign(4, {0, 0, 1});
+    p.tangents.assign(4, {1, 0, 0, 1});
+    p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    p.texcoords[1] = {{1, 1}, {0, 1}, {0, 0}, {1, 0}};  // mirrored left to right
+    p.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes.push_back({"square", {p}});
+    scene.nodes.push_back({"square", -1, glm::dmat4(1.0), 0});
+    scene.materials.push_back({});
+    // Texels: red, green above blue, grey (linear slots see the bytes over 255, colour slots sRGB).
+    scene.images.push_back(
+        {"four", 2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 128, 128, 128, 255}});
+    Sampler nearest;
+    nearest.magnify_linear = nearest.minify_linear = nearest.mipmaps = nearest.mipmaps_linear = false;
+    scene.textures.push_back({0, nearest});
+    Camera camera;
+    camera.yfov = std::numbers::pi / 2;
+    camera.near = 0.1;
+    camera.world_from_camera[3] = {0, 0, 1, 1};
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+// Both paths' Frames at full precision; every expectation is asked of both.
+inline std::vector<Frame> draw(const Scene& scene, int pixels = 4) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {pixels, pixels};
+    return bothPaths(scene, settings);
+}
+
+inline glm::vec3 colorAt(const Frame& frame, int mode, int x, int y) {
+    const Image& image = frame.channels.at(mode);
+    glm::vec3 value(0);
+    for (int c = 0; c < image.components; ++c) value[c] = image.at(x, y, c);
+    return value;
+}
+
+inline void expectColor(const glm::vec3& got, const glm::vec3& expected, float tolerance,
+                        const std::string& where) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], tolerance) << where << " component " << c;
+}
+
+// sRGB 128 in linear light: ((128/255 + 0.055) / 1.055)^2.4.
+constexpr float grey = 0.215861f;
+const inline glm::vec3 red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1), greys(grey);
+constexpr float float32 = 2e-6f;  // a few roundings beside 1
+constexpr float srgbTexel =
+    2e-3f;  // a device may decode sRGB to 8 bits' accuracy (Vulkan's texel conversion)
+
+}  // namespace diptych::tests
