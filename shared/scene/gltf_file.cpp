@@ -83,6 +83,7 @@ Container readContainer(const Bytes& bytes) {
 // ---- document ----------------------------------------------------------------------------------------
 
 Json parse(std::string_view text) {
+    if (text.empty()) fail("is empty");
     if (text.size() > maxJsonBytes)
         fail(fmt::format("its JSON is {} bytes: at most {} are read", text.size(), maxJsonBytes));
     const auto depth = [](int level, Json::parse_event_t, Json&) {
@@ -94,7 +95,8 @@ Json parse(std::string_view text) {
         if (!document.is_object()) fail("its JSON is not an object");
         return document;
     } catch (const Json::exception& e) {
-        fail(fmt::format("is not JSON: {}", shown(firstLine(e.what()))));
+        const std::string_view message = e.what();  // "[json.exception.parse_error.101] parse error at ..."
+        fail(fmt::format("is not JSON: {}", shown(message.substr(message.find("] ") + 2))));
     }
 }
 
@@ -183,6 +185,30 @@ Json taken(Json& document, const char* key) {
     return value;
 }
 
+// tinygltf refuses indices without a bufferView, which are zeros but for the sparse ones (glTF 2.0, 3.6.2.3):
+// it does not see them.
+struct Withheld {
+    std::size_t mesh, primitive;
+    int indices;
+};
+
+std::vector<Withheld> withholdIndices(Json& document) {
+    std::vector<Withheld> withheld;
+    if (!document.contains("meshes") || !document.contains("accessors")) return withheld;
+    Json& meshes = document["meshes"];
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (std::size_t p = 0; Json & primitive : meshes[m]["primitives"]) {
+            const int indices = primitive.value("indices", -1);
+            if (indices >= 0 &&
+                !document["accessors"][static_cast<std::size_t>(indices)].contains("bufferView")) {
+                withheld.push_back({m, p, indices});
+                primitive.erase("indices");
+            }
+            ++p;
+        }
+    return withheld;
+}
+
 tinygltf::Model parseModel(const std::string& text) {
     tinygltf::TinyGLTF parser;
     // Nothing is left in the document that would ask for a file.
@@ -218,9 +244,12 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
         std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
         buffers = taken(document, "buffers");
         images = taken(document, "images");
-        std::string text = document.dump();
+        const std::vector<Withheld> withheld = withholdIndices(document);
+        const std::string text = document.dump();
         document = nullptr;  // tinygltf builds the same once more
         result.model = parseModel(text);
+        for (const Withheld& w : withheld)
+            result.model.meshes.at(w.mesh).primitives.at(w.primitive).indices = w.indices;
     }
     loadBuffers(buffers, bytes, container.binary, result);
     listImages(images, result.model);

@@ -149,6 +149,77 @@ TEST(GltfDoor, MissingBuffersAreNamed) {
     }
 }
 
+TEST(GltfDoor, DataUrisAreRead) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    f.data.clear();
+    // (0 0 0) (1 0 0) (0 1 0) as floats; 0x3f80 is "gD8" after two zero bytes
+    const std::string positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    std::string percent;
+    for (int i = 0; i < 36; ++i) percent += i == 14 || i == 30 ? "%80" : i == 15 || i == 31 ? "%3f" : "%00";
+    for (const std::string& uri : {"data:application/octet-stream;base64," + positions,
+                                   "data:application/gltf-buffer;base64," + positions,
+                                   "data:;base64," + positions, "data:," + percent}) {
+        f.json["buffers"][0]["uri"] = uri;
+        const Scene scene = f.load();
+        EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << uri;
+    }
+}
+
+// JSON Schema's integers: 3.0 is one.
+TEST(GltfDoor, WholeNumbersMayBeWrittenWithAPoint) {
+    GltfFile f = GltfFile::triangle();
+    f.json["accessors"][0]["count"] = 3.0;
+    f.json["nodes"][0]["mesh"] = 0.0;
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).positions.size(), 3u);
+}
+
+TEST(GltfDoor, NamesHoldNoControlCharacters) {
+    GltfFile f = GltfFile::triangle();
+    f.json["nodes"][0]["name"] = "a\nb\x1b[2J\u00e4";
+    f.json["meshes"][0]["name"] = std::string(1000, 'x');
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.nodes[0].name, "a b [2J\u00e4");
+    EXPECT_EQ(scene.meshes[0].name, std::string(200, 'x') + "...");
+}
+
+TEST(GltfDoor, UnknownOptionalExtensionsAreNoted) {
+    GltfFile f = GltfFile::triangle();
+    f.json["extensionsUsed"] = {"EXT_one", "KHR_texture_transform"};
+    f.json["nodes"][0]["extensions"]["EXT_two"] = {{"deep", {1, 2, 3}}};
+    f.primitive()["extensions"]["EXT_one"] = 5;
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.notes, (std::vector<std::string>{"EXT_one: left out, it is not read",
+                                                     "EXT_two: left out, it is not read"}));
+}
+
+// The default scene, or the one that is asked for by index or name.
+TEST(GltfDoor, OneOfSeveralScenes) {
+    GltfFile f = GltfFile::triangle();
+    f.json["nodes"] = {{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}}, {{"name", "c"}}};
+    f.json["scenes"] = {
+        {{"nodes", {0}}}, {{"nodes", {1}}, {"name", "second"}}, {{"nodes", {2}}, {"name", "0"}}};
+    f.json["scene"] = 1;
+    const std::string file = f.written();
+    const auto node = [](const std::string& where) { return loadScene(where).nodes.at(0).name; };
+    EXPECT_EQ(node(file), "b");
+    EXPECT_EQ(node(file + "?scene=0"), "a");
+    EXPECT_EQ(node(file + "?scene=second"), "b");
+    EXPECT_EQ(node(file + "?scene=2"), "c");
+    EXPECT_TRUE(mentions(loadScene(file).notes, "3 scenes: scene 1 \"second\" is drawn"));
+    try {
+        node(file + "?scene=third");
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_EQ(std::string(e.what()), file + ": scene=third: names none of the file's 3 scenes");
+    }
+    f.json.erase("scene");
+    EXPECT_EQ(f.load().nodes.at(0).name, "a") << "the first where none is the default";
+    f.json.erase("scenes");
+    EXPECT_EQ(f.load().nodes.size(), 3u) << "all where there is no scene";
+}
+
 TEST(GltfDoor, OtherFilesAreRefusedInOneLine) {
     EXPECT_THROW(loadScene("scene.obj"), std::runtime_error);
     EXPECT_THROW(loadScene("no/such/scene.gltf"), std::runtime_error);
