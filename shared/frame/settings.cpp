@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shared/frame/settings.h"
 
+#include "shared/text/json_depth.h"
+#include "shared/text/one_line.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -255,6 +258,8 @@ std::string toJson(const Settings& settings, int indent) {
 }
 
 Settings settingsFromJson(const std::string& text, const Settings& base) {
+    if (jsonDepth(text) > json_depth)
+        throw std::runtime_error(fmt::format("settings: nests deeper than {}", json_depth));
     Json object;
     try {
         object = Json::parse(text);
@@ -281,7 +286,7 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
         if (!readJson<Value>(member, field.option, object[key]))
             throw std::runtime_error(
                 fmt::format("settings: \"{}\": {} is not {}", key,
-                            object[key].dump(-1, ' ', false, Json::error_handler_t::replace),
+                            oneLine(object[key].dump(-1, ' ', false, Json::error_handler_t::replace)),
                             inWords(Value::accepted())));
     });
     for (const char* option : {"debug", "channels", "exposure", "ev100", "no_tonemap", "frames", "fps",
@@ -293,7 +298,7 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
                 "settings: \"{}\" is no setting but an option of the command line: --{}", option, words));
         }
     if (!unknown.empty())
-        throw std::runtime_error(fmt::format("settings: unknown key \"{}\"", *unknown.begin()));
+        throw std::runtime_error(fmt::format("settings: unknown key \"{}\"", oneLine(*unknown.begin())));
     return settings;
 }
 

@@ -2,6 +2,9 @@
 #include "shared/image/exr.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/image/exr_header.h"
+#include "shared/image/file_bytes.h"
+#include "shared/text/one_line.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -57,6 +60,31 @@ Imf::Slice slice(float* component, int components, int width) {
     return {Imf::FLOAT, reinterpret_cast<char*>(component), x, x * static_cast<std::size_t>(width)};
 }
 
+// The file from memory, its beginning replaced.
+class MemoryStream : public Imf::IStream {
+public:
+    MemoryStream(std::span<const std::byte> beginning, std::span<const std::byte> file)
+        : IStream("EXR"), beginning_(beginning), file_(file) {}
+
+    // Like a file's: false where nothing comes after what was read.
+    bool read(char* to, int count) override {
+        const auto size = static_cast<std::size_t>(std::max(count, 0));
+        if (size > file_.size() - std::min(at_, file_.size())) throw std::runtime_error("is cut short");
+        const std::size_t replaced = at_ < beginning_.size() ? std::min(size, beginning_.size() - at_) : 0;
+        std::copy_n(reinterpret_cast<const char*>(beginning_.data()) + at_, replaced, to);
+        std::copy_n(reinterpret_cast<const char*>(file_.data()) + at_ + replaced, size - replaced,
+                    to + replaced);
+        at_ += size;
+        return at_ < file_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = position; }
+
+private:
+    std::span<const std::byte> beginning_, file_;
+    std::uint64_t at_ = 0;
+};
+
 // R, G, B, A and X, Y, Z in this order, other names after them by the alphabet.
 std::pair<std::size_t, std::string> componentRank(const std::string& component) {
     constexpr std::string_view letters = "RGBAXYZ";
@@ -64,62 +92,66 @@ std::pair<std::size_t, std::string> componentRank(const std::string& component) 
     return {std::min(at, letters.size()), component};
 }
 
-std::vector<ExrLayer> readLayers(const std::filesystem::path& file) {
-    Imf::InputFile in(file.c_str());
-    const Imath::Box2i display = in.header().displayWindow(), window = in.header().dataWindow();
-    const auto side = [](int low, int high) { return static_cast<std::int64_t>(high) - low + 1; };
-    const std::int64_t width = side(display.min.x, display.max.x),
-                       height = side(display.min.y, display.max.y),
-                       storedWidth = side(window.min.x, window.max.x),
-                       storedHeight = side(window.min.y, window.max.y);
-
+// By the part of their names before the last dot.
+std::vector<ExrLayer> emptyLayers(const ExrHeader& header) {
     std::map<std::string, std::vector<std::string>> layers;
-    double channels = 0;
-    for (auto c = in.header().channels().begin(); c != in.header().channels().end(); ++c) {
-        if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
-            throw std::runtime_error(fmt::format("channel {} is subsampled, which is not read", c.name()));
-        const std::string name = c.name();
+    for (const std::string& name : header.channels) {
         const std::size_t dot = name.rfind('.');
         layers[dot == std::string::npos ? "" : name.substr(0, dot)].push_back(name);
-        ++channels;
     }
-    // Deflate shrinks at most 1032:1; what claims to be far larger than that is broken, not compressed.
-    const double claimed = static_cast<double>(std::max(width, storedWidth)) *
-                           static_cast<double>(std::max(height, storedHeight)) * channels * sizeof(float);
-    if (claimed > 2000.0 * static_cast<double>(std::filesystem::file_size(file)) + 0x1p26)
-        throw std::runtime_error(fmt::format("claims {}x{} pixels but is too short for them", width, height));
-
     std::vector<ExrLayer> result;
     for (auto& [name, names] : layers) {
         const std::size_t prefix = name.empty() ? 0 : name.size() + 1;
         std::ranges::sort(names, {}, [&](const std::string& n) { return componentRank(n.substr(prefix)); });
         const int components = static_cast<int>(names.size());
-        result.push_back(
-            {name, names, Image(static_cast<int>(storedWidth), static_cast<int>(storedHeight), components)});
+        result.push_back({name, names,
+                          Image(static_cast<int>(header.data.width()), static_cast<int>(header.data.height()),
+                                components)});
     }
+    return result;
+}
+
+// The part of `stored` that the display window shows, 0 where nothing is stored.
+Image displayed(const Image& stored, const ExrWindow& data, const ExrWindow& display) {
+    Image whole(static_cast<int>(display.width()), static_cast<int>(display.height()), stored.components);
+    const std::int32_t left = std::max(data.min_x, display.min_x),
+                       right = std::min(data.max_x, display.max_x);
+    if (left > right) return whole;
+    for (std::int32_t y = std::max(data.min_y, display.min_y); y <= std::min(data.max_y, display.max_y);
+         ++y) {
+        const float* row = stored.data.data() + stored.offset(left - data.min_x, y - data.min_y);
+        std::copy_n(row,
+                    static_cast<std::size_t>(right - left + 1) * static_cast<std::size_t>(stored.components),
+                    whole.data.data() + whole.offset(left - display.min_x, y - display.min_y));
+    }
+    return whole;
+}
+
+std::vector<ExrLayer> readLayers(std::span<const std::byte> file, std::uint64_t most) {
+    const ExrHeader header = readExrHeader(file, most);
+    MemoryStream stream(header.bytes, file);
+    // A thread for every MiB: small pictures are done before another one has woken.
+    const std::uint64_t useful = header.stored_bytes >> 20;
+    Imf::InputFile in(stream,
+                      static_cast<int>(std::min<std::uint64_t>(useful, std::thread::hardware_concurrency())));
+    const Imath::Box2i window = in.header().dataWindow();
+    if (ExrWindow{window.min.x, window.min.y, window.max.x, window.max.y} != header.data)
+        throw std::runtime_error("its data window can be read in two ways");
+
+    std::vector<ExrLayer> layers = emptyLayers(header);
     Imf::FrameBuffer buffer;
-    for (ExrLayer& layer : result)
+    for (ExrLayer& layer : layers)
         for (int c = 0; c < layer.image.components; ++c) {
-            Imf::Slice s = slice(layer.image.data.data() + c, layer.image.components, layer.image.width);
-            s.base -= static_cast<std::ptrdiff_t>(s.xStride) * window.min.x +
-                      static_cast<std::ptrdiff_t>(s.yStride) * window.min.y;
-            buffer.insert(layer.channels[static_cast<std::size_t>(c)], s);
+            const std::size_t pixel = sizeof(float) * static_cast<std::size_t>(layer.image.components);
+            buffer.insert(layer.channels[static_cast<std::size_t>(c)],
+                          Imf::Slice::Make(Imf::FLOAT, layer.image.data.data() + c, window, pixel,
+                                           pixel * static_cast<std::size_t>(layer.image.width)));
         }
     in.setFrameBuffer(buffer);
     in.readPixels(window.min.y, window.max.y);
-    if (window == display) return result;
-
-    for (ExrLayer& layer : result) {
-        Image whole(static_cast<int>(width), static_cast<int>(height), layer.image.components);
-        for (int y = std::max(window.min.y, display.min.y); y <= std::min(window.max.y, display.max.y); ++y)
-            for (int x = std::max(window.min.x, display.min.x); x <= std::min(window.max.x, display.max.x);
-                 ++x)
-                for (int c = 0; c < whole.components; ++c)
-                    whole.at(x - display.min.x, y - display.min.y, c) =
-                        layer.image.at(x - window.min.x, y - window.min.y, c);
-        layer.image = std::move(whole);
-    }
-    return result;
+    if (header.data != header.display)
+        for (ExrLayer& layer : layers) layer.image = displayed(layer.image, header.data, header.display);
+    return layers;
 }
 
 }  // namespace
@@ -162,15 +194,19 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
     out.commit();
 }
 
-std::vector<ExrLayer> readExr(const std::filesystem::path& file) {
+std::vector<ExrLayer> readExr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     useAllCores();
     try {
-        return readLayers(file);
+        return readLayers(bytes, most);
     } catch (const std::bad_alloc&) {
-        throw std::runtime_error(file.string() + ": too large for this machine's memory");
+        throw std::runtime_error(name + ": too large for this machine's memory");
     } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+        throw std::runtime_error(fmt::format("{}: {}", name, oneLine(error.what())));
     }
+}
+
+std::vector<ExrLayer> readExr(const std::filesystem::path& file) {
+    return readExr(bytesOf(file), file.string());
 }
 
 }  // namespace diptych

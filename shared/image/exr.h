@@ -2,8 +2,12 @@
 #pragma once
 
 #include "shared/image/image.h"
+#include "shared/image/limits.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,8 +36,11 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
               const std::vector<ExrAttribute>& attributes = {});
 
 // Reads every layer of the first part as it fills the display window (0 where no pixel is stored); half,
-// float and uint channels become float32, components in the order R G B A X Y Z. Throws std::runtime_error
-// naming file and fault.
+// float and uint channels become float32, components in the order R G B A X Y Z. Deep and subsampled pixels
+// are refused, and what needs more than `most` bytes decoded. Throws std::runtime_error, one line naming file
+// and fault.
 std::vector<ExrLayer> readExr(const std::filesystem::path& file);
+std::vector<ExrLayer> readExr(std::span<const std::byte> bytes, const std::string& name,
+                              std::uint64_t most = limits::imageBytes());
 
 }  // namespace diptych

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/image/limits.h"
+
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -16,7 +21,10 @@ struct Image8 {
 // Written beside `file` and renamed. Throws std::runtime_error naming the file.
 void writePng(const std::filesystem::path& file, const Image8& image);
 
-// Any PNG as RGBA, 8 bits. Throws std::runtime_error naming file and fault.
+// Any PNG as RGBA, 8 bits; what needs more than `most` bytes decoded is refused. Throws std::runtime_error,
+// one line naming file and fault.
 Image8 readPng(const std::filesystem::path& file);
+Image8 readPng(std::span<const std::byte> bytes, const std::string& name,
+               std::uint64_t most = limits::imageBytes());
 
 }  // namespace diptych

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/lights_json.h"
 
+#include "shared/image/file_bytes.h"
+#include "shared/text/json_depth.h"
+#include "shared/text/one_line.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -9,7 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <stdexcept>
@@ -30,7 +34,7 @@ public:
     }
 
     [[noreturn]] void fail(std::string_view key, const std::string& why) const {
-        throw std::runtime_error(fmt::format("{}: {}: {}", who_, key, why));
+        throw std::runtime_error(fmt::format("{}: {}: {}", who_, oneLine(key), why));
     }
 
     const Json* find(const char* key) const {
@@ -91,8 +95,9 @@ LightKind kindOf(const Fields& fields) {
     for (const char* area : {"area", "rect", "disc", "tube"})
         if (type == area)
             fields.fail("type", type + " lights are not built yet: point, spot and directional are");
-    fields.fail("type", type.empty() ? "is missing: point, spot or directional"
-                                     : fmt::format("\"{}\" is none of point, spot, directional", type));
+    fields.fail("type", type.empty()
+                            ? "is missing: point, spot or directional"
+                            : fmt::format("\"{}\" is none of point, spot, directional", oneLine(type)));
 }
 
 void readCone(const Fields& fields, Light& light) {
@@ -100,7 +105,7 @@ void readCone(const Fields& fields, Light& light) {
     const double outer = fields.number("outerConeAngle", static_cast<double>(light.outer_cone), 0);
     if (outer > glm::half_pi<double>() + 1e-6)  // a rounded pi / 2 is one
         fields.fail("outerConeAngle", fmt::format("{:g} is beyond pi / 2", outer));
-    if (!(inner < outer))
+    if (!(static_cast<float>(inner) < static_cast<float>(outer)))
         fields.fail("innerConeAngle", fmt::format("{:g} is not below outerConeAngle {:g}", inner, outer));
     light.inner_cone = static_cast<float>(inner);
     light.outer_cone = static_cast<float>(std::min(outer, glm::half_pi<double>()));
@@ -115,15 +120,15 @@ Light readLight(const Json& object, const std::string& who) {
     light.name = fields.text("name", "");
     light.position = fields.vector("position", light.position);
     const glm::dvec3 direction = fields.vector("direction", light.direction);
-    const double length = glm::length(direction);
-    if (!(length > 0)) fields.fail("direction", "has no length");
-    light.direction = direction / length;
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (!(largest >= std::numeric_limits<double>::min())) fields.fail("direction", "has no length");
+    light.direction = glm::normalize(direction / largest);  // squares of small numbers would vanish
     light.color = glm::vec3(fields.vector("color", glm::dvec3(light.color)));
     if (light.color.r < 0 || light.color.g < 0 || light.color.b < 0) fields.fail("color", "is negative");
     light.intensity = static_cast<float>(fields.number("intensity", 1, 0));
     if (fields.find("range")) {
         const double range = fields.number("range", 0, 0);
-        if (!(range > 0)) fields.fail("range", "is not above 0");
+        if (!(static_cast<float>(range) > 0)) fields.fail("range", "is not above 0");
         if (light.kind != LightKind::directional) light.range = static_cast<float>(range);
     }
     if (light.kind == LightKind::spot) {
@@ -137,26 +142,38 @@ Light readLight(const Json& object, const std::string& who) {
     return light;
 }
 
-Json parse(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    if (!stream) throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
+Json parse(std::string_view text) {
+    if (jsonDepth(text) > json_depth)
+        throw std::runtime_error(fmt::format("nests deeper than {}", json_depth));
     try {
-        return Json::parse(stream);
+        return Json::parse(text);
     } catch (const Json::exception& e) {
-        throw std::runtime_error(fmt::format("{}: is not JSON: {}", file.string(), e.what()));
+        throw std::runtime_error(fmt::format("is not JSON: {}", oneLine(e.what())));
     }
+}
+
+std::vector<Light> readDocument(const Json& document) {
+    if (!document.is_object() || !document.contains("lights") || !document["lights"].is_array())
+        throw std::runtime_error("is not { \"lights\": [ ... ] }");
+    std::vector<Light> lights;
+    for (const Json& object : document["lights"])
+        lights.push_back(readLight(object, fmt::format("light {}", lights.size())));
+    return lights;
 }
 
 }  // namespace
 
+std::vector<Light> lightsFromJson(std::string_view text, const std::string& name) {
+    try {
+        return readDocument(parse(text));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(name + ": " + error.what());
+    }
+}
+
 std::vector<Light> readLights(const std::filesystem::path& file) {
-    const Json document = parse(file);
-    if (!document.is_object() || !document.contains("lights") || !document["lights"].is_array())
-        throw std::runtime_error(fmt::format("{}: is not {{ \"lights\": [ ... ] }}", file.string()));
-    std::vector<Light> lights;
-    for (const Json& object : document["lights"])
-        lights.push_back(readLight(object, fmt::format("{}: light {}", file.string(), lights.size())));
-    return lights;
+    const std::vector<std::byte> bytes = bytesOf(file);
+    return lightsFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 }  // namespace diptych

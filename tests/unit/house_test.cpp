@@ -67,6 +67,7 @@ const std::vector<Room> rooms = {
     {"shared/contract", 0},
     {"shaders/lib", 1, {"shared/contract"}},
     {"shaders/pass", 2, {"shared/contract", "shaders/lib"}},
+    {"shared/text", 5},
     {"shared/image", 10},
     {"shared/frame", 20},
     {"shared/scene", 20},

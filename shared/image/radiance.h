@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Radiance pictures (.hdr, .pic): three 8 bit mantissas under one exponent. Ward, "Real Pixels", Graphics
+// Gems II, 1991; Ward, "The Radiance Picture File Format" (filefmts.pdf of the Radiance distribution).
+#pragma once
+
+#include "shared/image/image.h"
+#include "shared/image/limits.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace diptych {
+
+// RGB, linear, row 0 on top whichever of the eight orders the file is stored in; divided by the file's
+// EXPOSUREs and COLORCORRs, so that it is the radiance that was measured. Flat pixels and both run-length
+// codes are read. XYZE is refused by name, and what needs more than `most` bytes decoded. Throws
+// std::runtime_error, one line naming file and fault.
+Image readHdr(const std::filesystem::path& file);
+Image readHdr(std::span<const std::byte> bytes, const std::string& name,
+              std::uint64_t most = limits::imageBytes());
+
+// An RGB image, run-length coded; what comes back is within 0.4 % of each pixel's largest component. Returns how
+// many pixels RGBE cannot hold: negative and NaN components are written as 0, those above 1.7e38 as that, pixels
+// below 2.9e-39 as black. Written beside `file` and renamed. Throws std::runtime_error naming the file.
+std::size_t writeHdr(const std::filesystem::path& file, const Image& image);
+
+}  // namespace diptych

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace diptych {
+
+// What a file says (a name, a library's complaint about it) as it may stand in a message: control characters
+// become '?', and what is longer than `most` bytes ends in "...", between two characters of UTF-8.
+std::string oneLine(std::string_view text, std::size_t most = 200);
+
+}  // namespace diptych
