@@ -40,7 +40,7 @@ struct Property {
     std::span<const Property> properties = {};
 };
 
-constexpr double any = std::numeric_limits<double>::max();
+constexpr double any = std::numeric_limits<float>::max();  // what every number becomes at last
 constexpr double maxInt = std::numeric_limits<int>::max();
 constexpr double maxSize = 9007199254740992.0;  // 2^53: every whole number up to it is a double
 constexpr std::size_t anyLength = std::numeric_limits<std::size_t>::max();

@@ -135,11 +135,11 @@ private:
     }
 
     // In range, whatever the type that it is written in.
-    static void range(const Json& value, const Property& p, const Where& where) {
+    static void range(const Json& value, std::string_view key, const Property& p, const Where& where) {
         const double v = value.get<double>();
         if (v >= p.min && v <= p.max) return;
         const bool bounded = p.max < std::numeric_limits<int>::max();
-        wrong(value, p.key,
+        wrong(value, key,
               bounded     ? fmt::format("from {} to {}", p.min, p.max)
               : v < p.min ? fmt::format("at least {}", p.min)
                           : fmt::format("at most {}", p.max),
@@ -148,14 +148,14 @@ private:
 
     static void number(const Json& value, const Property& p, const Where& where) {
         if (!value.is_number()) wrong(value, p.key, "a number", where);
-        range(value, p, where);
+        range(value, p.key, p, where);
     }
 
     static void whole(Json& value, const Property& p, const Where& where) {
         if (!value.is_number()) wrong(value, p.key, "a whole number", where);
         const double v = value.get<double>();
         if (v != std::floor(v)) wrong(value, p.key, "a whole number", where);
-        range(value, p, where);
+        range(value, p.key, p, where);
         value = static_cast<std::int64_t>(v);
     }
 
@@ -171,8 +171,12 @@ private:
         array(value, p, where);
         if (value.size() < p.least || value.size() > p.most)
             fail(where, fmt::format("{} has {} numbers, not {}", p.key, value.size(), p.least));
-        for (std::size_t i = 0; i < value.size(); ++i)
-            if (!value[i].is_number()) wrong(value[i], fmt::format("{}[{}]", p.key, i), "a number", where);
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            const auto key = [&] { return fmt::format("{}[{}]", p.key, i); };
+            if (!value[i].is_number()) wrong(value[i], key(), "a number", where);
+            const double v = value[i].get<double>();
+            if (!(v >= p.min && v <= p.max)) range(value[i], key(), p, where);
+        }
     }
 
     struct Collection {

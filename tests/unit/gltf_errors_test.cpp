@@ -63,6 +63,10 @@ TEST(GltfErrors, Schema) {
          [](GltfFile& f) {
              f.json["nodes"][0]["scale"] = {1, nullptr, 1};
          }},
+        {"node 0: translation[2] is 1e+40, not at most 3.4028234663852886e+38",
+         [](GltfFile& f) {
+             f.json["nodes"][0]["translation"] = {0, 0, 1e40};
+         }},
         {"node 0: children names node -1, but the file has 1",
          [](GltfFile& f) { f.json["nodes"][0]["children"] = {-1}; }},
         {"mesh 0, primitive 0: attributes: NORMAL is \"x\", not an index",
