@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf.h"
 
+#include "shared/scene/gltf_compression.h"
 #include "shared/scene/gltf_file.h"
 #include "shared/scene/gltf_material.h"
 #include "shared/scene/gltf_mesh.h"
@@ -44,6 +45,7 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
 Scene readScene(gltf::Document document, const std::string& choice) {
     Scene scene;
     noteWhatIsLeftOut(document, scene.notes);
+    gltf::decompress(document.model);
     gltf::readNodes(document.model, choice, scene);
     std::vector<int> imageOf;
     gltf::readMaterials(document.model, scene, imageOf);
