@@ -39,11 +39,6 @@ Enum choice(const tinygltf::Value& object, const char* key, const char* const (&
     return static_cast<Enum>(at - words);
 }
 
-bool isFallback(const tinygltf::Buffer& buffer) {
-    const tinygltf::Value* e = extension(buffer.extensions, extensionName);
-    return e && e->Get("fallback").IsBool() && e->Get("fallback").Get<bool>();
-}
-
 // The bytes of the stream, inside their buffer.
 std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tinygltf::Value& e,
                                         std::size_t view) {
@@ -51,7 +46,7 @@ std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tiny
     const int index = checkedIndex(indexIn(e, "buffer", -1, who), model.buffers.size(), who, "buffer");
     if (index < 0) fail(view, "names no buffer");
     const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(index)];
-    if (isFallback(buffer)) fail(view, fmt::format("reads buffer {}, which is a fallback", index));
+    if (buffer.data.empty()) fail(view, fmt::format("reads buffer {}, which has no data", index));
     const auto offset = static_cast<std::size_t>(indexIn(e, "byteOffset", 0, who));
     const auto length = static_cast<std::size_t>(indexIn(e, "byteLength", 0, who));
     if (offset > buffer.data.size() || length > buffer.data.size() - offset)
@@ -148,11 +143,10 @@ std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model) {
         if (!e) {
             if (parent.buffer < 0 || static_cast<std::size_t>(parent.buffer) >= model.buffers.size())
                 continue;
-            const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(parent.buffer)];
-            if (isFallback(buffer) && buffer.data.empty())
-                throw std::runtime_error(
-                    fmt::format("bufferView {}: is not compressed, but buffer {} is a fallback without data",
-                                i, parent.buffer));
+            // What stands in where the extension is not known may have no data (gltf_file.h).
+            if (model.buffers[static_cast<std::size_t>(parent.buffer)].data.empty())
+                throw std::runtime_error(fmt::format(
+                    "bufferView {}: is not compressed, but buffer {} has no data", i, parent.buffer));
             continue;
         }
         MeshoptView v{i,
