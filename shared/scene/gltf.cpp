@@ -5,6 +5,7 @@
 #include "shared/scene/gltf_file.h"
 #include "shared/scene/gltf_material.h"
 #include "shared/scene/gltf_mesh.h"
+#include "shared/scene/gltf_motion.h"
 #include "shared/scene/gltf_node.h"
 #include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_value.h"
@@ -21,10 +22,6 @@ namespace {
 void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
     for (const std::string& name : document.left_out)
         notes.push_back(fmt::format("{}: left out, it is not read", name));
-    const std::size_t animations = document.model.animations.size();
-    if (animations)
-        notes.push_back(fmt::format("{} animation{}: left out, animation is not built yet", animations,
-                                    animations == 1 ? "" : "s"));
 }
 
 // The encoded bytes of those images that somebody reads.
@@ -46,7 +43,8 @@ Scene readScene(gltf::Document document, const std::string& choice) {
     Scene scene;
     noteWhatIsLeftOut(document, scene.notes);
     gltf::decompress(document.model);
-    gltf::readNodes(document.model, choice, scene);
+    const std::vector<int> sceneNode = gltf::readNodes(document.model, choice, scene);
+    gltf::readMotion(document.model, sceneNode, scene);
     std::vector<int> imageOf;
     gltf::readMaterials(document.model, scene, imageOf);
     fetchImages(document, imageOf);
@@ -65,13 +63,14 @@ Scene readScene(gltf::Document document, const std::string& choice) {
             }
         };
     };
-    const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene.materials, meshNotes); };
+    const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene, meshNotes); };
     const auto images = [&] { gltf::readImages(model, imageOf, scene.images, imageNotes); };
     tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));
     for (const std::exception_ptr& failure : {meshFailure, imageFailure})
         if (failure) std::rethrow_exception(failure);
     scene.notes.insert(scene.notes.end(), meshNotes.begin(), meshNotes.end());
     scene.notes.insert(scene.notes.end(), imageNotes.begin(), imageNotes.end());
+    leaveOutWhatIsBeyond(scene);
     return scene;
 }
 

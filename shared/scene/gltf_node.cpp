@@ -191,7 +191,7 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who) {
 
 }  // namespace
 
-void readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene) {
+std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene) {
     const std::vector<int> parent = parentsOf(model);
     refuseCircles(parent);
     const std::vector<bool> inScene = reached(model, chooseScene(model, choice, scene.notes), parent);
@@ -201,7 +201,6 @@ void readNodes(const tinygltf::Model& model, const std::string& choice, Scene& s
     for (std::size_t n = 0; n < place.size(); ++n)
         if (inScene[n]) place[n] = count++;
 
-    std::size_t skinned = 0;
     std::vector<std::pair<int, Camera>> cameras;  // with the file's index
     for (std::size_t n = 0; n < model.nodes.size(); ++n) {
         if (!inScene[n]) continue;
@@ -211,7 +210,6 @@ void readNodes(const tinygltf::Model& model, const std::string& choice, Scene& s
         node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
         node.parent_from_node = transformOf(file, nameOf(n));
         node.mesh = checkedIndex(file.mesh, model.meshes.size(), nameOf(n), "mesh");
-        skinned += file.mesh >= 0 && file.skin >= 0;
         if (checkedIndex(file.camera, model.cameras.size(), nameOf(n), "camera") >= 0) {
             Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
                                        fmt::format("camera {}", file.camera));
@@ -235,9 +233,7 @@ void readNodes(const tinygltf::Model& model, const std::string& choice, Scene& s
     std::stable_sort(cameras.begin(), cameras.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [index, camera] : cameras) scene.cameras.push_back(camera);
-    if (skinned)
-        scene.notes.push_back(fmt::format("{} skinned mesh{}: drawn unskinned, skinning is not built yet",
-                                          skinned, skinned == 1 ? "" : "es"));
+    return place;
 }
 
 }  // namespace diptych::gltf

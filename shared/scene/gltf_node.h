@@ -11,7 +11,7 @@ namespace diptych::gltf {
 
 // The nodes of one scene in the file's order, each with one parent and in no circle, and the lights and
 // cameras that hang there: lights in node order, cameras in the file's order. `choice` is the scene's index
-// or name; empty: the file's default.
-void readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene);
+// or name; empty: the file's default. Returns each of the file's nodes' place in Scene::nodes, -1: not there.
+std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene);
 
 }  // namespace diptych::gltf

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/scene.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +50,46 @@ Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     return result;
 }
 
+// Whether all of what lies within +-extent of the object's origin is where float32 can work with it.
+bool isWithin(const glm::dmat4& worldFromObject, const glm::dvec3& extent) {
+    for (int row = 0; row < 3; ++row) {
+        double reach = std::abs(worldFromObject[3][row]);
+        for (int column = 0; column < 3; ++column) {
+            const double axis = std::abs(worldFromObject[column][row]);
+            if (!(axis <= maxCoordinate)) return false;
+            reach += axis * extent[column];
+        }
+        if (!(reach <= maxCoordinate)) return false;
+    }
+    return true;
+}
+bool isWithin(const glm::dmat4& worldFromObject) {
+    return isWithin(worldFromObject, glm::dvec3(0));
+}
+
+// In bind pose all joints move a vertex alike, so the first will do; the transform of a skinned mesh's own
+// node counts nothing (glTF 2.0, 3.7.3.3). It does where that joint puts everything nowhere or into a plane.
+glm::dmat4 worldFromPrimitive(const Scene& scene, const std::vector<glm::dmat4>& world, std::size_t node,
+                              const Primitive& primitive) {
+    const int index = scene.nodes[node].skin;
+    if (index < 0 || primitive.joint_sets.empty()) return world[node];
+    const Skin& skin = scene.skins[static_cast<std::size_t>(index)];
+    const glm::dmat4 bound =
+        world[static_cast<std::size_t>(skin.joints[0])] * glm::dmat4(skin.joint_from_mesh[0]);
+    return isWithin(bound) && glm::determinant(glm::dmat3(bound)) != 0 ? bound : world[node];
+}
+
+const std::vector<Primitive>& primitivesOf(const Scene& scene, const Node& node) {
+    static const std::vector<Primitive> none;
+    return node.mesh < 0 ? none : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+}
+
+glm::dvec3 extentOf(const Primitive& primitive) {
+    glm::vec3 extent(0);
+    for (const glm::vec3& p : primitive.positions) extent = glm::max(extent, glm::abs(p));
+    return glm::dvec3(extent);
+}
+
 }  // namespace
 
 double Bounds::radius() const {
@@ -58,21 +100,60 @@ Pose poseAt(const Scene& scene, double /*seconds*/) {
     const std::vector<glm::dmat4> world = worldFromNode(scene.nodes);
     Pose pose;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-        const int mesh = scene.nodes[n].mesh;
-        if (mesh < 0) continue;
-        const std::size_t primitives = scene.meshes[static_cast<std::size_t>(mesh)].primitives.size();
-        for (std::size_t p = 0; p < primitives; ++p)
-            pose.instances.push_back({mesh, static_cast<int>(p), static_cast<int>(n), world[n]});
+        const std::vector<Primitive>& primitives = primitivesOf(scene, scene.nodes[n]);
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const glm::dmat4 worldFromObject = worldFromPrimitive(scene, world, n, primitives[p]);
+            if (isWithin(worldFromObject))
+                pose.instances.push_back(
+                    {scene.nodes[n].mesh, static_cast<int>(p), static_cast<int>(n), worldFromObject});
+        }
     }
-    for (const Light& light : scene.lights) pose.lights.push_back(inWorld(light, world));
+    const auto hasPlace = [&](int node) {
+        return node < 0 || isWithin(world[static_cast<std::size_t>(node)]);
+    };
+    for (const Light& light : scene.lights)
+        if (hasPlace(light.node)) pose.lights.push_back(inWorld(light, world));
     std::stable_partition(pose.lights.begin(), pose.lights.end(),
                           [](const Light& light) { return light.kind == LightKind::directional; });
     for (Camera camera : scene.cameras) {
+        if (!hasPlace(camera.node)) continue;
         if (camera.node >= 0) camera.world_from_camera = world[static_cast<std::size_t>(camera.node)];
         camera.node = -1;
         pose.cameras.push_back(camera);
     }
     return pose;
+}
+
+void leaveOutWhatIsBeyond(Scene& scene) {
+    const std::vector<glm::dmat4> world = worldFromNode(scene.nodes);
+    std::vector<std::vector<glm::dvec3>> extents;
+    for (const Mesh& mesh : scene.meshes) {
+        extents.emplace_back();
+        for (const Primitive& p : mesh.primitives) extents.back().push_back(extentOf(p));
+    }
+    const auto note = [&](std::size_t count, const char* what) {
+        if (count)
+            scene.notes.push_back(fmt::format("{} {}{} not finite or beyond {:g} m: left out", count, what,
+                                              count == 1 ? " is" : "s are", maxCoordinate));
+    };
+    std::size_t beyond = 0;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        Node& node = scene.nodes[n];
+        const std::vector<Primitive>& primitives = primitivesOf(scene, node);
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            if (!isWithin(worldFromPrimitive(scene, world, n, primitives[p]),
+                          extents[static_cast<std::size_t>(node.mesh)][p])) {
+                node.mesh = -1;
+                ++beyond;
+                break;
+            }
+    }
+    note(beyond, "drawn node");
+    const auto isBeyond = [&](const auto& hung) {
+        return hung.node >= 0 && !isWithin(world[static_cast<std::size_t>(hung.node)]);
+    };
+    note(std::erase_if(scene.lights, isBeyond), "light");
+    note(std::erase_if(scene.cameras, isBeyond), "camera");
 }
 
 Bounds worldBounds(const Scene& scene, const Pose& pose) {

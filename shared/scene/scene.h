@@ -147,6 +147,10 @@ struct Scene {
     std::vector<std::string> notes;           // what was read otherwise than the file says
 };
 
+// What lies further out, in an object or in the world, is not drawn: shaders square coordinates and add the
+// squares in float32, which ends at 3.4e38.
+inline constexpr double maxCoordinate = 1e18;  // m
+
 // A mesh's primitive where the node tree puts it.
 struct Instance {
     int mesh = 0, primitive = 0, node = 0;
@@ -167,8 +171,14 @@ struct Bounds {
     double radius() const;  // of the sphere around centre(); 0 where empty
 };
 
+// Skinned meshes stand in bind pose: undeformed where their skin's first joint puts them. What has no place
+// (a transform that is not finite or reaches beyond maxCoordinate) is not in the pose.
 Pose poseAt(const Scene& scene, double seconds);
 Bounds worldBounds(const Scene& scene, const Pose& pose);  // over every vertex of every instance
+
+// What is beyond maxCoordinate at rest is taken from its node, lights and cameras from the scene, with a
+// note.
+void leaveOutWhatIsBeyond(Scene& scene);
 
 // `where` is "builtin:NAME[?key=value&...]" or the file name of a .gltf or .glb. Throws
 // std::runtime_error: one line that names file, object and fault.

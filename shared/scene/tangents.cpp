@@ -10,7 +10,6 @@
 #include <cmath>
 #include <tuple>
 #include <type_traits>
-#include <unordered_map>
 
 namespace diptych {
 
@@ -31,6 +30,9 @@ void gather(Primitive& primitive, const std::vector<std::uint32_t>& source) {
     take(primitive.texcoords[0]);
     take(primitive.texcoords[1]);
     take(primitive.colors);
+    for (JointSet& set : primitive.joint_sets) take(set.joints), take(set.weights);
+    for (MorphTarget& target : primitive.targets)
+        take(target.positions), take(target.normals), take(target.tangents);
 }
 
 }  // namespace
@@ -87,14 +89,9 @@ glm::vec4 anyTangent(const glm::vec3& normal) {
 // What decides whether two vertices are one: 0 and -0 are equal.
 struct VertexKey {
     std::array<std::uint32_t, 8> bits;
-    bool operator==(const VertexKey&) const = default;
-};
-struct VertexKeyHash {
-    std::size_t operator()(const VertexKey& key) const {
-        std::uint64_t h = 0xcbf29ce484222325u;  // FNV-1a over words, then a finalising shift
-        for (const std::uint32_t b : key.bits) h = (h ^ b) * 0x100000001b3u;
-        return static_cast<std::size_t>(h ^ (h >> 29));
-    }
+    std::uint32_t vertex;
+    bool sameAs(const VertexKey& other) const { return bits == other.bits; }
+    auto operator<=>(const VertexKey&) const = default;
 };
 
 struct Triangle {
@@ -153,19 +150,26 @@ private:
         return {uv.x, 1 - uv.y};
     }
 
+    // By sorting, not by hashing: a file could be made of vertices that all hash alike.
     void weld() {
-        std::unordered_map<VertexKey, int, VertexKeyHash> known;
-        known.reserve(primitive_.positions.size());
-        std::vector<int> welded(primitive_.positions.size());
-        for (std::uint32_t v = 0; v < primitive_.positions.size(); ++v) {
+        std::vector<VertexKey> keys(primitive_.positions.size());
+        for (std::uint32_t v = 0; v < keys.size(); ++v) {
             const glm::vec3 &p = primitive_.positions[v], &n = primitive_.normals[v];
             const glm::vec2& t = texcoords_[v];
-            VertexKey key;
             const std::array<float, 8> values{p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y};
-            for (std::size_t i = 0; i < 8; ++i) key.bits[i] = std::bit_cast<std::uint32_t>(values[i] + 0.0f);
-            const auto [at, fresh] = known.emplace(key, static_cast<int>(source_.size()));
-            if (fresh) source_.push_back(v);
-            welded[v] = at->second;
+            for (std::size_t i = 0; i < 8; ++i)
+                keys[v].bits[i] = std::bit_cast<std::uint32_t>(values[i] + 0.0f);
+            keys[v].vertex = v;
+        }
+        std::sort(keys.begin(), keys.end());
+        std::vector<std::uint32_t> first(keys.size());  // of the vertices that are one with it
+        for (std::size_t i = 0; i < keys.size(); ++i)
+            first[keys[i].vertex] =
+                i > 0 && keys[i].sameAs(keys[i - 1]) ? first[keys[i - 1].vertex] : keys[i].vertex;
+        std::vector<int> welded(keys.size());
+        for (std::uint32_t v = 0; v < welded.size(); ++v) {
+            if (first[v] == v) source_.push_back(v);
+            welded[v] = first[v] == v ? static_cast<int>(source_.size()) - 1 : welded[first[v]];
         }
         triangles_.resize(primitive_.indices.size() / 3);
         for (std::size_t t = 0; t < triangles_.size(); ++t)
@@ -297,8 +301,10 @@ void makeTangents(Primitive& primitive, int texcoord) {
     }
     const TangentSpace space(primitive, texcoord);
 
-    // A vertex keeps the first tangent found for it; each other one gets a copy of the vertex.
+    // A vertex keeps the first tangent found for it; each other one gets a copy of the vertex. Corners with
+    // one tangent share a copy, as long as there are few: a vertex of a million triangles may have a million.
     constexpr std::uint32_t last = ~0u;
+    constexpr int mostShared = 16;
     std::vector<std::uint32_t> source(primitive.positions.size());
     for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
     std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: none yet
@@ -306,14 +312,17 @@ void makeTangents(Primitive& primitive, int texcoord) {
     for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
         const glm::vec4 tangent = space.at(corner);
         std::uint32_t v = primitive.indices[corner];
-        while (tangents[v] != glm::vec4(0) && tangents[v] != tangent) {
-            if (nextCopy[v] == last) {
-                nextCopy[v] = static_cast<std::uint32_t>(source.size());
+        for (int copies = 0; tangents[v] != glm::vec4(0) && tangents[v] != tangent; ++copies) {
+            if (nextCopy[v] == last || copies == mostShared) {
+                const auto copy = static_cast<std::uint32_t>(source.size());
+                if (copies < mostShared) nextCopy[v] = copy;
                 source.push_back(source[v]);
                 tangents.push_back(glm::vec4(0));
                 nextCopy.push_back(last);
+                v = copy;
+            } else {
+                v = nextCopy[v];
             }
-            v = nextCopy[v];
         }
         tangents[v] = tangent;
         primitive.indices[corner] = v;
