@@ -179,10 +179,10 @@ std::unique_ptr<draco::Mesh> decodeDracoStream(std::span<const unsigned char> st
     draco::DecoderBuffer ahead = buffer;
     draco::DracoHeader header;
     if (!draco::PointCloudDecoder::DecodeHeader(&ahead, &header).ok()) fail("holds no Draco stream");
+    if (header.encoder_type != draco::TRIANGULAR_MESH) fail("its stream is a point cloud, not triangles");
     if (header.version_major != 2 || header.version_minor != 2)
         fail(fmt::format("its stream is of bitstream {}.{}, not 2.2", header.version_major,
                          header.version_minor));
-    if (header.encoder_type != draco::TRIANGULAR_MESH) fail("its stream is a point cloud, not triangles");
 
     // Nobody reads the metadata: the stream is decoded as if there were none.
     std::vector<char> bare;
