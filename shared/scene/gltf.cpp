@@ -8,6 +8,7 @@
 #include "shared/scene/gltf_motion.h"
 #include "shared/scene/gltf_node.h"
 #include "shared/scene/gltf_schema.h"
+#include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
 
 #include <fmt/format.h>
@@ -39,9 +40,10 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
     });
 }
 
-Scene readScene(gltf::Document document, const std::string& choice) {
+Scene readScene(gltf::Document document, const std::string& choice, const LoadProgress& progress) {
     Scene scene;
     noteWhatIsLeftOut(document, scene.notes);
+    if (progress) progress(0, "geometry");
     gltf::decompress(document.model);
     const std::vector<int> sceneNode = gltf::readNodes(document.model, choice, scene);
     gltf::readMotion(document.model, sceneNode, scene);
@@ -52,6 +54,9 @@ Scene readScene(gltf::Document document, const std::string& choice) {
     // Pixels and vertices know nothing of each other; each fails only after the other has ended, meshes
     // first.
     const tinygltf::Model& model = document.model;
+    std::size_t pieces = imageOf.size();
+    for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();
+    gltf::Tally tally(pieces, "images and meshes", progress);
     std::exception_ptr meshFailure, imageFailure;
     std::vector<std::string> meshNotes, imageNotes;
     const auto guarded = [](std::exception_ptr& failure, const auto& run) {
@@ -63,14 +68,13 @@ Scene readScene(gltf::Document document, const std::string& choice) {
             }
         };
     };
-    const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene, meshNotes); };
-    const auto images = [&] { gltf::readImages(model, imageOf, scene.images, imageNotes); };
+    const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene, meshNotes, tally); };
+    const auto images = [&] { gltf::readImages(model, imageOf, scene.images, imageNotes, tally); };
     tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));
     for (const std::exception_ptr& failure : {meshFailure, imageFailure})
         if (failure) std::rethrow_exception(failure);
     scene.notes.insert(scene.notes.end(), meshNotes.begin(), meshNotes.end());
     scene.notes.insert(scene.notes.end(), imageNotes.begin(), imageNotes.end());
-    leaveOutWhatIsBeyond(scene);
     return scene;
 }
 
@@ -79,6 +83,7 @@ template <class Read>
 Scene named(const std::string& name, const Read& read) {
     try {
         Scene scene = read();
+        leaveOutWhatIsBeyond(scene);
         scene.name = name;
         return scene;
     } catch (const std::bad_alloc&) {
@@ -90,16 +95,16 @@ Scene named(const std::string& name, const Read& read) {
 
 }  // namespace
 
-Scene loadGltf(const std::string& file, const std::string& scene) {
+Scene loadGltf(const std::string& file, const std::string& scene, const LoadProgress& progress) {
     return named(file, [&] {
         const std::filesystem::path path(file);
         const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-        return readScene(gltf::open(gltf::readFile(path), folder), scene);
+        return readScene(gltf::open(gltf::readFile(path), folder), scene, progress);
     });
 }
 
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name) {
-    return named(name, [&] { return readScene(gltf::open(std::move(bytes), {}), ""); });
+    return named(name, [&] { return readScene(gltf::open(std::move(bytes), {}), "", {}); });
 }
 
 }  // namespace diptych
