@@ -14,8 +14,8 @@ protected:
     void SetUp() override {
         fs::create_directories(home_.path() / "house");
         fs::copy(fs::path(DIPTYCH_SOURCE_DIR) / "diptych", home_ / "house/diptych");
-        home_.write("house/packages.txt", "# build\nalpha\n\nbeta-dev\n");
-        installed("alpha beta-dev");
+        home_.write("house/packages.txt", "# build\nalpha\n\nbeta-dev\n\n# to test: gamma, too\ngamma\n");
+        installed("alpha beta-dev gamma");
         home_.write("bin/id", "#!/bin/sh\necho 0\n", true);
         home_.write("bin/apt-get", "#!/bin/sh\necho \"$@\" >>'" + (home_ / "apt.log").string() + "'\n", true);
         home_.write("bin/ctest", "#!/bin/sh\necho \"ctest $*\"\nexit 8\n", true);
@@ -91,8 +91,19 @@ TEST_F(Launcher, InstallsWhatIsMissingAndSaysSo) {
     EXPECT_EQ(ran.out, "<devices>" + home_.path().string() + "\n");
 }
 
+TEST_F(Launcher, OnlyTestInstallsWhatOnlyTestsNeed) {
+    installed("alpha beta-dev");
+    EXPECT_EQ(run("devices").code, 3);
+    EXPECT_FALSE(fs::exists(home_ / "apt.log"));
+    fs::remove(home_ / "cmake.log");
+    EXPECT_EQ(run("test").code, 8);
+    EXPECT_NE(contentsOf(home_ / "apt.log").find("install gamma\n"), std::string::npos);
+    EXPECT_NE(contentsOf(home_ / "cmake.log").find("-S "), std::string::npos)
+        << "CMake is asked again for what it did not find";
+}
+
 TEST_F(Launcher, NoInstallOnlyNamesWhatIsMissing) {
-    installed("beta-dev");
+    installed("beta-dev gamma");
     EXPECT_TRUE(run("--no-install compare").failedOver("alpha"));
     EXPECT_FALSE(fs::exists(home_ / "apt.log"));
     EXPECT_FALSE(fs::exists(home_ / "cmake.log"));
@@ -146,7 +157,7 @@ TEST(Packages, AreNamedOnce) {
             << line;
         EXPECT_TRUE(names.insert(line).second) << line;
     }
-    EXPECT_TRUE(names.contains("g++") && names.contains("mesa-vulkan-drivers"));
+    EXPECT_TRUE(names.contains("g++") && names.contains("mesa-vulkan-drivers") && names.contains("clang"));
 }
 
 }  // namespace

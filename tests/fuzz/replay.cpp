@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A target without a fuzzer: every file under the folders and names given, one after the other. A finding
+// ends the program as it would end the fuzzer, after the file's name.
+#include "tests/fuzz/fuzz.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+int main(int count, char** names) {
+    std::set<fs::path> files;
+    for (int i = 1; i < count; ++i)
+        if (fs::is_directory(names[i])) {
+            for (const auto& entry : fs::recursive_directory_iterator(names[i]))
+                if (entry.is_regular_file()) files.insert(entry.path());
+        } else if (fs::exists(names[i])) {
+            files.insert(names[i]);
+        }
+    for (const fs::path& file : files) {
+        std::fprintf(stderr, "%s\n", file.c_str());
+        std::ifstream stream(file, std::ios::binary);
+        const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
+        LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    }
+    std::fprintf(stderr, "%zu files\n", files.size());
+    return files.empty() ? 1 : 0;
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Small images of every kind that the readers know.
+#include "shared/image/exr.h"
+#include "shared/image/radiance.h"
+#include "tests/fuzz/seeds.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStdIO.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+#include <png.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace diptych::fuzz {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int side = 20;
+
+// R (half), G (float), B (uint), smooth and with a corner of noise.
+struct Pixels {
+    Pixels() {
+        for (int i = 0; i < side * side; ++i) {
+            const int noise = i % side < 8 ? i * 7919 % 31 : 0;
+            r.push_back(half(0.1f * static_cast<float>(i / side + noise)));
+            g.push_back(std::sin(static_cast<float>(i)));
+            b.push_back(static_cast<unsigned>(i + noise));
+        }
+        buffer.insert("R", Imf::Slice(Imf::HALF, reinterpret_cast<char*>(r.data()), 2, 2 * side));
+        buffer.insert("G", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(g.data()), 4, 4 * side));
+        buffer.insert("B", Imf::Slice(Imf::UINT, reinterpret_cast<char*>(b.data()), 4, 4 * side));
+    }
+    std::vector<half> r;
+    std::vector<float> g;
+    std::vector<unsigned> b;
+    Imf::FrameBuffer buffer;
+};
+
+Imf::Header header(int compression) {
+    Imf::Header result(side, side);
+    result.compression() = static_cast<Imf::Compression>(compression);
+    result.channels().insert("R", Imf::Channel(Imf::HALF));
+    result.channels().insert("G", Imf::Channel(Imf::FLOAT));
+    result.channels().insert("B", Imf::Channel(Imf::UINT));
+    return result;
+}
+
+void writeExrSeeds(const fs::path& out) {
+    const Pixels pixels;
+    for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression) {
+        const std::string number = std::to_string(compression);
+        Imf::StdOSStream lines, tiles;
+        {
+            Imf::OutputFile file(lines, header(compression));
+            file.setFrameBuffer(pixels.buffer);
+            file.writePixels(side);
+        }
+        {
+            Imf::Header head = header(compression);
+            head.setTileDescription(
+                Imf::TileDescription(8, 8, compression % 2 ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL));
+            Imf::TiledOutputFile file(tiles, head);
+            file.setFrameBuffer(pixels.buffer);
+            for (int level = 0; level < file.numLevels(); ++level)
+                file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+        }
+        writeSeed(out, "exr", "lines-" + number + ".exr", lines.str());
+        writeSeed(out, "exr", "tiles-" + number + ".exr", tiles.str());
+    }
+
+    Imf::Header crop = header(Imf::ZIP_COMPRESSION);
+    crop.displayWindow() = Imath::Box2i(Imath::V2i(-3, 5), Imath::V2i(30, 12));
+    Imf::StdOSStream cropped, parts;
+    {
+        Imf::OutputFile file(cropped, crop);
+        file.setFrameBuffer(pixels.buffer);
+        file.writePixels(side);
+    }
+    Imf::Header heads[] = {header(Imf::ZIPS_COMPRESSION), header(Imf::NO_COMPRESSION)};
+    heads[0].setName("a");
+    heads[0].setType(Imf::SCANLINEIMAGE);
+    heads[1].setName("b");
+    heads[1].setType(Imf::TILEDIMAGE);
+    heads[1].setTileDescription(Imf::TileDescription(16, 16));
+    {
+        Imf::MultiPartOutputFile file(parts, heads, 2);
+        Imf::OutputPart part(file, 0);
+        part.setFrameBuffer(pixels.buffer);
+        part.writePixels(side);
+    }
+    writeSeed(out, "exr", "crop.exr", cropped.str());
+    writeSeed(out, "exr", "parts.exr", parts.str());
+}
+
+void appendTo(png_structp png, png_bytep bytes, std::size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
+}
+
+// libpng ends the program where it fails: a seed that cannot be written is a fault of this file.
+std::string pngOf(int color, int depth, int interlace) {
+    std::string bytes;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_write_fn(png, &bytes, appendTo, nullptr);
+    png_set_IHDR(png, info, 9, 9, depth, color, interlace, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    const png_color palette[] = {{255, 0, 0}, {0, 255, 0}};
+    const png_byte alpha[] = {255, 128};
+    if (color == PNG_COLOR_TYPE_PALETTE) {
+        png_set_PLTE(png, info, palette, 2);
+        png_set_tRNS(png, info, alpha, 2, nullptr);
+    }
+    if (depth == 16) png_set_gAMA(png, info, 0.5);
+    png_write_info(png, info);
+    const int passes = png_set_interlace_handling(png);
+    std::vector<png_byte> row(9 * 8);
+    for (int pass = 0; pass < passes; ++pass)
+        for (std::size_t y = 0; y < 9; ++y) {
+            for (std::size_t i = 0; i < row.size(); ++i)
+                row[i] =
+                    static_cast<png_byte>(color == PNG_COLOR_TYPE_PALETTE ? (depth == 8 ? i % 2 : 0) : i * y);
+            png_write_row(png, row.data());
+        }
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    return bytes;
+}
+
+void writePngSeeds(const fs::path& out) {
+    for (const int color : {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_PALETTE,
+                            PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB_ALPHA})
+        for (const int depth : {1, 8, 16}) {
+            const bool few = color == PNG_COLOR_TYPE_GRAY || color == PNG_COLOR_TYPE_PALETTE;
+            if ((depth == 1 && !few) || (depth == 16 && color == PNG_COLOR_TYPE_PALETTE)) continue;
+            for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
+                const std::string name = std::to_string(color) + "-" + std::to_string(depth) +
+                                         (interlace ? "-interlaced.png" : ".png");
+                for (const char* target : {"png", "texture"})
+                    writeSeed(out, target, name, pngOf(color, depth, interlace));
+            }
+        }
+}
+
+void writeHdrSeeds(const fs::path& out) {
+    using namespace std::string_literals;
+    const auto head = [](const std::string& resolution) {
+        return "#?RADIANCE\n# seed\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\nCOLORCORR=1 2 0.5\n\n" + resolution +
+               "\n";
+    };
+    const std::string pixel = "\x80\x40\x20\x81";
+    for (const char* order : {"-Y 2 +X 3", "+Y 2 -X 3", "+X 3 -Y 2", "-X 3 +Y 2"}) {
+        std::string pixels;
+        for (int i = 0; i < 6; ++i) pixels += pixel;
+        writeSeed(out, "hdr", "flat"s + order + ".hdr", head(order) + pixels);
+    }
+    writeSeed(out, "hdr", "old-runs.hdr", head("-Y 1 +X 300") + pixel + "\x01\x01\x01\x2b\x01\x01\x01\x01");
+    writeSeed(out, "hdr", "new-runs.hdr",
+              head("-Y 1 +X 8") +
+                  "\x02\x02\x00\x08\x88\xc8\x08\x01\x02\x03\x04\x05\x06\x07\x08\x83\x05\x85\x06\x88\x80"s);
+}
+
+}  // namespace
+
+void writeImageSeeds(const fs::path& out) {
+    writeExrSeeds(out);
+    writePngSeeds(out);
+    writeHdrSeeds(out);
+}
+
+}  // namespace diptych::fuzz

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "shared/frame/settings.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace diptych;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    fuzz::readOrSayWhy([&] {
+        const Settings settings = settingsFromJson(std::string(fuzz::textAt(data, size)));
+        fuzz::require(settingsFromJson(toJson(settings)) == settings, "what is written reads back the same");
+        if (const auto problem = settings.problem()) fuzz::require(!problem->empty(), "a problem has words");
+    });
+    return 0;
+}
