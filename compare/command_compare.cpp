@@ -42,7 +42,7 @@ int runCompare(const Options& options) {
     std::vector<Requirements> needs;
     for (const std::string& name : options.scenes) {
         say(options, name);
-        const Scene scene = loadScene(name);
+        const Scene scene = loadShown(options, name);
         needs.insert(needs.end(), settings.size(), needsOf(scene, options.settings));
         std::ranges::move(renderAll(device, scene, settings, render), std::back_inserter(frames));
     }

@@ -78,7 +78,7 @@ int runPlan(const Options& options) {
     Device device(deviceOptions(options));
     Json scenes = Json::array();
     for (const std::string& name : options.scenes) {
-        const Scene scene = loadScene(name);
+        const Scene scene = loadShown(options, name);
         const Requirements needs = needsOf(scene, options.settings);
         const ScenePlan result{scene.name, needs, linesOf(scene, needs, options.settings), scene.notes,
                                planPaths(device, scene, settings)};

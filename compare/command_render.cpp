@@ -109,7 +109,7 @@ int runRender(const Options& options) {
     std::vector<Frame> frames;
     for (const std::string& name : options.scenes) {
         say(options, name);
-        for (Frame& frame : renderAll(device, loadScene(name), settings, render))
+        for (Frame& frame : renderAll(device, loadShown(options, name), settings, render))
             frames.push_back(std::move(frame));
         checkValidation(device);
     }

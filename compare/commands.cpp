@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/commands.h"
 
+#include "compare/progress.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,6 +68,11 @@ void checkValidation(const Device& device) {
     if (const std::uint64_t count = device.validationMessages(); count > 0)
         throw std::runtime_error(
             fmt::format("--validate: {} messages, the first: {}", count, device.firstValidationMessage()));
+}
+
+Scene loadShown(const Options& options, const std::string& where) {
+    ProgressBar bar(where, !options.quiet);
+    return loadScene(where, [&](double fraction, const char* step) { bar.at(fraction, step); });
 }
 
 void note(const Options& options, const std::string& line) {

@@ -39,6 +39,9 @@ void refuseOut(const Options& options);
 // With --validate any message of the layers is a failure: throws how many there were and the first one.
 void checkValidation(const Device& device);
 
+// loadScene(), with a progress bar on a terminal where it takes over a second.
+Scene loadShown(const Options& options, const std::string& where);
+
 // A line on stderr, for people: unless they want none; where they asked for more.
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);

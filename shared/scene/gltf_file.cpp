@@ -142,10 +142,11 @@ void checkRequired(const Json& document) {
 
 // ---- buffers and images ------------------------------------------------------------------------------
 
-// A buffer that only stands in where EXT_meshopt_compression is not known may have no bytes.
-bool isFallback(const Json& buffer) {
-    static const Json::json_pointer fallback("/extensions/EXT_meshopt_compression/fallback");
-    return buffer.contains(fallback) && buffer[fallback].get<bool>();
+// Every view of it is compressed, or it says so: a buffer that only stands in where EXT_meshopt_compression
+// is not known may have no bytes.
+bool mayBeEmpty(const Json& buffer) {
+    static const Json::json_pointer meshopt("/extensions/EXT_meshopt_compression");
+    return buffer.contains(meshopt);
 }
 
 // The first buffer of a .glb without a uri is its binary chunk. `bytes` is used up for it.
@@ -171,7 +172,7 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
             bytes.resize(binary->offset + binary->size);
             bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(binary->offset));
             buffer.data = std::move(bytes);
-        } else if (isFallback(json)) {
+        } else if (mayBeEmpty(json)) {
             continue;
         } else {
             fail(who + ": has no uri, and the file no binary chunk for it");

@@ -2,6 +2,7 @@
 #include "shared/scene/gltf_material.h"
 
 #include "shared/scene/gltf_accessor.h"
+#include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
 #include "shared/scene/image_decode.h"
 #include "shared/scene/material_slots.h"
@@ -279,7 +280,7 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
 }
 
 void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                std::vector<TextureImage>& images, std::vector<std::string>& notes) {
+                std::vector<TextureImage>& images, std::vector<std::string>& notes, Tally& tally) {
     std::vector<char> deep(images.size(), 0);  // not bool: neighbours are written by different threads
     forEachInParallel(images.size(), [&](std::size_t i) {
         const tinygltf::Image& image = model.images[static_cast<std::size_t>(imageOf[i])];
@@ -293,6 +294,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
             images[i] = decodeImage(encoded, sixteenBits);
             images[i].name = file;
             deep[i] = sixteenBits;
+            tally.oneMore();
         } catch (const std::runtime_error& e) {
             fail(who, e.what());
         }

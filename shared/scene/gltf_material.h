@@ -9,6 +9,8 @@ class Model;
 
 namespace diptych::gltf {
 
+class Tally;
+
 // Materials, textures and samplers in the file's order, and a last material, glTF's default, if a primitive
 // names none. Scene::images gets the encoded images' places only: those that a material reads, and
 // `imageOf[i]` is the file's index of Scene::images[i].
@@ -16,6 +18,6 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
 
 // The pixels of images[i], on all cores.
 void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                std::vector<TextureImage>& images, std::vector<std::string>& notes);
+                std::vector<TextureImage>& images, std::vector<std::string>& notes, Tally& tally);
 
 }  // namespace diptych::gltf

@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf_limits.h"
 #include "shared/scene/gltf_primitive.h"
+#include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
 
 #include <fmt/format.h>
@@ -84,7 +85,7 @@ void append(std::vector<std::string>& notes, std::vector<std::vector<std::string
 }  // namespace
 
 std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
-                             std::vector<std::string>& notes) {
+                             std::vector<std::string>& notes, Tally& tally) {
     const std::vector<MeshUse> uses = usesOf(model.meshes.size(), scene);
     std::vector<Mesh> meshes(model.meshes.size());
     std::vector<Task> tasks;
@@ -108,6 +109,7 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
         const PrimitiveUse use{scene.materials, uses[task.mesh].joints, meshes[task.mesh].weights.size()};
         meshes[task.mesh].primitives[task.primitive] =
             readPrimitive(model, fileOf(model, task), task.who(), use, found[i]);
+        tally.oneMore();
     });
     for (Mesh& mesh : meshes)
         std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });

@@ -24,7 +24,7 @@ std::string lowerCase(std::string text) {
 
 }  // namespace
 
-Scene loadScene(const std::string& where) {
+Scene loadScene(const std::string& where, const LoadProgress& progress) {
     Scene scene;
     if (where.starts_with(builtinPrefix)) {
         scene = makeBuiltin(where.substr(builtinPrefix.size()));
@@ -39,7 +39,7 @@ Scene loadScene(const std::string& where) {
             throw std::runtime_error(fmt::format(
                 "{}: not a scene: expected a .gltf or .glb file or builtin:NAME (--list-scenes names them)",
                 where));
-        scene = loadGltf(file, choice);
+        scene = loadGltf(file, choice, progress);
     }
     scene.name = where;
     return scene;

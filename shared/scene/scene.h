@@ -13,6 +13,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -181,7 +182,9 @@ Bounds worldBounds(const Scene& scene, const Pose& pose);  // over every vertex 
 void leaveOutWhatIsBeyond(Scene& scene);
 
 // `where` is "builtin:NAME[?key=value&...]" or the file name of a .gltf or .glb. Throws
-// std::runtime_error: one line that names file, object and fault.
-Scene loadScene(const std::string& where);
+// std::runtime_error: one line that names file, object and fault. `progress` is called from any thread, with
+// what is done of the step that it names, from 0 to 1.
+using LoadProgress = std::function<void(double fraction, const char* step)>;
+Scene loadScene(const std::string& where, const LoadProgress& progress = {});
 
 }  // namespace diptych
