@@ -167,6 +167,7 @@ public:
         frame_.camera = cameraOf(shot_.view);
         frame_.background = {scene_.background.r, scene_.background.g, scene_.background.b};
         frame_.notes = scene_.notes;
+        for (const std::string& note : shared_.materials.notes()) frame_.notes.push_back(note);
         frame_.counters.lights = shot_.lights.lights.size();
         PassList passes(device_, static_cast<std::uint32_t>(settings_.size.width),
                         static_cast<std::uint32_t>(settings_.size.height));

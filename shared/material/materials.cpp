@@ -2,15 +2,15 @@
 #include "shared/material/materials.h"
 
 #include "shared/contract/material.h"
+#include "shared/material/textures.h"
 #include "shared/scene/material_slots.h"
-#include "shared/scene/mipmap.h"
-#include "shared/vulkan/check.h"
 
-#include <tbb/parallel_for.h>
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include <array>
 #include <map>
-#include <span>
 #include <utility>
 
 namespace diptych {
@@ -65,45 +65,11 @@ gpu::Material gpuMaterial(const Material& m) {
     return g;
 }
 
-OwnedSampler makeSampler(Device& device, const Sampler& s) {
-    const auto address = [](Wrap wrap) {
-        return wrap == Wrap::repeat            ? VK_SAMPLER_ADDRESS_MODE_REPEAT
-               : wrap == Wrap::mirrored_repeat ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
-                                               : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    };
-    VkSamplerCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    info.magFilter = s.magnify_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-    info.minFilter = s.minify_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-    info.mipmapMode = s.mipmaps_linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
-    info.addressModeU = address(s.wrap_s);
-    info.addressModeV = address(s.wrap_t);
-    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    // Vulkan's mapping of OpenGL's filters without mip levels: a clamp just above level 0 keeps the choice
-    // between magnification and minification.
-    info.maxLod = s.mipmaps ? VK_LOD_CLAMP_NONE : 0.25f;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
-    return {device.handle(), sampler};
-}
-
-GpuImage uploadImage(Device& device, Uploader& uploader, const std::vector<TextureImage>& levels, bool srgb) {
-    GpuImage image(device,
-                   {levels[0].name, srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
-                    static_cast<std::uint32_t>(levels[0].width), static_cast<std::uint32_t>(levels[0].height),
-                    static_cast<std::uint32_t>(levels.size()),
-                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    for (std::uint32_t level = 0; level < levels.size(); ++level)
-        uploader.level(image, level, std::as_bytes(std::span(levels[level].rgba)));
-    return image;
-}
-
 }  // namespace
 
 Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
     : layout_(makeSetLayout(device, slotTypes)) {
     // Every image that a slot reads, as sRGB or as linear; index 0 stands in for slots without a texture.
-    using ImageUse = std::pair<int, bool>;
     std::map<ImageUse, std::size_t> imageOf;
     std::vector<ImageUse> uses;
     std::vector<Sampler> kinds{Sampler{}};
@@ -131,16 +97,10 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
     buffer_ =
         makeBuffer<gpu::Material>(device, uploader, "materials", data, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 
-    std::vector<std::vector<TextureImage>> chains(uses.size());
-    tbb::parallel_for(std::size_t{0}, uses.size(), [&](std::size_t i) {
-        chains[i] = makeMipmaps(scene.images[static_cast<std::size_t>(uses[i].first)], uses[i].second);
-    });
-    images_.push_back(
-        uploadImage(device, uploader, {TextureImage{"white", 1, 1, {255, 255, 255, 255}}}, false));
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-        images_.push_back(uploadImage(device, uploader, chains[i], uses[i].second));
-        chains[i].clear();
-    }
+    images_.push_back(uploadTexture(
+        device, uploader, MipChain(TextureImage{"white", 1, 1, {255, 255, 255, 255}}, false, Texels::linear8),
+        VK_FORMAT_R8G8B8A8_UNORM));
+    uploadInUse(device, uploader, scene, uses);
 
     sets_ = DescriptorSets(device, layout_, slotTypes, count());
     for (std::uint32_t m = 0; m < count(); ++m)
@@ -155,6 +115,36 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
             sets_.image(m, slot, images_[image].view(), samplers_[sampler],
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
+}
+
+// Chains are made on all cores, as few ahead of the upload as keep them busy: all at once they would take a
+// third of the scene's images again.
+void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
+                            const std::vector<ImageUse>& uses) {
+    std::size_t next = 0, reduced = 0;
+    const auto choose = [&](tbb::flow_control& flow) {
+        if (next == uses.size()) flow.stop();
+        return next++;
+    };
+    const auto make = [&](std::size_t i) {
+        const TextureImage& image = scene.images[static_cast<std::size_t>(uses[i].first)];
+        const TextureFormat format = textureFormat(device, image, uses[i].second);
+        return std::pair(MipChain(image, uses[i].second, format.texels), format);
+    };
+    const auto upload = [&](const std::pair<MipChain, TextureFormat>& made) {
+        images_.push_back(uploadTexture(device, uploader, made.first, made.second.format));
+        reduced += !made.second.exact;
+    };
+    using Made = std::pair<MipChain, TextureFormat>;
+    constexpr auto inOrder = tbb::filter_mode::serial_in_order;
+    tbb::parallel_pipeline(2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+                           tbb::make_filter<void, std::size_t>(inOrder, choose) &
+                               tbb::make_filter<std::size_t, Made>(tbb::filter_mode::parallel, make) &
+                               tbb::make_filter<Made, void>(inOrder, upload));
+    if (reduced)
+        notes_.push_back(fmt::format(
+            "{} texture{} of 16 bits a component: sampled as half floats (11 bits), {} filters nothing wider",
+            reduced, reduced == 1 ? "" : "s", device.info().name));
 }
 
 std::uint64_t Materials::imageBytes() const {

@@ -7,6 +7,8 @@
 #include "shared/vulkan/pipelines.h"
 #include "shared/vulkan/resources.h"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -27,13 +29,20 @@ public:
     std::uint64_t imageBytes() const;
     std::uint64_t bufferBytes() const { return buffer_.size(); }
 
+    const std::vector<std::string>& notes() const { return notes_; }  // what is sampled with fewer bits
+
 private:
+    using ImageUse = std::pair<int, bool>;  // into Scene::images; whether its colours are sRGB
+    void uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
+                     const std::vector<ImageUse>& uses);
+
     OwnedDescriptorSetLayout layout_;
     std::vector<GpuImage> images_;
     std::vector<OwnedSampler> samplers_;
     GpuBuffer buffer_;
     DescriptorSets sets_;
     std::vector<Variant> variants_;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace diptych

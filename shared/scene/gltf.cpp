@@ -58,7 +58,7 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();
     gltf::Tally tally(pieces, "images and meshes", progress);
     std::exception_ptr meshFailure, imageFailure;
-    std::vector<std::string> meshNotes, imageNotes;
+    std::vector<std::string> meshNotes;
     const auto guarded = [](std::exception_ptr& failure, const auto& run) {
         return [&failure, &run] {
             try {
@@ -69,12 +69,11 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
         };
     };
     const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene, meshNotes, tally); };
-    const auto images = [&] { gltf::readImages(model, imageOf, scene.images, imageNotes, tally); };
+    const auto images = [&] { gltf::readImages(model, imageOf, scene.images, tally); };
     tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));
     for (const std::exception_ptr& failure : {meshFailure, imageFailure})
         if (failure) std::rethrow_exception(failure);
     scene.notes.insert(scene.notes.end(), meshNotes.begin(), meshNotes.end());
-    scene.notes.insert(scene.notes.end(), imageNotes.begin(), imageNotes.end());
     return scene;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf_material.h"
 
+#include "shared/image/limits.h"
 #include "shared/scene/gltf_accessor.h"
 #include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
@@ -280,29 +281,44 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
 }
 
 void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                std::vector<TextureImage>& images, std::vector<std::string>& notes, Tally& tally) {
-    std::vector<char> deep(images.size(), 0);  // not bool: neighbours are written by different threads
-    forEachInParallel(images.size(), [&](std::size_t i) {
+                std::vector<TextureImage>& images, Tally& tally) {
+    struct Encoded {
+        std::string file, who;
+        std::span<const unsigned char> bytes;
+        std::uint64_t decoded = 0;  // bytes
+    };
+    std::vector<Encoded> all(images.size());
+    const auto ofEach = [&](const auto& run) {
+        forEachInParallel(all.size(), [&](std::size_t i) {
+            try {
+                run(i, all[i]);
+            } catch (const std::runtime_error& e) {
+                fail(all[i].who, e.what());
+            }
+        });
+    };
+    for (std::size_t i = 0; i < all.size(); ++i) {
         const tinygltf::Image& image = model.images[static_cast<std::size_t>(imageOf[i])];
-        const std::string file = image.uri.empty() ? image.name : image.uri;
-        const std::string who = fmt::format("image {}{}", imageOf[i], file.empty() ? "" : " (" + file + ")");
-        const std::span<const unsigned char> encoded =
-            image.bufferView >= 0 ? viewBytes(model, image.bufferView, who) : std::span(image.image);
-        if (encoded.empty()) fail(who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
-        try {
-            bool sixteenBits = false;
-            images[i] = decodeImage(encoded, sixteenBits);
-            images[i].name = file;
-            deep[i] = sixteenBits;
-            tally.oneMore();
-        } catch (const std::runtime_error& e) {
-            fail(who, e.what());
-        }
+        all[i].file = image.uri.empty() ? image.name : image.uri;
+        all[i].who =
+            fmt::format("image {}{}", imageOf[i], all[i].file.empty() ? "" : " (" + all[i].file + ")");
+        all[i].bytes =
+            image.bufferView >= 0 ? viewBytes(model, image.bufferView, all[i].who) : std::span(image.image);
+        if (all[i].bytes.empty())
+            fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
+    }
+    // What all of them take together is known before the first is decoded.
+    ofEach([](std::size_t, Encoded& image) { image.decoded = imageHeader(image.bytes).bytes(); });
+    std::uint64_t total = 0;
+    for (const Encoded& image : all)
+        if ((total += image.decoded) > limits::imageBytes())
+            fail(image.who, fmt::format("with it the images take {} MiB decoded: {} MiB are read at most",
+                                        total >> 20, limits::imageBytes() >> 20));
+    ofEach([&](std::size_t i, const Encoded& image) {
+        images[i] = decodeImage(image.bytes);
+        images[i].name = image.file;
+        tally.oneMore();
     });
-    const auto count = std::count(deep.begin(), deep.end(), 1);
-    if (count)
-        notes.push_back(
-            fmt::format("{} image{} of 16 bits a component: read as 8", count, count == 1 ? "" : "s"));
 }
 
 }  // namespace diptych::gltf

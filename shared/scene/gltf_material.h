@@ -18,6 +18,6 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
 
 // The pixels of images[i], on all cores.
 void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                std::vector<TextureImage>& images, std::vector<std::string>& notes, Tally& tally);
+                std::vector<TextureImage>& images, Tally& tally);
 
 }  // namespace diptych::gltf

@@ -3,13 +3,31 @@
 
 #include "shared/scene/scene.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
-#include <string>
 
 namespace diptych {
 
-// A PNG or JPEG as RGBA, 8 bits a component; `sixteenBits` says that the file held more. Throws
-// std::runtime_error without a name: "is neither PNG nor JPEG", "does not decode: bad huffman code".
-TextureImage decodeImage(std::span<const unsigned char> encoded, bool& sixteenBits);
+// What an encoded image says of itself before a pixel is decoded.
+struct ImageHeader {
+    enum class Kind { png, jpeg };
+    Kind kind = Kind::png;
+    std::int64_t width = 0, height = 0;
+    bool deep = false;                 // 16 bits a component
+    std::int64_t pixels_per_byte = 1;  // that a byte of the file can stand for at most
+
+    std::uint64_t bytes() const;  // decoded, RGBA
+};
+
+// Both take a PNG (1 to 16 bits, grey, palette or colour, any transparency, interlaced or not) or a JPEG
+// (8 bits; grey, colour or CMYK, sequential or progressive), and throw std::runtime_error without a name:
+// "is neither PNG nor JPEG", "does not decode: bad adaptive filter value". A header is refused where a side
+// is beyond 1 to 16384 pixels or the bytes cannot hold as many pixels as it claims.
+ImageHeader imageHeader(std::span<const unsigned char> encoded);
+
+// Pixels as they are stored: colour profiles and gamma chunks are ignored, as glTF 2.0 (3.8.3) asks. Files of
+// up to 8 bits a component become 8, those of 16 stay 16. Nothing is printed, whatever the file holds.
+TextureImage decodeImage(std::span<const unsigned char> encoded);
 
 }  // namespace diptych

@@ -32,11 +32,13 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
-// Level 0, RGBA, 8 bits a component, row 0 on top. Whether it is sRGB is decided by the slot that reads it.
+// Level 0, RGBA, 8 or 16 bits a component, row 0 on top. Whether it is sRGB is decided by the slot that reads
+// it.
 struct TextureImage {
     std::string name;
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;
+    std::vector<std::uint8_t> rgba;        // one of the two is empty
+    std::vector<std::uint16_t> rgba16{};
 };
 
 struct Texture {

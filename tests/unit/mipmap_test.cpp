@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <cstring>
 #include <random>
 
 using namespace diptych;
@@ -24,10 +25,32 @@ TextureImage noise(int width, int height) {
     return image(width, height, [&](int, int, int) { return random() & 255u; });
 }
 
-double mean(const TextureImage& image, std::size_t component) {
+TextureImage deepImage(int width, int height, std::vector<std::uint16_t> codes) {
+    return {"", width, height, {}, std::move(codes)};
+}
+
+// The levels of a chain as components of T.
+template <class T>
+std::vector<std::vector<T>> levels(const TextureImage& image, bool srgb, Texels texels) {
+    const MipChain chain(image, srgb, texels);
+    std::vector<std::vector<T>> result;
+    for (std::size_t i = 0; i < chain.count(); ++i) {
+        EXPECT_EQ(chain.level(i).size(), bytesPerTexel(texels) * static_cast<std::size_t>(chain.width(i)) *
+                                             static_cast<std::size_t>(chain.height(i)));
+        result.emplace_back(chain.level(i).size() / sizeof(T));
+        std::memcpy(result.back().data(), chain.level(i).data(), chain.level(i).size());
+    }
+    return result;
+}
+
+std::vector<std::vector<std::uint8_t>> levels(const TextureImage& image, bool srgb) {
+    return levels<std::uint8_t>(image, srgb, srgb ? Texels::srgb8 : Texels::linear8);
+}
+
+double mean(const std::vector<std::uint8_t>& texels, std::size_t component) {
     double sum = 0;
-    for (std::size_t i = component; i < image.rgba.size(); i += 4) sum += image.rgba[i];
-    return sum / (static_cast<double>(image.rgba.size()) / 4);
+    for (std::size_t i = component; i < texels.size(); i += 4) sum += texels[i];
+    return sum / (static_cast<double>(texels.size()) / 4);
 }
 
 }  // namespace
@@ -36,52 +59,53 @@ double mean(const TextureImage& image, std::size_t component) {
 // 188. Alpha is never sRGB: (0 + 255 + 255 + 0) / 4 = 127.5 -> 128.
 TEST(Mipmap, CheckerIsAveragedInLinearLight) {
     const TextureImage checker = image(2, 2, [](int x, int y, int) { return (x + y) % 2 ? 255 : 0; });
-    const auto srgb = makeMipmaps(checker, true), linear = makeMipmaps(checker, false);
+    const auto srgb = levels(checker, true), linear = levels(checker, false);
     ASSERT_EQ(srgb.size(), 2u);
-    EXPECT_EQ(srgb[1].rgba, (std::vector<std::uint8_t>{188, 188, 188, 128}));
-    EXPECT_EQ(linear[1].rgba, (std::vector<std::uint8_t>{128, 128, 128, 128}));
+    EXPECT_EQ(srgb[1], (std::vector<std::uint8_t>{188, 188, 188, 128}));
+    EXPECT_EQ(linear[1], (std::vector<std::uint8_t>{128, 128, 128, 128}));
 }
 
 TEST(Mipmap, SizesHalveRoundedDownToOne) {
-    const auto chain = makeMipmaps(noise(5, 3), true);
-    ASSERT_EQ(chain.size(), 3u);
-    EXPECT_EQ(chain[1].width, 2);
-    EXPECT_EQ(chain[1].height, 1);
-    EXPECT_EQ(chain[2].width, 1);
-    EXPECT_EQ(chain[2].height, 1);
-    EXPECT_EQ(makeMipmaps(noise(1, 9), false).size(), 4u);
-    EXPECT_EQ(makeMipmaps(noise(1, 1), true).size(), 1u);
+    const TextureImage source = noise(5, 3);
+    const MipChain chain(source, true, Texels::srgb8);
+    ASSERT_EQ(chain.count(), 3u);
+    EXPECT_EQ(chain.width(1), 2);
+    EXPECT_EQ(chain.height(1), 1);
+    EXPECT_EQ(chain.width(2), 1);
+    EXPECT_EQ(chain.height(2), 1);
+    EXPECT_EQ(levels(noise(1, 9), false).size(), 4u);
+    EXPECT_EQ(levels(noise(1, 1), true).size(), 1u);
 }
 
 TEST(Mipmap, LevelZeroIsTheImage) {
     const TextureImage source = noise(7, 4);
-    EXPECT_EQ(makeMipmaps(source, true)[0].rgba, source.rgba);
+    EXPECT_EQ(levels(source, true)[0], source.rgba);
 }
 
 // Thirds: (0 + 30 + 240) / 3 = 90 exactly.
 TEST(Mipmap, ThreeByOneIsTheMeanOfAllThree) {
     const std::uint8_t values[] = {0, 30, 240};
-    const auto chain = makeMipmaps(image(3, 1, [&](int x, int, int) { return values[x]; }), false);
+    const auto chain = levels(image(3, 1, [&](int x, int, int) { return values[x]; }), false);
     ASSERT_EQ(chain.size(), 2u);
-    EXPECT_EQ(chain[1].rgba, (std::vector<std::uint8_t>{90, 90, 90, 90}));
+    EXPECT_EQ(chain[1], (std::vector<std::uint8_t>{90, 90, 90, 90}));
 }
 
 // Five texels become two of 2.5 each: (a + b + c / 2) / 2.5 and (c / 2 + d + e) / 2.5.
 TEST(Mipmap, FiveByOneIsWeightedByArea) {
     const std::uint8_t values[] = {10, 20, 40, 100, 250};
-    const auto chain = makeMipmaps(image(5, 1, [&](int x, int, int) { return values[x]; }), false);
-    EXPECT_EQ(chain[1].rgba[0], 20);   // 50 / 2.5
-    EXPECT_EQ(chain[1].rgba[4], 148);  // 370 / 2.5
-    EXPECT_EQ(chain[2].rgba[0], 84);   // 420 / 5, from the unrounded level
+    const auto chain = levels(image(5, 1, [&](int x, int, int) { return values[x]; }), false);
+    EXPECT_EQ(chain[1][0], 20);   // 50 / 2.5
+    EXPECT_EQ(chain[1][4], 148);  // 370 / 2.5
+    EXPECT_EQ(chain[2][0], 84);   // 420 / 5, from the unrounded level
 }
 
 // Every texel weighs the same in every level: the mean stays, within the half step of each rounded texel.
 TEST(Mipmap, OddSizesConserveTheMean) {
     for (const auto& [width, height] : {std::pair{3, 1}, {5, 3}, {7, 7}, {1, 5}, {641, 359}}) {
         const TextureImage source = noise(width, height);
-        for (const TextureImage& level : makeMipmaps(source, false))
+        for (const auto& level : levels(source, false))
             for (std::size_t c = 0; c < 4; ++c)
-                EXPECT_NEAR(mean(level, c), mean(source, c), 0.5001) << width << "x" << height;
+                EXPECT_NEAR(mean(level, c), mean(source.rgba, c), 0.5001) << width << "x" << height;
     }
 }
 
@@ -89,9 +113,8 @@ TEST(Mipmap, OddSizesConserveTheMean) {
 TEST(Mipmap, ConstantImagesStayConstant) {
     for (int value = 0; value < 256; ++value)
         for (const bool srgb : {false, true})
-            for (const TextureImage& level :
-                 makeMipmaps(image(7, 6, [&](int, int, int) { return value; }), srgb))
-                for (const std::uint8_t code : level.rgba) ASSERT_EQ(code, value) << srgb;
+            for (const auto& level : levels(image(7, 6, [&](int, int, int) { return value; }), srgb))
+                for (const std::uint8_t code : level) ASSERT_EQ(code, value) << srgb;
 }
 
 // Encoding is exact rounding: a pair of codes averages to the code nearest to the mean computed in double.
@@ -104,18 +127,73 @@ TEST(Mipmap, EncodingRoundsToTheNearestCode) {
     };
     for (int a = 0; a < 256; a += 3)
         for (int b = 0; b < 256; ++b) {
-            const auto chain = makeMipmaps(image(2, 1, [&](int x, int, int) { return x ? b : a; }), true);
+            const auto chain = levels(image(2, 1, [&](int x, int, int) { return x ? b : a; }), true);
             const double exact = 255 * encode((decode(a / 255.0) + decode(b / 255.0)) / 2);
             // 0.5 and what float weights and the two branches' meeting point (they miss by 1e-7) can move.
-            ASSERT_NEAR(chain[1].rgba[0], exact, 0.5 + 1e-3) << a << " " << b;
+            ASSERT_NEAR(chain[1][0], exact, 0.5 + 1e-3) << a << " " << b;
         }
 }
 
 TEST(Mipmap, AnyNumberOfThreadsGivesTheSameBits) {
     const TextureImage source = noise(517, 301);
-    const auto many = makeMipmaps(source, true);
+    const auto many = levels(source, true);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const auto single = makeMipmaps(source, true);
+    const auto single = levels(source, true);
     ASSERT_EQ(many.size(), single.size());
-    for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[i].rgba, single[i].rgba) << i;
+    for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[i], single[i]) << i;
+}
+
+// ---- 16 bits -----------------------------------------------------------------------------------------
+
+// One step of 16 bits apart: 1000 and 1001 average to 1000.5, which rounds up; alpha 0 and 65535 to 32768.
+TEST(Mipmap, SixteenBitsKeepEveryStep) {
+    const TextureImage source = deepImage(2, 1, {1000, 1001, 40000, 0, 1001, 1001, 40002, 65535});
+    const auto chain = levels<std::uint16_t>(source, false, Texels::linear16);
+    ASSERT_EQ(chain.size(), 2u);
+    EXPECT_EQ(chain[0], source.rgba16);
+    EXPECT_EQ(chain[1], (std::vector<std::uint16_t>{1001, 1001, 40001, 32768}));
+}
+
+// sRGB codes of 16 bits as linear float32: 655 / 65535 / 12.92 in the straight part, and
+// ((32896 / 65535 + 0.055) / 1.055)^2.4 = 0.215861 for what 128 / 255 is of 8 bits; a step up is 1.42e-5 more.
+// The level below is their mean in linear light.
+TEST(Mipmap, SixteenBitsOfSrgbAreDecodedToFloats) {
+    const TextureImage source = deepImage(2, 1, {655, 656, 32896, 65535, 655, 656, 32897, 0});
+    const auto chain = levels<float>(source, true, Texels::float32);
+    EXPECT_FLOAT_EQ(chain[0][0], 655 / 65535.0f / 12.92f);
+    EXPECT_FLOAT_EQ(chain[0][1], 656 / 65535.0f / 12.92f);
+    EXPECT_NEAR(chain[0][2], 0.2158605, 1e-7);
+    EXPECT_NEAR(chain[0][6] - chain[0][2], 1.42e-5, 1e-7);
+    EXPECT_EQ(chain[0][3], 1.0f);
+    EXPECT_FLOAT_EQ(chain[1][0], chain[0][0]);
+    EXPECT_FLOAT_EQ(chain[1][2], (chain[0][2] + chain[0][6]) / 2);
+    EXPECT_EQ(chain[1][3], 0.5f);
+}
+
+// Where floats are all that a device filters: linear codes over 65535, and as halves with 11 bits.
+TEST(Mipmap, SixteenLinearBitsAsFloatsAndHalves) {
+    const TextureImage source = deepImage(1, 1, {1000, 32768, 65535, 0});
+    const auto floats = levels<float>(source, false, Texels::float32);
+    EXPECT_EQ(floats[0], (std::vector<float>{1000 / 65535.0f, 32768 / 65535.0f, 1, 0}));
+    const auto halves = levels<std::uint16_t>(source, false, Texels::float16);
+    EXPECT_EQ(halves[0], (std::vector<std::uint16_t>{0x23d0, 0x3800, 0x3c00, 0}));  // 1000 / 65536
+}
+
+TEST(Mipmap, EverySixteenBitCodeStays) {
+    std::vector<std::uint16_t> codes;
+    for (int code = 0; code < 65536; ++code)
+        for (int c = 0; c < 4; ++c) codes.push_back(static_cast<std::uint16_t>(code));
+    // Each code four times over: 2 x 2 texels of it become one.
+    TextureImage source = deepImage(512, 512, {});
+    for (int y = 0; y < 512; ++y)
+        for (int x = 0; x < 512; ++x)
+            for (int c = 0; c < 4; ++c)
+                source.rgba16.push_back(static_cast<std::uint16_t>(y / 2 * 256 + x / 2));
+    EXPECT_EQ(levels<std::uint16_t>(source, false, Texels::linear16)[1], codes);
+}
+
+TEST(Mipmap, TexelsThatTheImageHasNotAreALogicError) {
+    EXPECT_THROW(MipChain(noise(2, 2), false, Texels::linear16), std::logic_error);
+    EXPECT_THROW(MipChain(deepImage(1, 1, {0, 0, 0, 0}), true, Texels::srgb8), std::logic_error);
+    EXPECT_THROW(MipChain(TextureImage{"none", 1, 1, {}}, true, Texels::srgb8), std::logic_error);
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "shared/material/textures.h"
+
+#include "shared/vulkan/check.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace diptych {
+
+TextureFormat textureFormat(bool deep, bool srgb, const std::function<bool(VkFormat)>& filters) {
+    if (!deep)
+        return srgb ? TextureFormat{Texels::srgb8, VK_FORMAT_R8G8B8A8_SRGB, true}
+                    : TextureFormat{Texels::linear8, VK_FORMAT_R8G8B8A8_UNORM, true};
+    if (!srgb && filters(VK_FORMAT_R16G16B16A16_UNORM))
+        return {Texels::linear16, VK_FORMAT_R16G16B16A16_UNORM, true};
+    if (filters(VK_FORMAT_R32G32B32A32_SFLOAT)) return {Texels::float32, VK_FORMAT_R32G32B32A32_SFLOAT, true};
+    return {Texels::float16, VK_FORMAT_R16G16B16A16_SFLOAT, false};
+}
+
+TextureFormat textureFormat(const Device& device, const TextureImage& image, bool srgb) {
+    return textureFormat(!image.rgba16.empty(), srgb, [&](VkFormat format) {
+        VkFormatProperties properties;
+        vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
+        constexpr VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
+                                                VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                                                VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
+        return (properties.optimalTilingFeatures & needed) == needed;
+    });
+}
+
+GpuImage uploadTexture(Device& device, Uploader& uploader, const MipChain& chain, VkFormat format) {
+    const auto most = static_cast<int>(device.limits().maxImageDimension2D);
+    if (chain.width() > most || chain.height() > most)
+        throw std::runtime_error(fmt::format("image {}: {} x {} pixels; {} takes up to {} a side", chain.name(),
+                                             chain.width(), chain.height(), device.info().name, most));
+    GpuImage image(device,
+                   {chain.name(), format, static_cast<std::uint32_t>(chain.width()),
+                    static_cast<std::uint32_t>(chain.height()), static_cast<std::uint32_t>(chain.count()),
+                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    for (std::uint32_t level = 0; level < chain.count(); ++level)
+        uploader.level(image, level, chain.level(level));
+    return image;
+}
+
+OwnedSampler makeSampler(Device& device, const Sampler& s) {
+    const auto address = [](Wrap wrap) {
+        return wrap == Wrap::repeat            ? VK_SAMPLER_ADDRESS_MODE_REPEAT
+               : wrap == Wrap::mirrored_repeat ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
+                                               : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    };
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = s.magnify_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+    info.minFilter = s.minify_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+    info.mipmapMode = s.mipmaps_linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = address(s.wrap_s);
+    info.addressModeV = address(s.wrap_t);
+    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    // Vulkan's mapping of OpenGL's filters without mip levels: a clamp just above level 0 keeps the choice
+    // between magnification and minification.
+    info.maxLod = s.mipmaps ? VK_LOD_CLAMP_NONE : 0.25f;
+    VkSampler sampler = VK_NULL_HANDLE;
+    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+    return {device.handle(), sampler};
+}
+
+}  // namespace diptych

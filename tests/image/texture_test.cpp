@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// What texels become on their way into a pixel: 16 bit images to the single step, filters and wraps.
+#include "shared/material/textures.h"
+#include "tests/image/square.h"
+
+#include <set>
+
+namespace diptych::tests {
+namespace {
+
+// Two texels beside each other, the right one a step of 16 bits above the left one in every component.
+Scene deepSquare(std::uint16_t code) {
+    Scene scene = square();
+    TextureImage& image = scene.images[0];
+    const auto next = static_cast<std::uint16_t>(code + 1);
+    image = {"deep", 2, 1, {}, {code, code, code, code, next, next, next, next}};
+    return scene;
+}
+
+double linearFromSrgb(double s) {
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+// A linear slot: code / 65535, and one step more. R16G16B16A16_UNORM is exact to a float's rounding.
+TEST(Textures, SixteenLinearBitsReachThePixel) {
+    for (const int code : {0, 1, 1000, 32767, 65534}) {
+        Scene scene = deepSquare(static_cast<std::uint16_t>(code));
+        scene.materials[0].metallic_roughness_texture.texture = 0;
+        for (const Frame& frame : draw(scene))
+            for (const int x : {0, 3}) {
+                const double expected = (code + (x == 3)) / 65535.0;
+                EXPECT_NEAR(colorAt(frame, roughness, x, 0).x, expected, 1e-7) << frame.name << code;
+                EXPECT_NEAR(colorAt(frame, metallic, x, 0).x, expected, 1e-7) << frame.name << code;
+            }
+    }
+}
+
+// A colour slot: the sRGB curve of code / 65535, where a dark step is 1.2e-6: 8 bits would show 3.0e-4, and
+// 16 linear bits 1.5e-5.
+TEST(Textures, SixteenBitsOfSrgbReachThePixel) {
+    for (const int code : {0, 1, 2650, 32896, 65534}) {
+        Scene scene = deepSquare(static_cast<std::uint16_t>(code));
+        scene.materials[0].base_color_texture.texture = scene.materials[0].emissive_texture.texture = 0;
+        scene.materials[0].emissive = {1, 1, 1};
+        for (const Frame& frame : draw(scene))
+            for (const int x : {0, 3}) {
+                const auto expected = static_cast<float>(linearFromSrgb((code + (x == 3)) / 65535.0));
+                // A float's rounding of the value itself.
+                expectColor(colorAt(frame, albedo, x, 0), glm::vec3(expected), 1e-7f, frame.name);
+                expectColor(colorAt(frame, emission, x, 0), glm::vec3(expected), 1e-7f, frame.name);
+            }
+    }
+}
+
+// Between the texels' centres: the mean of the linear values, at half a step of 16 bits. The device's weights
+// have 8 bits at least (subTexelPrecisionBits).
+TEST(Textures, SixteenBitsAreFilteredInLinearLight) {
+    Scene scene = deepSquare(0);
+    scene.images[0].rgba16 = {1000, 1000, 1000, 65535, 3000, 3000, 3000, 65535};
+    scene.textures[0].sampler = {Wrap::clamp_to_edge, Wrap::clamp_to_edge, true, true, false, false};
+    scene.materials[0].base_color_texture.texture = scene.materials[0].metallic_roughness_texture.texture = 0;
+    const double a = linearFromSrgb(1000 / 65535.0), b = linearFromSrgb(3000 / 65535.0);
+    // 8 pixels over 2 texels: pixel 3 lies 3/8 of the way from the left centre to the right one.
+    for (const Frame& frame : draw(scene, 8)) {
+        EXPECT_NEAR(colorAt(frame, albedo, 3, 4).x, a + (b - a) * 3 / 8, (b - a) / 256) << frame.name;
+        EXPECT_NEAR(colorAt(frame, roughness, 3, 4).x, (1000 + 2000 * 3 / 8.0) / 65535, 2000 / 65535.0 / 256)
+            << frame.name;
+    }
+}
+
+// Vulkan's formats by what the device filters; half floats, which every device does, are said to lose bits.
+TEST(Textures, FormatsGiveWayInOrder) {
+    const auto with = [](std::set<VkFormat> filtered) {
+        return [filtered](VkFormat format) { return filtered.contains(format); };
+    };
+    const auto format = [&](bool deep, bool srgb, std::set<VkFormat> filtered) {
+        const TextureFormat f = textureFormat(deep, srgb, with(std::move(filtered)));
+        return std::pair(f.format, f.exact);
+    };
+    constexpr VkFormat unorm = VK_FORMAT_R16G16B16A16_UNORM, floats = VK_FORMAT_R32G32B32A32_SFLOAT,
+                       halves = VK_FORMAT_R16G16B16A16_SFLOAT;
+    EXPECT_EQ(format(false, true, {}), std::pair(VK_FORMAT_R8G8B8A8_SRGB, true));
+    EXPECT_EQ(format(false, false, {}), std::pair(VK_FORMAT_R8G8B8A8_UNORM, true));
+    EXPECT_EQ(format(true, false, {unorm, floats}), std::pair(unorm, true));
+    EXPECT_EQ(format(true, false, {floats}), std::pair(floats, true));
+    EXPECT_EQ(format(true, true, {unorm, floats}), std::pair(floats, true));
+    EXPECT_EQ(format(true, true, {unorm}), std::pair(halves, false));
+    EXPECT_EQ(format(true, false, {}), std::pair(halves, false));
+}
+
+// Every wrap pair: 4 x 4 pixels over uv -1 to 2 (scale 3, offset -1) of a 3 x 1 texture; nearest. What lies
+// left of 0 and right of 1 is known by hand.
+TEST(Textures, WrapsOfEveryPair) {
+    Scene scene = square();
+    // Texel (x, y) has red 60 x and green 60 y, read through the linear roughness (G) and metallic (B) slots.
+    TextureImage image{"three", 3, 3, {}};
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 3; ++x)
+            for (const int c : {0, 60 * y, 60 * x, 255}) image.rgba.push_back(static_cast<std::uint8_t>(c));
+    scene.images[0] = image;
+    scene.materials[0].metallic_roughness_texture = {0, 0, {3, 0, -1}, {0, 3, -1}};
+    const auto texel = [](Wrap wrap, int i) {  // i from -3 to 5, of 0, 1, 2
+        if (wrap == Wrap::clamp_to_edge) return std::clamp(i, 0, 2);
+        const int period = ((i + 3) / 3) % 2, within = (i + 3) % 3;  // period 1 is the image itself
+        return wrap == Wrap::mirrored_repeat && period == 0 ? 2 - within : within;
+    };
+    for (const Wrap s : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge})
+        for (const Wrap t : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+            scene.textures[0].sampler.wrap_s = s;
+            scene.textures[0].sampler.wrap_t = t;
+            for (const Frame& frame : draw(scene, 9))
+                for (int y = 0; y < 9; ++y)
+                    for (int x = 0; x < 9; ++x) {
+                        ASSERT_NEAR(colorAt(frame, metallic, x, y).x, texel(s, x - 3) * 60 / 255.0, float32)
+                            << frame.name << static_cast<int>(s) << " at " << x;
+                        ASSERT_NEAR(colorAt(frame, roughness, x, y).x, texel(t, y - 3) * 60 / 255.0, float32)
+                            << frame.name << static_cast<int>(t) << " at " << y;
+                    }
+        }
+}
+
+// Magnified: nearest takes the texel, linear the mean between two. Minified by 4 of a texture whose texels
+// alternate 0 and 1 in columns of two (so that level 1 does too): which level, and what lies between.
+TEST(Textures, FiltersOfEveryKind) {
+    Scene scene = square();
+    TextureImage image{"columns", 16, 16, {}};
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (int c = 0; c < 4; ++c) image.rgba.push_back(x % 4 < 2 ? 0 : 255);
+    scene.images[0] = image;
+    Material& m = scene.materials[0];
+    m.metallic_roughness_texture.texture = 0;
+    Sampler& sampler = scene.textures[0].sampler;
+    const auto at = [&](const Sampler& kind, double scale, int pixels, int x) {
+        sampler = kind;
+        m.metallic_roughness_texture.u = {scale, 0, 0};
+        m.metallic_roughness_texture.v = {0, scale, 0};
+        const std::vector<Frame> frames = draw(scene, pixels);
+        const float value = colorAt(frames[0], roughness, x, 1).x;
+        EXPECT_EQ(value, colorAt(frames[1], roughness, x, 1).x);
+        return value;
+    };
+    constexpr Wrap r = Wrap::repeat;
+    // A quarter of the texture over 8 pixels, two pixels a texel: pixel 3 lies in texel 1 (0), a quarter from
+    // its right edge: linear takes a quarter of texel 2 (1).
+    EXPECT_EQ(at({r, r, false, true, true, true}, 0.25, 8, 3), 0.0f);
+    EXPECT_NEAR(at({r, r, true, false, false, false}, 0.25, 8, 3), 0.25f, 1.0f / 256);
+    // Two texels a pixel: level 1, which alternates 0, 1. Without mip levels, level 0: nearest takes texel 2x
+    // or 2x + 1, which are alike; linear their mean.
+    for (const bool linear : {false, true}) {
+        EXPECT_EQ(at({r, r, true, linear, false, false}, 1, 8, 0), 0.0f);
+        EXPECT_EQ(at({r, r, true, linear, false, false}, 1, 8, 1), 1.0f);
+        EXPECT_NEAR(at({r, r, true, linear, true, false}, 1, 8, 1), 1.0f, 1.0f / 256);
+        EXPECT_NEAR(at({r, r, true, linear, true, true}, 1, 8, 1), 1.0f, 1.0f / 256);
+    }
+    // Four texels a pixel: level 2, grey all over; without mip levels the pixel's centre lies between texels
+    // 1 and 2: nearest takes 2, linear the mean.
+    const float grey2 = 128 / 255.0f;
+    for (const bool linear : {false, true})
+        for (const bool between : {false, true})
+            EXPECT_NEAR(at({r, r, true, linear, true, between}, 1, 4, 1), grey2, 1.0f / 256)
+                << linear << between;
+    EXPECT_EQ(at({r, r, true, false, false, false}, 1, 4, 1), 1.0f);
+    EXPECT_NEAR(at({r, r, true, true, false, false}, 1, 4, 1), 0.5f, 1.0f / 256);
+    // Three texels a pixel, log2(3) = 1.585: the nearer level is 2 (grey); between the two lies 0.585 of it.
+    // At pixel 1, u = 4.5 / 16, level 1 has texel 2 (0) at its nearest.
+    EXPECT_NEAR(at({r, r, true, false, true, false}, 0.75, 4, 1), grey2, 1.0f / 256);
+    // Drivers approximate the logarithm; linear in the mantissa it is off by up to 0.086.
+    EXPECT_NEAR(at({r, r, true, false, true, true}, 0.75, 4, 1), 0.585f * grey2, 0.086f * grey2 + 0.004f);
+}
+
+}  // namespace
+}  // namespace diptych::tests

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: MIT
+// Images that libpng and libjpeg write here, of every kind that glTF may bring, come back as the numbers that
+// were stored.
+#include "shared/scene/image_decode.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstdio>  // jpeglib.h needs it
+
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace diptych;
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+// A PNG of 2 x 2 pixels: `rows` as the file stores them, 16 bits big-endian.
+struct PngMaker {
+    int depth = 8, color = PNG_COLOR_TYPE_RGBA;
+    std::vector<Bytes> rows;
+    int width = 2, height = 2;
+    bool interlaced = false;
+    std::function<void(png_structp, png_infop)> extra{};  // other chunks
+
+    Bytes made() const {
+        Bytes file;
+        png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+        png_infop info = png_create_info_struct(png);
+        png_set_write_fn(
+            png, &file,
+            [](png_structp p, png_bytep data, std::size_t size) {
+                auto& out = *static_cast<Bytes*>(png_get_io_ptr(p));
+                out.insert(out.end(), data, data + size);
+            },
+            nullptr);
+        png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth,
+                     color, interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        if (extra) extra(png, info);
+        std::vector<png_bytep> pointers;
+        for (const Bytes& row : rows) pointers.push_back(const_cast<png_bytep>(row.data()));
+        png_set_rows(png, info, pointers.data());
+        png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+        png_destroy_write_struct(&png, &info);
+        return file;
+    }
+};
+
+// A JPEG of 16 x 16 pixels of one colour, of which `components` are stored in `space`.
+Bytes jpeg(J_COLOR_SPACE in, J_COLOR_SPACE space, std::vector<unsigned char> color, bool progressive = false,
+           bool adobe = true) {
+    jpeg_compress_struct c{};
+    jpeg_error_mgr errors{};
+    c.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&c);
+    unsigned char* data = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&c, &data, &size);
+    c.image_width = c.image_height = 16;
+    c.input_components = static_cast<int>(color.size());
+    c.in_color_space = in;
+    jpeg_set_defaults(&c);
+    jpeg_set_colorspace(&c, space);
+    jpeg_set_quality(&c, 100, TRUE);
+    if (progressive) jpeg_simple_progression(&c);
+    c.write_Adobe_marker = adobe && (space == JCS_CMYK || space == JCS_YCCK || space == JCS_RGB);
+    jpeg_start_compress(&c, TRUE);
+    std::vector<unsigned char> row;
+    for (int x = 0; x < 16; ++x) row.insert(row.end(), color.begin(), color.end());
+    unsigned char* line = row.data();
+    while (c.next_scanline < c.image_height) jpeg_write_scanlines(&c, &line, 1);
+    jpeg_finish_compress(&c);
+    jpeg_destroy_compress(&c);
+    Bytes file(data, data + size);
+    std::free(data);
+    return file;
+}
+
+std::string failure(const Bytes& file) {
+    try {
+        decodeImage(file);
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+void expectRgba(const Bytes& file, const Bytes& rgba) {
+    const TextureImage image = decodeImage(file);
+    EXPECT_EQ(image.rgba, rgba);
+    EXPECT_TRUE(image.rgba16.empty());
+}
+
+void expectColor(const Bytes& file, int r, int g, int b, int tolerance = 1) {
+    const TextureImage image = decodeImage(file);
+    ASSERT_EQ(image.width, 16);
+    ASSERT_EQ(image.height, 16);
+    ASSERT_EQ(image.rgba.size(), 4u * 256);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        EXPECT_NEAR(image.rgba[i], r, tolerance);
+        EXPECT_NEAR(image.rgba[i + 1], g, tolerance);
+        EXPECT_NEAR(image.rgba[i + 2], b, tolerance);
+        EXPECT_EQ(image.rgba[i + 3], 255);
+    }
+}
+
+const png_color palette[] = {{1, 2, 3}, {40, 50, 60}, {255, 0, 128}};
+void withPalette(png_structp png, png_infop info) {
+    png_set_PLTE(png, info, palette, png_get_bit_depth(png, info) == 1 ? 2 : 3);
+}
+
+}  // namespace
+
+// ---- PNG ---------------------------------------------------------------------------------------------
+
+TEST(ImageDecode, EightBitsOfEveryColourType) {
+    expectRgba(
+        PngMaker{8, PNG_COLOR_TYPE_RGBA, {{1, 2, 3, 4, 5, 6, 7, 8}, {9, 10, 11, 12, 13, 14, 15, 0}}}.made(),
+        {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0});
+    expectRgba(PngMaker{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 5, 6, 7}, {9, 10, 11, 13, 14, 15}}}.made(),
+               {1, 2, 3, 255, 5, 6, 7, 255, 9, 10, 11, 255, 13, 14, 15, 255});
+    expectRgba(PngMaker{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 255}}}.made(),
+               {1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 255, 255, 255, 255});
+    expectRgba(PngMaker{8, PNG_COLOR_TYPE_GRAY_ALPHA, {{1, 20, 2, 30}, {3, 40, 4, 0}}}.made(),
+               {1, 1, 1, 20, 2, 2, 2, 30, 3, 3, 3, 40, 4, 4, 4, 0});
+}
+
+// Grey of few bits is spread over 0 to 255: of 1 bit 255 a step, of 2 bits 85, of 4 bits 17.
+TEST(ImageDecode, FewBits) {
+    const auto grey = [](int a, int b) {
+        Bytes out;
+        for (const int v : {a, b, b, a})
+            for (const int c : {v, v, v, 255}) out.push_back(static_cast<unsigned char>(c));
+        return out;
+    };
+    expectRgba(PngMaker{1, PNG_COLOR_TYPE_GRAY, {{0x40}, {0x80}}}.made(), grey(0, 255));
+    expectRgba(PngMaker{2, PNG_COLOR_TYPE_GRAY, {{0x60}, {0x90}}}.made(), grey(85, 170));
+    expectRgba(PngMaker{4, PNG_COLOR_TYPE_GRAY, {{0x3f}, {0xf3}}}.made(), grey(51, 255));
+}
+
+TEST(ImageDecode, PalettesWithAndWithoutAlpha) {
+    const auto build = [](int depth, std::vector<Bytes> rows, bool alpha) {
+        PngMaker maker{depth, PNG_COLOR_TYPE_PALETTE, std::move(rows)};
+        maker.extra = [alpha](png_structp png, png_infop info) {
+            withPalette(png, info);
+            png_byte values[] = {7, 8};
+            if (alpha) png_set_tRNS(png, info, values, 2, nullptr);
+        };
+        return maker.made();
+    };
+    const auto expected = [](bool alpha) {
+        const auto a = [&](int v) { return static_cast<unsigned char>(alpha ? v : 255); };
+        return Bytes{1, 2, 3, a(7), 40, 50, 60, a(8), 255, 0, 128, 255, 1, 2, 3, a(7)};
+    };
+    for (const bool alpha : {false, true}) {
+        expectRgba(build(8, {{0, 1}, {2, 0}}, alpha), expected(alpha));
+        expectRgba(build(4, {{0x01}, {0x20}}, alpha), expected(alpha));
+        expectRgba(build(2, {{0x10}, {0x80}}, alpha), expected(alpha));
+    }
+    expectRgba(build(1, {{0x40}, {0x80}}, true), {1, 2, 3, 7, 40, 50, 60, 8, 40, 50, 60, 8, 1, 2, 3, 7});
+}
+
+// tRNS of grey and of colour makes one value transparent, of 16 bits by all of them.
+TEST(ImageDecode, OneTransparentColour) {
+    const auto transparent = [](int grey, int red, int green, int blue) {
+        return [=](png_structp png, png_infop info) {
+            png_color_16 key{};
+            key.gray = static_cast<png_uint_16>(grey);
+            key.red = static_cast<png_uint_16>(red);
+            key.green = static_cast<png_uint_16>(green);
+            key.blue = static_cast<png_uint_16>(blue);
+            png_set_tRNS(png, info, nullptr, 0, &key);
+        };
+    };
+    PngMaker grey{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 2}}};
+    grey.extra = transparent(2, 0, 0, 0);
+    expectRgba(grey.made(), {1, 1, 1, 255, 2, 2, 2, 0, 3, 3, 3, 255, 2, 2, 2, 0});
+    PngMaker color{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 1, 2, 4}, {5, 2, 3, 1, 2, 3}}};
+    color.extra = transparent(0, 1, 2, 3);
+    expectRgba(color.made(), {1, 2, 3, 0, 1, 2, 4, 255, 5, 2, 3, 255, 1, 2, 3, 0});
+    PngMaker deep{16, PNG_COLOR_TYPE_GRAY, {{0, 1, 0, 2}}, 2, 1};
+    deep.extra = transparent(2, 0, 0, 0);
+    EXPECT_EQ(decodeImage(deep.made()).rgba16, (std::vector<std::uint16_t>{1, 1, 1, 65535, 2, 2, 2, 0}));
+}
+
+TEST(ImageDecode, SixteenBitsStaySixteen) {
+    const TextureImage color = decodeImage(
+        PngMaker{16, PNG_COLOR_TYPE_RGBA, {{0x12, 0x34, 0, 1, 0xff, 0xfe, 0x80, 0}}, 1, 1}.made());
+    EXPECT_EQ(color.rgba16, (std::vector<std::uint16_t>{0x1234, 1, 0xfffe, 0x8000}));
+    EXPECT_TRUE(color.rgba.empty());
+    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_RGB, {{0, 1, 0, 2, 0, 3}}, 1, 1}.made()).rgba16,
+              (std::vector<std::uint16_t>{1, 2, 3, 65535}));
+    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_GRAY, {{0xab, 0xcd}}, 1, 1}.made()).rgba16,
+              (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 65535}));
+    EXPECT_EQ(decodeImage(PngMaker{16, PNG_COLOR_TYPE_GRAY_ALPHA, {{0xab, 0xcd, 0, 9}}, 1, 1}.made()).rgba16,
+              (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 9}));
+}
+
+TEST(ImageDecode, InterlacedImagesAreWhole) {
+    PngMaker maker{8, PNG_COLOR_TYPE_RGBA, {}, 13, 11};
+    for (int y = 0; y < 11; ++y) {
+        Bytes row;
+        for (int x = 0; x < 13; ++x)
+            for (const int c : {x, y, x * y, 255 - x}) row.push_back(static_cast<unsigned char>(c));
+        maker.rows.push_back(row);
+    }
+    const TextureImage straight = decodeImage(maker.made());
+    maker.interlaced = true;
+    EXPECT_EQ(decodeImage(maker.made()).rgba, straight.rgba);
+    EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12)], 12);
+    EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12) + 1], 10);
+}
+
+// glTF 2.0, 3.8.3: gamma, chromaticities and profiles change nothing; texts and broken profiles are stepped
+// over.
+TEST(ImageDecode, AncillaryChunksChangeNothing) {
+    PngMaker plain{8, PNG_COLOR_TYPE_RGB, {{10, 20, 30, 40, 50, 60}}, 2, 1};
+    const Bytes expected = decodeImage(plain.made()).rgba;
+    plain.extra = [](png_structp png, png_infop info) {
+        png_set_gAMA(png, info, 1.0);
+        png_color_8 bits{4, 4, 4, 0, 0};
+        png_set_sBIT(png, info, &bits);
+        std::string long_text(1 << 20, 'x');
+        char key[] = "Comment";
+        png_text text{};
+        text.compression = PNG_TEXT_COMPRESSION_zTXt;
+        text.key = key;
+        text.text = long_text.data();
+        text.text_length = long_text.size();
+        png_set_text(png, info, &text, 1);
+    };
+    EXPECT_EQ(decodeImage(plain.made()).rgba, expected);
+}
+
+// ---- JPEG --------------------------------------------------------------------------------------------
+
+// Of one colour, so that nothing but the rounding of the colour transform is lost.
+TEST(ImageDecode, JpegsOfEveryColourSpace) {
+    for (const bool progressive : {false, true}) {
+        expectColor(jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, progressive), 77, 77, 77);
+        expectColor(jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, progressive), 200, 100, 50, 2);
+        expectColor(jpeg(JCS_RGB, JCS_RGB, {200, 100, 50}, progressive), 200, 100, 50);
+        // Adobe's files store what is left of the light: 200 of 255 left by cyan, 128 by black: 200 x 128 /
+        // 255.
+        expectColor(jpeg(JCS_CMYK, JCS_CMYK, {200, 255, 0, 128}, progressive), 100, 128, 0);
+        expectColor(jpeg(JCS_CMYK, JCS_YCCK, {200, 255, 0, 128}, progressive), 100, 128, 0, 2);
+        // Without Adobe's marker the numbers are the ink itself.
+        expectColor(jpeg(JCS_CMYK, JCS_CMYK, {55, 0, 255, 127}, progressive, false), 100, 128, 0);
+    }
+}
+
+// ---- what is refused ---------------------------------------------------------------------------------
+
+TEST(ImageDecode, OtherFilesAreNeither) {
+    EXPECT_EQ(failure({}), "is neither PNG nor JPEG");
+    EXPECT_EQ(failure({'G', 'I', 'F', '8', '9', 'a', 0, 0, 0, 0}), "is neither PNG nor JPEG");
+    EXPECT_EQ(failure({'R', 'I', 'F', 'F', 0, 0, 0, 0, 'W', 'E', 'B', 'P'}), "is neither PNG nor JPEG");
+}
+
+// Cut anywhere, a file ends in one line, and nothing is printed.
+TEST(ImageDecode, EveryTruncationIsRefused) {
+    const Bytes files[] = {PngMaker{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
+                           PngMaker{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}, 2, 2, true}.made(),
+                           jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}),
+                           jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, true)};
+    testing::internal::CaptureStderr();
+    for (const Bytes& file : files) {
+        const bool png = file[0] == 0x89;
+        const std::size_t tail = png ? 12 + 4 : 0;  // IEND, and the checksum before it, are not waited for
+        for (std::size_t size = 0; size + tail < file.size(); ++size) {
+            const std::string why = failure(Bytes(file.begin(), file.begin() + static_cast<long>(size)));
+            EXPECT_NE(why, "") << size << " of " << file.size();
+            EXPECT_EQ(why.find('\n'), why.npos) << why;
+        }
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(failure(Bytes(files[0].begin(), files[0].begin() + 40)), "does not decode: it ends early");
+    EXPECT_EQ(failure(Bytes(files[2].begin(), files[2].end() - 2)),
+              "does not decode: Premature end of JPEG file");
+}
+
+// Any byte changed ends in a picture of the size that it names, or in one line.
+TEST(ImageDecode, AnyByteMayBeWrong) {
+    const Bytes files[] = {
+        PngMaker{8, PNG_COLOR_TYPE_PALETTE, {{0, 1}, {2, 0}}, 2, 2, true, withPalette}.made(),
+        PngMaker{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}}.made(),
+        jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}), jpeg(JCS_CMYK, JCS_YCCK, {200, 100, 50, 9}, true)};
+    testing::internal::CaptureStderr();
+    for (const Bytes& file : files)
+        for (std::size_t at = 0; at < file.size(); ++at)
+            for (const int flip : {0x01, 0x80, 0xff}) {
+                Bytes changed = file;
+                changed[at] = static_cast<unsigned char>(changed[at] ^ flip);
+                try {
+                    const TextureImage image = decodeImage(changed);
+                    EXPECT_EQ(
+                        image.rgba.size() + image.rgba16.size(),
+                        4u * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+                } catch (const std::runtime_error& e) {
+                    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
+                }
+            }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// Sizes are asked before anything is allocated.
+TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
+    const auto sized = [](Bytes file, std::size_t at, std::vector<unsigned char> size) {
+        std::copy(size.begin(), size.end(), file.begin() + static_cast<long>(at));
+        return file;
+    };
+    const Bytes png = PngMaker{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made();
+    EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 0, 0, 0, 0x40, 0})),
+              "claims 16384 x 16384 pixels, which its " + std::to_string(png.size()) + " bytes cannot hold");
+    EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 1, 0, 0, 0, 1})),
+              "is 16385 x 1 pixels: from 1 to 16384 a side are read");
+    EXPECT_EQ(failure(sized(png, 16, {0, 0, 0, 0, 0, 0, 0, 1})),
+              "is 0 x 1 pixels: from 1 to 16384 a side are read");
+    EXPECT_EQ(failure(sized(png, 16, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff})),
+              "is 4294967295 x 4294967295 pixels: from 1 to 16384 a side are read");
+    Bytes huge = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77});
+    for (std::size_t i = 0; i + 9 < huge.size(); ++i)
+        if (huge[i] == 0xff && huge[i + 1] == 0xc0) huge = sized(huge, i + 5, {0x40, 0, 0x40, 0});
+    EXPECT_EQ(failure(huge),
+              "claims 16384 x 16384 pixels, which its " + std::to_string(huge.size()) + " bytes cannot hold");
+}
+
+// A byte or two make a scan that runs over all pixels: so many are followed.
+TEST(ImageDecode, EndlessScansAreRefused) {
+    Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, true);
+    std::size_t scan = 0;
+    for (std::size_t i = file.size() - 1; i-- > 0 && scan == 0;)
+        if (file[i] == 0xff && file[i + 1] == 0xda) scan = i;
+    const Bytes last(file.begin() + static_cast<long>(scan), file.end() - 2);
+    Bytes many(file.begin(), file.end() - 2);
+    for (int i = 0; i < 5000; ++i) many.insert(many.end(), last.begin(), last.end());
+    many.insert(many.end(), {0xff, 0xd9});
+    EXPECT_NE(failure(many), "");
+}
+
+TEST(ImageDecode, ArithmeticCodingIsNamed) {
+    Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77});
+    for (std::size_t i = 0; i + 1 < file.size(); ++i)
+        if (file[i] == 0xff && file[i + 1] == 0xc0) file[i + 1] = 0xc9;
+    EXPECT_EQ(failure(file), "is a JPEG with arithmetic coding: not read");
+}
