@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace diptych::gltf {
@@ -116,14 +117,14 @@ public:
         const tinygltf::PbrMetallicRoughness& pbr = file_.pbrMetallicRoughness;
         Material m;
         m.name = file_.name;
-        m.base_color = glm::clamp(glm::vec4(pbr.baseColorFactor[0], pbr.baseColorFactor[1],
-                                            pbr.baseColorFactor[2], pbr.baseColorFactor[3]),
-                                  0.0f, 1.0f);
-        m.metallic = unit(pbr.metallicFactor);
-        m.roughness = unit(pbr.roughnessFactor);
-        m.normal_scale = static_cast<float>(file_.normalTexture.scale);
-        m.occlusion_strength = unit(file_.occlusionTexture.strength);
-        m.alpha_cutoff = static_cast<float>(std::max(file_.alphaCutoff, 0.0));
+        for (int c = 0; c < 4; ++c)
+            m.base_color[c] =
+                within("baseColorFactor", pbr.baseColorFactor[static_cast<std::size_t>(c)], 0, 1);
+        m.metallic = within("metallicFactor", pbr.metallicFactor, 0, 1);
+        m.roughness = within("roughnessFactor", pbr.roughnessFactor, 0, 1);
+        m.normal_scale = within("normalTexture.scale", file_.normalTexture.scale, -maxFactor, maxFactor);
+        m.occlusion_strength = within("occlusionTexture.strength", file_.occlusionTexture.strength, 0, 1);
+        m.alpha_cutoff = within("alphaCutoff", file_.alphaCutoff, 0, maxFactor);  // above 1: all is cut out
         m.alpha_mode = alphaMode();
         m.double_sided = file_.doubleSided;
         m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
@@ -141,7 +142,16 @@ private:
     Scene& scene_;
     std::string who_;
 
-    static float unit(double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); }
+    // Where glTF has no bound, or none on one side: squares and products of such stay finite in float32.
+    static constexpr double maxFactor = 1e12;
+
+    float within(const char* what, double x, double least, double most) {
+        const double inside = std::clamp(x, least, most);
+        if (inside != x)
+            scene_.notes.push_back(fmt::format("{}: {} {:g} is outside {:g} to {:g}: taken as {:g}", who_,
+                                               what, x, least, most, inside));
+        return static_cast<float>(inside);
+    }
 
     AlphaMode alphaMode() const {
         if (file_.alphaMode == "OPAQUE") return AlphaMode::opaque;
@@ -206,7 +216,7 @@ private:
             const double emitted = file_.emissiveFactor[static_cast<std::size_t>(c)] * strength;
             if (!(emitted <= static_cast<double>(std::numeric_limits<float>::max())))
                 fail(who_, fmt::format("emits {:g}, beyond any float", emitted));
-            m.emissive[c] = static_cast<float>(std::max(emitted, 0.0));
+            m.emissive[c] = within("emissiveFactor", emitted, 0, std::numeric_limits<float>::max());
         }
     }
 
@@ -217,10 +227,11 @@ private:
             m.ior = static_cast<float>(ior);
         }
         if (const auto* e = extension(file_.extensions, "KHR_materials_specular")) {
-            m.specular = unit(numberIn(*e, "specularFactor", 1, who_));
+            m.specular = within("specularFactor", numberIn(*e, "specularFactor", 1, who_), 0, 1);
             const std::vector<double> color = numbersIn(*e, "specularColorFactor", {1, 1, 1}, who_);
             for (int c = 0; c < 3; ++c)
-                m.specular_color[c] = static_cast<float>(std::max(color[static_cast<std::size_t>(c)], 0.0));
+                m.specular_color[c] =
+                    within("specularColorFactor", color[static_cast<std::size_t>(c)], 0, maxFactor);
             m.specular_texture = slotIn(*e, "specularTexture");
             m.specular_color_texture = slotIn(*e, "specularColorTexture");
         }
