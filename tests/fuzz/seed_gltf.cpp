@@ -2,12 +2,14 @@
 // Scenes that use as much of glTF 2.0 as fits into a few kilobytes.
 #include "tests/fuzz/base64.h"
 #include "tests/fuzz/seeds.h"
+#include "tests/unit/draco_maker.h"
 
-#include <nlohmann/json.hpp>
+#include <meshoptimizer.h>
 
 #include <cstdint>
-#include <initializer_list>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace diptych::fuzz {
 
@@ -17,87 +19,52 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126;
+// With its buffer inside.
+std::string textOf(GltfFile f) {
+    f.json["buffers"] = {
+        {{"byteLength", f.data.size()}, {"uri", "data:application/octet-stream;base64," + base64(f.data)}}};
+    return f.json.dump();
+}
 
-// A 2 x 1 PNG.
-constexpr const char* twoPixels =
-    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAAD0lEQVR4nGP4z8DwHwgbABB5A359Y87XAAAAAElFTkSuQmCC";
-
-struct Maker {
-    Json json = {{"asset", {{"version", "2.0"}}}, {"scene", 0}};
-    std::string data;
-
-    template <class T>
-    int view(std::initializer_list<T> values) {
-        data.resize((data.size() + 3) / 4 * 4);
-        json["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", data.size()}, {"byteLength", values.size() * sizeof(T)}});
-        data.append(reinterpret_cast<const char*>(values.begin()), values.size() * sizeof(T));
-        return static_cast<int>(json["bufferViews"].size()) - 1;
-    }
-    template <class T>
-    int accessor(int componentType, const char* type, std::size_t width, std::initializer_list<T> values,
-                 bool normalized = false) {
-        json["accessors"].push_back({{"bufferView", view(values)},
-                                     {"componentType", componentType},
-                                     {"count", values.size() / width},
-                                     {"type", type},
-                                     {"normalized", normalized}});
-        return static_cast<int>(json["accessors"].size()) - 1;
-    }
-
-    std::string text() {
-        json["buffers"] = {
-            {{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}};
-        return json.dump();
-    }
-    std::string binary() {
-        json["buffers"] = {{{"byteLength", data.size()}}};
-        std::string head = json.dump(), body = data;
-        head.resize((head.size() + 3) / 4 * 4, ' ');
-        body.resize((body.size() + 3) / 4 * 4);
-        const auto word = [](std::size_t value) {
-            std::string bytes;
-            for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xff);
-            return bytes;
-        };
-        return "glTF" + word(2) + word(28 + head.size() + body.size()) + word(head.size()) + "JSON" + head +
-               word(body.size()) + std::string("BIN\0", 4) + body;
-    }
-};
+template <class T>
+int viewOf(GltfFile& f, const std::vector<T>& values) {
+    f.data.resize((f.data.size() + 3) / 4 * 4);
+    return diptych::viewOf(f, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
 
 // A triangle with every attribute, skinned, morphed and animated.
-Maker moved() {
-    Maker m;
+GltfFile moved() {
+    GltfFile m;
     Json attributes;
-    attributes["POSITION"] = m.accessor<float>(FLOAT, "VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0});
-    attributes["NORMAL"] = m.accessor<float>(FLOAT, "VEC3", 3, {0, 0, 1, 0, 0, 1, 0, 0, 1});
-    attributes["TANGENT"] = m.accessor<float>(FLOAT, "VEC4", 4, {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1});
-    attributes["TEXCOORD_0"] = m.accessor<float>(FLOAT, "VEC2", 2, {0, 0, 1, 0, 0, 1});
-    attributes["TEXCOORD_1"] = m.accessor<std::uint16_t>(USHORT, "VEC2", 2, {0, 0, 65535, 0, 0, 65535}, true);
+    attributes["POSITION"] = m.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, FLOAT, "VEC3", 3);
+    attributes["NORMAL"] = m.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
+    attributes["TANGENT"] = m.accessor<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1}, FLOAT, "VEC4", 4);
+    attributes["TEXCOORD_0"] = m.accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC2", 2);
+    attributes["TEXCOORD_1"] = m.accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, USHORT, "VEC2", 2, true);
     attributes["COLOR_0"] =
-        m.accessor<std::uint8_t>(UBYTE, "VEC4", 4, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 128}, true);
-    attributes["JOINTS_0"] = m.accessor<std::uint8_t>(UBYTE, "VEC4", 4, {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
-    attributes["WEIGHTS_0"] = m.accessor<float>(FLOAT, "VEC4", 4, {0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
-    const Json target = {{"POSITION", m.accessor<float>(FLOAT, "VEC3", 3, {0, 0, 1, 0, 0, 1, 0, 0, 1})},
-                         {"NORMAL", m.accessor<float>(FLOAT, "VEC3", 3, {1, 0, 0, 1, 0, 0, 1, 0, 0})}};
-    const int indices = m.accessor<std::uint8_t>(UBYTE, "SCALAR", 1, {0, 1, 2});
+        m.accessor<std::uint8_t>({255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 128}, UBYTE, "VEC4", 4, true);
+    attributes["JOINTS_0"] = m.accessor<std::uint8_t>({0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, UBYTE, "VEC4", 4);
+    attributes["WEIGHTS_0"] = m.accessor<float>({0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, FLOAT, "VEC4", 4);
+    const Json target = {{"POSITION", m.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3)},
+                         {"NORMAL", m.accessor<float>({1, 0, 0, 1, 0, 0, 1, 0, 0}, FLOAT, "VEC3", 3)}};
+    const int indices = m.accessor<std::uint8_t>({0, 1, 2}, UBYTE, "SCALAR", 1);
     m.json["meshes"] = {
         {{"primitives",
           {{{"attributes", attributes}, {"indices", indices}, {"targets", {target}}, {"mode", 4}}}},
          {"weights", {0.25}}}};
-    const int binds = m.accessor<float>(FLOAT, "MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
-                                                            1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1});
+    const int binds = m.accessor<float>(
+        {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1},
+        FLOAT, "MAT4", 16);
     m.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", binds}, {"skeleton", 1}}};
     m.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"weights", {0.5}}},
                        {{"children", {2}}, {"translation", {0, 1, 0}}, {"rotation", {0, 0, 0, 1}}},
                        {{"scale", {-1, 1, 1}}}};
     m.json["scenes"] = {{{"nodes", {0, 1}}}};
-    const int times = m.accessor<float>(FLOAT, "SCALAR", 1, {0, 1});
-    const int turns = m.accessor<std::int16_t>(SHORT, "VEC4", 4, {0, 0, 0, 32767, 0, 0, 32767, 0}, true);
+    const int times = m.accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
+    const int turns = m.accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 32767, 0}, SHORT, "VEC4", 4, true);
     const int moves =
-        m.accessor<float>(FLOAT, "VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0});
-    const int weights = m.accessor<float>(FLOAT, "SCALAR", 1, {0, 1});
+        m.accessor<float>({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0}, FLOAT, "VEC3", 3);
+    const int weights = m.accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
     m.json["animations"] = {{{"samplers",
                               {{{"input", times}, {"output", turns}},
                                {{"input", times}, {"output", moves}, {"interpolation", "CUBICSPLINE"}},
@@ -110,16 +77,16 @@ Maker moved() {
 }
 
 // Primitives without normals in every mode; materials, textures and lights with every extension.
-Maker dressed() {
-    Maker m;
+GltfFile dressed() {
+    GltfFile m;
     const int positions =
-        m.accessor<std::int16_t>(SHORT, "VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, true);
+        m.accessor<std::int16_t>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, SHORT, "VEC3", 3, true);
     m.json["accessors"][0]["sparse"] = {
         {"count", 1},
-        {"indices", {{"bufferView", m.view<std::uint16_t>({3})}, {"componentType", USHORT}}},
-        {"values", {{"bufferView", m.view<std::int16_t>({1, 2, 3, 0})}}}};
-    const int texcoords = m.accessor<std::int8_t>(BYTE, "VEC2", 2, {0, 0, 1, 0, 0, 1, 1, 1});
-    const int indices = m.accessor<std::uint32_t>(UINT, "SCALAR", 1, {0, 1, 2, 3});
+        {"indices", {{"bufferView", viewOf<std::uint16_t>(m, {3})}, {"componentType", USHORT}}},
+        {"values", {{"bufferView", viewOf<std::int16_t>(m, {1, 2, 3, 0})}}}};
+    const int texcoords = m.accessor<std::int8_t>({0, 0, 1, 0, 0, 1, 1, 1}, BYTE, "VEC2", 2);
+    const int indices = m.accessor<std::uint32_t>({0, 1, 2, 3}, UINT, "SCALAR", 1);
     Json primitives = Json::array();
     for (int mode = 0; mode <= 6; ++mode)
         primitives.push_back({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", texcoords}}},
@@ -155,7 +122,7 @@ Maker dressed() {
              {"specularColorTexture", texture}}}}}},
         {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
     m.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33648}}};
-    m.json["images"] = {{{"uri", std::string("data:image/png;base64,") + twoPixels}}};
+    m.json["images"] = {{{"uri", twoPixels}}};
     m.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
     m.json["cameras"] = {
         {{"type", "perspective"},
@@ -180,13 +147,47 @@ Maker dressed() {
     return m;
 }
 
+// Positions and indices as streams of meshoptimizer.
+GltfFile packed() {
+    const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    const std::vector<unsigned> indices{0, 1, 2, 2, 1, 3};
+    std::vector<unsigned char> vertices(meshopt_encodeVertexBufferBound(4, 12));
+    vertices.resize(meshopt_encodeVertexBuffer(vertices.data(), vertices.size(), positions.data(), 4, 12));
+    std::vector<unsigned char> triangles(meshopt_encodeIndexBufferBound(6, 4));
+    triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), indices.data(), 6));
+
+    GltfFile m = GltfFile::triangle();
+    const auto accessor = [&](const std::vector<unsigned char>& stream, const char* mode, int count,
+                              int stride, int componentType, const char* type) {
+        const int packed = viewOf(m, stream);
+        Json extension = m.json["bufferViews"][static_cast<std::size_t>(packed)];
+        extension.update({{"byteStride", stride}, {"count", count}, {"mode", mode}});
+        m.json["bufferViews"].push_back({{"buffer", 0},
+                                         {"byteLength", count * stride},
+                                         {"extensions", {{"EXT_meshopt_compression", extension}}}});
+        m.json["accessors"].push_back(
+            {{"bufferView", packed + 1}, {"componentType", componentType}, {"count", count}, {"type", type}});
+        return m.json["accessors"].size() - 1;
+    };
+    m.primitive()["attributes"]["POSITION"] = accessor(vertices, "ATTRIBUTES", 4, 12, FLOAT, "VEC3");
+    m.primitive()["indices"] = accessor(triangles, "TRIANGLES", 6, 4, UINT, "SCALAR");
+    m.json["extensionsUsed"] = m.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    return m;
+}
+
 }  // namespace
 
 void writeGltfSeeds(const fs::path& out) {
-    writeSeed(out, "gltf", "moved.gltf", moved().text());
-    writeSeed(out, "gltf", "moved.glb", moved().binary());
-    writeSeed(out, "gltf", "dressed.gltf", dressed().text());
-    writeSeed(out, "gltf", "dressed.glb", dressed().binary());
+    for (const auto& [name, file] :
+         {std::pair{"moved", moved()},
+          {"dressed", dressed()},
+          {"meshopt", packed()},
+          {"draco-sequential", compressed(encoded(2, {draco::MESH_SEQUENTIAL_ENCODING}))},
+          {"draco-0", compressed(encoded(3, {draco::MESH_EDGEBREAKER_ENCODING, 0, 8}))},
+          {"draco-5", compressed(encoded(3, {draco::MESH_EDGEBREAKER_ENCODING, 5, 8, true}))}}) {
+        writeSeed(out, "gltf", name + std::string(".gltf"), textOf(file));
+        writeSeed(out, "gltf", name + std::string(".glb"), GltfFile(file).binary());
+    }
 }
 
 }  // namespace diptych::fuzz

@@ -13,10 +13,14 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
+
+#include <cstdio>  // jpeglib.h asks for its FILE
+
+#include <jpeglib.h>
 #include <png.h>
 
 #include <cmath>
-#include <stdexcept>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -152,6 +156,43 @@ void writePngSeeds(const fs::path& out) {
         }
 }
 
+// Grey and colour, sequential and progressive, with restart marks.
+std::string jpegOf(J_COLOR_SPACE colors, bool progressive) {
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &size);
+    jpeg.image_width = jpeg.image_height = side;
+    jpeg.in_color_space = colors;
+    jpeg.input_components = colors == JCS_GRAYSCALE ? 1 : colors == JCS_CMYK ? 4 : 3;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, 40, TRUE);
+    if (progressive) jpeg_simple_progression(&jpeg);
+    jpeg.restart_interval = progressive ? 0 : 2;
+    jpeg_start_compress(&jpeg, TRUE);
+    std::vector<unsigned char> row(4 * side);
+    for (std::size_t y = 0; y < side; ++y) {
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<unsigned char>(i * y);
+        unsigned char* rows[] = {row.data()};
+        jpeg_write_scanlines(&jpeg, rows, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    const std::string result(reinterpret_cast<const char*>(bytes), size);
+    std::free(bytes);
+    return result;
+}
+
+void writeJpegSeeds(const fs::path& out) {
+    for (const J_COLOR_SPACE colors : {JCS_GRAYSCALE, JCS_RGB, JCS_CMYK})
+        for (const bool progressive : {false, true})
+            writeSeed(out, "texture", std::to_string(colors) + (progressive ? "-progressive.jpg" : ".jpg"),
+                      jpegOf(colors, progressive));
+}
+
 void writeHdrSeeds(const fs::path& out) {
     using namespace std::string_literals;
     const auto head = [](const std::string& resolution) {
@@ -175,6 +216,7 @@ void writeHdrSeeds(const fs::path& out) {
 void writeImageSeeds(const fs::path& out) {
     writeExrSeeds(out);
     writePngSeeds(out);
+    writeJpegSeeds(out);
     writeHdrSeeds(out);
 }
 

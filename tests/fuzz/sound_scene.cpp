@@ -160,8 +160,9 @@ void requireSound(const Scene& scene) {
     for (const Texture& texture : scene.textures)
         require(withinOrNone(texture.image, scene.images), "a texture's image is there");
     for (const TextureImage& image : scene.images)
-        require(image.rgba.size() ==
-                    4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+        require((image.rgba.empty() || image.rgba16.empty()) &&
+                    image.rgba.size() + image.rgba16.size() ==
+                        4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
                 "an image has its pixels");
     for (const Light& light : scene.lights) {
         require(withinOrNone(light.node, scene.nodes), "a light's node is there");

@@ -8,13 +8,19 @@ using namespace diptych;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy(
         [&] {
-            bool sixteenBits = false;
-            const TextureImage image = decodeImage({data, size}, sixteenBits);
-            fuzz::require(image.width > 0 && image.height > 0, "an image has pixels");
-            fuzz::require(image.rgba.size() == 4 * static_cast<std::size_t>(image.width) *
-                                                   static_cast<std::size_t>(image.height),
-                          "a byte for every component");
-            const bool png = data[0] == 0x89;  // then its bits, its colours, and whether it is interlaced
+            const ImageHeader header = imageHeader({data, size});
+            const std::int64_t pixels = header.width * header.height;
+            fuzz::require(header.width > 0 && header.height > 0, "an image has pixels");
+            fuzz::require(header.bytes() == static_cast<std::uint64_t>(pixels * (header.deep ? 8 : 4)),
+                          "a header knows what its pixels take");
+            if (header.bytes() > fuzz::most_bytes) return;
+            const TextureImage image = decodeImage({data, size});
+            fuzz::require(image.width == header.width && image.height == header.height,
+                          "a header does not lie");
+            fuzz::require(std::ssize(image.rgba) == (header.deep ? 0 : 4 * pixels) &&
+                              std::ssize(image.rgba16) == (header.deep ? 4 * pixels : 0),
+                          "a number for every component");
+            const bool png = header.kind == ImageHeader::Kind::png;  // bits, colours, interlaced or not
             fuzz::observe(png ? std::size_t{data[24]} * 64 + std::size_t{data[25]} * 8 + data[28] : 1);
         },
         fuzz::Behind::a_library);
