@@ -116,6 +116,21 @@ TEST(GltfMotion, SkinnedMeshesStandInBindPose) {
     EXPECT_EQ(poseAt(flat, 0).instances.at(0).world_from_object[3], glm::dvec4(100, 0, 0, 1));
 }
 
+// A real one: modelled with +Z up, on its feet only through its joints. The extent is the assets' own
+// table's.
+TEST(GltfMotion, CesiumManStandsOnItsFeet) {
+    const auto file =
+        std::filesystem::path(DIPTYCH_SOURCE_DIR "/../shared") / "assets/scenes/cesium_man/CesiumMan.gltf";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "NO ASSETS at " << file << ": no real skin is tried";
+    const Scene scene = loadScene(file.string());
+    EXPECT_EQ(scene.skins.at(0).joints.size(), 19u);
+    EXPECT_EQ(scene.animations.at(0).channels.size(), 57u) << "three parts of 19 joints";
+    const Bounds bounds = worldBounds(scene, poseAt(scene, 0));
+    const glm::dvec3 extent = bounds.max - bounds.min, expected(1.14, 1.51, 0.31);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(extent[c], expected[c], 0.005) << "the table has two decimals";
+    EXPECT_NEAR(bounds.min.y, 0, 1e-3) << "a foot's sole to a millimetre";
+}
+
 TEST(GltfMotion, WithoutInverseBindMatricesTheyAreTheIdentity) {
     SkinnedFile f;
     const Scene scene = f.load();
