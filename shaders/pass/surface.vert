@@ -19,11 +19,13 @@ layout(location = 4) out vec2 out_texcoord1;
 layout(location = 5) out vec4 out_color;
 layout(location = 6) out vec2 out_slot_texcoords[SLOT_COUNT];
 
+vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
+
 // KHR_texture_transform and the choice of the UV set.
 vec2 slotTexcoord(Material m, uint slot) {
-    vec2 uv = (m.second_texcoord & (1u << slot)) != 0 ? texcoord1 : texcoord0;
+    vec2 uv = bounded((m.second_texcoord & (1u << slot)) != 0 ? texcoord1 : texcoord0);
     TextureTransform t = m.transforms[slot];
-    return vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0)));
+    return bounded(vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0))));
 }
 
 // A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's normal.
@@ -38,7 +40,7 @@ void main() {
     gl_Position = clipFromVertex(out_world);
     out_normal = unitOrZero(draw.normal_from_object * normal);
     out_tangent = vec4(unitOrZero(mat3(draw.world_from_object) * tangent.xyz), tangent.w * draw.handedness);
-    out_texcoord0 = texcoord0;
+    out_texcoord0 = bounded(texcoord0);
     out_texcoord1 = texcoord1;
     out_color = color;
     if (on(feature_texture_transform) || on(feature_second_texcoord))

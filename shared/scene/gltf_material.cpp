@@ -93,19 +93,6 @@ void readTextures(const tinygltf::Model& model, Scene& scene) {
     }
 }
 
-// KHR_texture_transform: scale, then a rotation that is counter-clockwise where v grows downwards, then the
-// offset.
-void readTransform(const tinygltf::Value& transform, TextureSlot& slot, int& texcoord,
-                   const std::string& who) {
-    const std::vector<double> offset = numbersIn(transform, "offset", {0, 0}, who);
-    const std::vector<double> scale = numbersIn(transform, "scale", {1, 1}, who);
-    const double angle = numberIn(transform, "rotation", 0, who);
-    const double c = std::cos(angle), s = std::sin(angle);
-    slot.u = {c * scale[0], s * scale[1], offset[0]};
-    slot.v = {-s * scale[0], c * scale[1], offset[1]};
-    texcoord = indexIn(transform, "texCoord", texcoord, who);
-}
-
 // ---- materials ---------------------------------------------------------------------------------------
 
 class MaterialReader {
@@ -145,12 +132,15 @@ private:
     // Where glTF has no bound, or none on one side: squares and products of such stay finite in float32.
     static constexpr double maxFactor = 1e12;
 
-    float within(const char* what, double x, double least, double most) {
+    double bounded(const std::string& what, double x, double least, double most) {
         const double inside = std::clamp(x, least, most);
         if (inside != x)
             scene_.notes.push_back(fmt::format("{}: {} {:g} is outside {:g} to {:g}: taken as {:g}", who_,
                                                what, x, least, most, inside));
-        return static_cast<float>(inside);
+        return inside;
+    }
+    float within(const std::string& what, double x, double least, double most) {
+        return static_cast<float>(bounded(what, x, least, most));
     }
 
     AlphaMode alphaMode() const {
@@ -169,7 +159,7 @@ private:
         TextureSlot result;
         const std::string who = fmt::format("{}: {}", who_, name);
         if (checkedIndex(texture, scene_.textures.size(), who, "texture") < 0) return result;
-        if (transform) readTransform(*transform, result, texcoord, who);
+        if (transform) texcoord = readTransform(*transform, name, result, texcoord);
         if (texcoord < 0 || texcoord > 1)
             scene_.notes.push_back(
                 fmt::format("{} reads TEXCOORD_{}: left out, there are two UV sets", who, texcoord));
@@ -180,6 +170,22 @@ private:
             result.texture = texture;
         result.texcoord = texcoord == 1 ? 1 : 0;
         return result;
+    }
+
+    // KHR_texture_transform: scale, then a rotation that is counter-clockwise where v grows downwards, then
+    // the offset. Returns the UV set: the transform's, or that of the texture.
+    int readTransform(const tinygltf::Value& transform, const std::string& slot, TextureSlot& result,
+                      int texcoord) {
+        const std::string who = fmt::format("{}: {}", who_, slot);
+        std::vector<double> offset = numbersIn(transform, "offset", {0, 0}, who);
+        std::vector<double> scale = numbersIn(transform, "scale", {1, 1}, who);
+        for (double& x : offset) x = bounded(slot + " offset", x, -maxFactor, maxFactor);
+        for (double& x : scale) x = bounded(slot + " scale", x, -maxFactor, maxFactor);
+        const double angle = numberIn(transform, "rotation", 0, who);
+        const double c = std::cos(angle), s = std::sin(angle);
+        result.u = {c * scale[0], s * scale[1], offset[0]};
+        result.v = {-s * scale[0], c * scale[1], offset[1]};
+        return indexIn(transform, "texCoord", texcoord, who);
     }
 
     // A texture inside an extension, which tinygltf does not know.

@@ -3,6 +3,7 @@
 #include "shared/material/textures.h"
 #include "tests/image/square.h"
 
+#include <limits>
 #include <set>
 
 namespace diptych::tests {
@@ -167,6 +168,33 @@ TEST(Textures, FiltersOfEveryKind) {
     EXPECT_NEAR(at({r, r, true, false, true, false}, 0.75, 4, 1), grey2, 1.0f / 256);
     // Drivers approximate the logarithm; linear in the mantissa it is off by up to 0.086.
     EXPECT_NEAR(at({r, r, true, false, true, true}, 0.75, 4, 1), 0.585f * grey2, 0.086f * grey2 + 0.004f);
+}
+
+// Coordinates that no texture has are still numbers, the same in both paths.
+TEST(Textures, EndlessCoordinatesGiveNumbers) {
+    constexpr float most = std::numeric_limits<float>::max();
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge})
+        for (const double scale : {1.0, 1e12})
+            for (const double offset : {0.0, -1e12}) {
+                Scene scene = square();
+                scene.meshes[0].primitives[0].texcoords[0] = {
+                    {0, most}, {most, most}, {most, -most}, {0, -most}};
+                scene.textures[0].sampler = {};
+                scene.textures[0].sampler.wrap_s = scene.textures[0].sampler.wrap_t = wrap;
+                Material& m = scene.materials[0];
+                m.base_color_texture = m.normal_texture = {0, 0, {scale, -scale, offset}, {scale, scale, 0}};
+                Light sun;
+                sun.kind = LightKind::directional;
+                scene.lights = {sun};
+                const std::vector<Frame> frames = draw(scene, 8);
+                expectSameChannels(frames[0], frames[1]);
+                for (const Frame& frame : frames) {
+                    EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name << scale << offset;
+                    for (const int mode : {albedo, normals})
+                        for (const float value : frame.channels.at(mode).data)
+                            ASSERT_TRUE(value >= -1 && value <= 1) << frame.name << scale << offset;
+                }
+            }
 }
 
 }  // namespace

@@ -290,6 +290,17 @@ TEST(GltfMaterial, EverySlotHasItsUvSetAndTransform) {
     }
 }
 
+TEST(GltfMaterial, TransformsBeyondAnyPictureAreNoted) {
+    const Scene scene =
+        withMaterial(slotCases[2].material(transformed({{"offset", {1e30, 0}}, {"scale", {1, -1e38}}})))
+            .load();
+    EXPECT_EQ(scene.materials[0].normal_texture.u, glm::dvec3(1, 0, 1e12));
+    EXPECT_EQ(scene.materials[0].normal_texture.v, glm::dvec3(0, -1e12, 0));
+    EXPECT_TRUE(mentions(
+        scene.notes, "material 0: normalTexture offset 1e+30 is outside -1e+12 to 1e+12: taken as 1e+12"));
+    EXPECT_TRUE(mentions(scene.notes, "material 0: normalTexture scale -1e+38 "));
+}
+
 TEST(GltfMaterial, AThirdUvSetIsLeftOutWithANote) {
     for (const SlotCase& c : slotCases)
         for (const Json& info : {Json{{"index", 0}, {"texCoord", 2}}, transformed({{"texCoord", 2}})}) {

@@ -188,7 +188,7 @@ Scene manyMaterials() {
 // alone, with a texture, with vertex colours, cut out, cut out by the colour's alpha, from behind.
 Scene unlitMaterials() {
     Builder b;
-    b.camera("front", {0, 0.3, 6}, {0, 0, 0}, 34, 0.1, 100);
+    b.camera("front", {0, 0.3, 7.5}, {0, 0, 0}, 34, 0.1, 100);
     b.scene.background = {0.04f, 0.05f, 0.08f};
     const TextureSlot checks =
         b.texture(checker("checker", 128, 8, {250, 180, 40, 255}, {30, 60, 160, 255}), 1);
