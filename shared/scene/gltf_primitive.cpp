@@ -151,6 +151,7 @@ private:
             touched_ = indices;
             std::sort(touched_.begin(), touched_.end());
             touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+            all_ = false;
             for (std::uint32_t& i : indices)
                 i = static_cast<std::uint32_t>(std::lower_bound(touched_.begin(), touched_.end(), i) -
                                                touched_.begin());
