@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Broken and hostile files through the whole program: a picture, or one line and exit code 2; never a crash.
+#include "tests/tool/run.h"
+
+#include <sys/resource.h>
+
+#include <sstream>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+const fs::path malformed = fs::path(DIPTYCH_SOURCE_DIR) / "../shared/assets/malformed";
+
+// The files of one class of MANIFEST.tsv: file, fault, class, ...
+std::vector<std::string> filesOf(const std::string& wanted) {
+    std::vector<std::string> files;
+    std::istringstream manifest(contentsOf(malformed / "MANIFEST.tsv"));
+    for (std::string line; std::getline(manifest, line);) {
+        std::istringstream fields(line);
+        std::string file, fault, kind;
+        std::getline(fields, file, '\t');
+        std::getline(fields, fault, '\t');
+        std::getline(fields, kind, '\t');
+        if (kind == wanted) files.push_back(file);
+    }
+    return files;
+}
+
+class Malformed : public testing::TestWithParam<const char*> {};
+
+TEST_P(Malformed, FilesEndInAPictureOrOneLine) {
+    if (!fs::exists(malformed))
+        GTEST_SKIP() << "NO ASSETS at " << malformed << ": malformed files are not drawn";
+    const Folder folder;
+    const std::vector<std::string> files = filesOf(GetParam());
+    EXPECT_GT(files.size(), 5u);
+    for (const std::string& file : files) {
+        const fs::path scene = malformed / file, picture = folder / "picture.png";
+        fs::remove(picture);
+        // A guard against hanging, far above what any takes on a busy machine.
+        const Ran ran = runShell(folder,
+                                 "timeout 120 '" DIPTYCH_PROGRAM "' render '" + scene.string() +
+                                     "' --size 64x36 --runs 0 -q -o picture.png",
+                                 folder.path());
+        if (ran.code == 0)
+            EXPECT_TRUE(fs::exists(picture) && ran.err.empty()) << file << ": " << ran.err;
+        else
+            EXPECT_TRUE(ran.failedOver(scene.string() + ": ")) << file;
+    }
+    // The largest of all that ran, the sanitizers' own memory included where there is one.
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    EXPECT_LT(usage.ru_maxrss, 1024 * 1024) << "KiB";
+}
+
+INSTANTIATE_TEST_SUITE_P(Classes, Malformed,
+                         testing::Values("memory", "semantic", "container", "numeric", "graph"),
+                         [](const auto& class_) { return std::string(class_.param); });
+
+}  // namespace
+}  // namespace diptych
