@@ -51,8 +51,11 @@ void onOutput(j_common_ptr) {}
 void onProgress(j_common_ptr common) {
     const auto& jpeg = *reinterpret_cast<j_decompress_ptr>(common);
     const std::int64_t pixels = std::int64_t{jpeg.image_width} * std::int64_t{jpeg.image_height};
-    if (std::max<std::int64_t>(pixels, 1 << 20) * jpeg.input_scan_number > maxScannedPixels)
-        ERREXIT(common, JERR_BAD_PROGRESSION);
+    if (std::max<std::int64_t>(pixels, 1 << 20) * jpeg.input_scan_number <= maxScannedPixels) return;
+    auto& errors = *reinterpret_cast<Errors*>(common->err);
+    std::snprintf(errors.message.data(), errors.message.size(), "it has %d scans or more",
+                  jpeg.input_scan_number);
+    std::longjmp(errors.out, 1);
 }
 
 // A decompressor that is made and destroyed with its scope; setjmp goes after it.
