@@ -49,6 +49,8 @@ constexpr std::array ROWS{
     Row{"unlit_materials",
         "KHR_materials_unlit beside the same materials lit: plain, textured, painted, cut out", TEST,
         builtin::unlitMaterials},
+    Row{"sixteen_bits", "textures of 16 bits beside the same in 8: dark colours, shallow normals, roughness",
+        TEST, builtin::sixteenBits},
     Row{"coplanar", "coincident triangles and bodies that pass through each other: depth ties", TEST,
         builtin::coplanar},
     Row{"deep", "0.2 m to 90 km in one view with far 1e5, seen through its corner: position from depth", TEST,

@@ -22,6 +22,7 @@ Scene occlusion();
 Scene manyMaterials();
 Scene vertexColors();
 Scene unlitMaterials();
+Scene sixteenBits();
 
 // places.cpp: where things are, and what covers what
 Scene coplanar();

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace diptych::builtin {
@@ -181,6 +182,51 @@ Scene manyMaterials() {
         b.add("tile", tile, material, glm::dvec3(0.09 * (i % 100 - 49.5), 0.1 * (24.5 - i / 100), 0));
     }
     studio(b);
+    return std::move(b.scene);
+}
+
+// Three rows of cards under grazing light, 16 bits on the left, the same in 8 bits on the right: a dark ramp
+// of base colour (8 bits: five steps), a normal map of waves a hundredth high (8 bits: terraces), a narrow
+// ramp of roughness on metal.
+Scene sixteenBits() {
+    Builder b;
+    b.camera("front", {0, 0, 6}, {0, 0, 0}, 34, 0.1, 100);
+    const auto slot = [&](const std::string& name, bool deep, const auto& texel) {
+        TextureImage image{name, 64, 64, {}};
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x)
+                for (const double value : texel(x, y)) {
+                    const double top = deep ? 65535 : 255;
+                    const auto code = static_cast<int>(std::lround(value * top));
+                    if (deep)
+                        image.rgba16.push_back(static_cast<std::uint16_t>(code));
+                    else
+                        image.rgba.push_back(static_cast<std::uint8_t>(code));
+                }
+        return b.texture(std::move(image));
+    };
+    using Texel = std::array<double, 4>;
+    const auto dark = [](int x, int y) { return Texel{x / 3200.0, y / 3200.0, (x + y) / 6400.0, 1}; };
+    const auto waves = [](int x, int) {
+        const int t = x % 32;  // a triangle wave of slopes, exact in any library
+        return Texel{0.5 + 0.01 * (t < 16 ? t - 8 : 24 - t) / 8.0, 0.5, 1, 1};
+    };
+    const auto rough = [](int x, int y) { return Texel{1, 0.2 + (x + y) / 6400.0, 1, 1}; };
+    const Primitive card = quad({-0.7, -0.5, 0}, {1.4, 0, 0}, {0, 1, 0});
+    for (const bool deep : {true, false})
+        for (int row = 0; row < 3; ++row) {
+            const int made = b.material(fmt::format("{} bits, row {}", deep ? 16 : 8, row),
+                                        {glm::vec3(0.8f), row == 2 ? 1.0f : 0.0f, row == 2 ? 1.0f : 0.3f});
+            TextureSlot& read = row == 0   ? b.scene.materials.back().base_color_texture
+                                : row == 1 ? b.scene.materials.back().normal_texture
+                                           : b.scene.materials.back().metallic_roughness_texture;
+            read = row == 0   ? slot("dark", deep, dark)
+                   : row == 1 ? slot("waves", deep, waves)
+                              : slot("rough", deep, rough);
+            b.add("card", card, made, glm::dvec3(deep ? -0.8 : 0.8, 1.1 * (1 - row), 0));
+        }
+    b.sun({0.9, -0.1, -0.3}, glm::vec3(1), 4);
+    b.point({-3, 1, 2}, glm::vec3(1), 30, 20);
     return std::move(b.scene);
 }
 
