@@ -6,6 +6,7 @@
 #include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -147,6 +148,37 @@ TEST(Png, BrokenFilesAreNamed) {
     }
     EXPECT_NE(faultOf([&] { writePng(file, {3, 3, 3, {1, 2}}); }).find("a.png"), std::string::npos);
     EXPECT_NE(faultOf([&] { writePng(file, colors(2, 2, 1)); }).find("a.png"), std::string::npos);
+}
+
+// The header alone, with another size and the checksum that belongs to it.
+std::string claiming(std::string png, std::uint32_t width, std::uint32_t height) {
+    constexpr std::size_t chunk = 12, sum = 29;  // "IHDR" and 13 bytes, then their checksum
+    const auto put = [&](std::size_t at, std::uint32_t value) {
+        for (std::size_t i = 0; i < 4; ++i) png[at + i] = static_cast<char>(value >> (24 - 8 * i));
+    };
+    put(chunk + 4, width);
+    put(chunk + 8, height);
+    put(sum, static_cast<std::uint32_t>(
+                 ::crc32(0, reinterpret_cast<const unsigned char*>(png.data()) + chunk, sum - chunk)));
+    return png;
+}
+
+TEST(Png, ClaimsAreCheckedBeforeMemoryIsTaken) {
+    const fs::path file = folder() / "a.png";
+    writePng(file, colors(64, 64, 3));
+    const std::string whole = contentsOf(file), size = std::to_string(whole.size());
+    const auto fault = [&](std::uint32_t width, std::uint32_t height,
+                           std::uint64_t most = limits::imageBytes()) {
+        const std::string png = claiming(whole, width, height);
+        return faultOf([&] { readPng(std::as_bytes(std::span(png)), "a.png", most); });
+    };
+    EXPECT_EQ(fault(64, 64), "");
+    EXPECT_EQ(fault(64, 64, 64 * 64 * 4 - 1),
+              "a.png: claims 64 x 64 pixels of 4 bytes: 0 MiB are read at most");
+    EXPECT_EQ(fault(20000, 20000),
+              "a.png: claims 20000 x 20000 pixels; its " + size + " bytes cannot hold them");
+    EXPECT_EQ(fault(70000, 1), "a.png: claims 70000 x 1 pixels: 1 to 65536 a side are read");
+    EXPECT_EQ(readPng(std::as_bytes(std::span(whole)), "a.png").data, readPng(file).data);
 }
 
 TEST(AtomicFile, WithoutACommitNothingIsLeftAndTheOldStays) {
