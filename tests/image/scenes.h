@@ -33,12 +33,33 @@ inline std::vector<std::string> builtinScenes() {
 
 // Real scenes beside the repository; a test that wants one skips where it is absent.
 inline const std::vector<std::string>& assetScenes() {
-    static const std::vector<std::string> names{"sponza/Sponza.gltf",
-                                                "flight_helmet/FlightHelmet.gltf",
-                                                "pbr_spheres/PBR_Spheres.glb",
-                                                "features/box/Box.glb",
-                                                "features/lights_punctual/Lights.glb",
-                                                "features/vertex_color_test/VertexColorTest.gltf"};
+    static const std::vector<std::string> names{
+        "cesium_man/CesiumMan.gltf",
+        "circuit_board_lights/DepthOfFieldExample.glb",
+        "dutch_ship/dutch_ship_medium_1k.gltf",
+        "flight_helmet/FlightHelmet.gltf",
+        "living_room/living_room.glb",
+        "low_poly_terrain/terrain.glb",
+        "morph_stress_test/morph_stress_test.glb",
+        "normal_tangent_test/NormalTangentTest.glb",
+        "pbr_spheres/PBR_Spheres.glb",
+        "sponza/Sponza.gltf",
+        "tree/scene.gltf",
+        "features/alpha_blend/01_alpha_blend.gltf",
+        "features/alpha_mask/01_alpha_mask.gltf",
+        "features/box/Box.glb",
+        "features/glass_table/glass_table.glb",
+        "features/interpolation_test/InterpolationTest.gltf",
+        "features/lights_punctual/Lights.glb",
+        "features/multi_uv_test/MultiUVTest.gltf",
+        "features/node_hierarchy/02_node_hierarchy.gltf",
+        "features/single_vs_double_sided/01_single_vs_double_sided.gltf",
+        "features/sparse_accessor/SimpleSparseAccessor.gltf",
+        "features/texture_transform_test/TextureTransformTest.gltf",
+        "features/triangle/Triangle.gltf",
+        "features/triangle_without_indices/TriangleWithoutIndices.gltf",
+        "features/unlit_test/UnlitTest.gltf",
+        "features/vertex_color_test/VertexColorTest.gltf"};
     return names;
 }
 

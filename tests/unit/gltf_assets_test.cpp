@@ -47,6 +47,21 @@ TEST(GltfAssets, ScenesHaveTheirTabledSizes) {
     }
 }
 
+TEST(GltfAssets, RequiredSpecularGlossinessIsRefusedByName) {
+    if (!std::filesystem::exists(assets))
+        GTEST_SKIP() << "NO ASSETS at " << assets << ": real files are not tried";
+    const std::string file =
+        (assets / "scenes/features/emission_strength/14_emission_strength.gltf").string();
+    try {
+        loadScene(file);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_EQ(std::string(e.what()), file +
+                                             ": extensionsRequired: KHR_materials_pbrSpecularGlossiness is "
+                                             "not read: export the scene without it");
+    }
+}
+
 TEST(GltfAssets, MalformedFilesEndInASceneOrOneLine) {
     if (!std::filesystem::exists(assets))
         GTEST_SKIP() << "NO ASSETS at " << assets << ": malformed files are not tried";
