@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Scenes at the ends of what a file can say, through the whole program: both paths draw them, or there is one
+// line.
+#include "tests/tool/run.h"
+
+#include <fmt/format.h>
+
+namespace diptych {
+namespace {
+
+// glTF with these nodes, all of them roots, over one mesh of one triangle in the plane z = 0, or of what else
+// the 36 bytes of positions say.
+std::string sceneOf(const std::string& nodes, std::size_t count,
+                    const std::string& positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+                    int vertices = 3) {
+    std::string roots;
+    for (std::size_t i = 0; i < count; ++i) roots += (i ? "," : "") + std::to_string(i);
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [)" + roots +
+           R"(]}], "nodes": [)" + nodes + R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": )" +
+           std::to_string(vertices) + R"(, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:;base64,)" +
+           positions + R"("}]})";
+}
+
+void expectParity(const Folder& folder, const std::string& name, const std::string& scene) {
+    folder.write(name, scene);
+    fs::remove_all(folder / "report");
+    const Ran ran = runTool(folder, "compare " + name + " --size 64x36 --runs 0 -q -o report");
+    EXPECT_EQ(ran.code, 0) << name << ": " << ran.err;
+    EXPECT_TRUE(fs::exists(folder / "report" / "index.html")) << name;
+}
+
+TEST(ExtremeScenes, SmallLargeAndFarAway) {
+    const Folder folder;
+    for (const char* scale : {"1e-3", "1", "1e4"})
+        for (const char* offset : {"0", "1e4", "1e7", "-1e9"})
+            expectParity(
+                folder, fmt::format("scale{}at{}.gltf", scale, offset),
+                sceneOf(
+                    fmt::format(R"({{"mesh": 0, "scale": [{0}, {0}, {0}], "translation": [{1}, {1}, {1}]}})",
+                                scale, offset),
+                    1));
+}
+
+TEST(ExtremeScenes, NothingToDraw) {
+    const Folder folder;
+    expectParity(folder, "no-node.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})");
+    expectParity(folder, "no-scene.gltf", R"({"asset": {"version": "2.0"}})");
+    expectParity(folder, "no-mesh.gltf",
+                 R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{}]})");
+    expectParity(folder, "one-vertex.gltf",
+                 sceneOf(R"({"mesh": 0})", 1, "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA", 1));
+    expectParity(folder, "one-place.gltf", sceneOf(R"({"mesh": 0})", 1, std::string(48, 'A')));
+}
+
+TEST(ExtremeScenes, AMillionDraws) {
+    const Folder folder;
+    constexpr std::size_t count = 1000000;
+    std::string nodes;
+    for (std::size_t i = 0; i < count; ++i)
+        nodes +=
+            fmt::format(R"({}{{"mesh": 0, "translation": [{}, {}, 0]}})", i ? "," : "", i % 1000, i / 1000);
+    folder.write("million.gltf", sceneOf(nodes, count));
+    const Ran ran = runTool(folder, "render million.gltf --size 64x36 --runs 0 -q -o million.png");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_TRUE(fs::exists(folder / "million.png"));
+}
+
+}  // namespace
+}  // namespace diptych
