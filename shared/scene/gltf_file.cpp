@@ -4,6 +4,8 @@
 #include "shared/scene/gltf_limits.h"
 #include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_value.h"
+#include "shared/text/json_depth.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -82,38 +84,18 @@ Container readContainer(const Bytes& bytes) {
 
 // ---- document ----------------------------------------------------------------------------------------
 
-// Brackets outside strings. (The parser's own callback for this takes time that grows with the square of an
-// array's length.)
-void checkNesting(std::string_view text) {
-    int level = 0;
-    bool inString = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (inString) {
-            if (c == '\\') ++i;
-            if (c == '"') inString = false;
-        } else if (c == '"') {
-            inString = true;
-        } else if (c == '[' || c == '{') {
-            if (++level > maxJsonNesting) fail(fmt::format("its JSON nests deeper than {}", maxJsonNesting));
-        } else if (c == ']' || c == '}') {
-            --level;
-        }
-    }
-}
-
 Json parse(std::string_view text) {
     if (text.empty()) fail("is empty");
-    if (text.size() > maxJsonBytes)
-        fail(fmt::format("its JSON is {} bytes: at most {} are read", text.size(), maxJsonBytes));
-    checkNesting(text);
+    if (text.size() > MAX_JSON_BYTES)
+        fail(fmt::format("its JSON is {} bytes: at most {} are read", text.size(), MAX_JSON_BYTES));
+    if (jsonDepth(text) > json_depth) fail(fmt::format("its JSON nests deeper than {}", json_depth));
     try {
         Json document = Json::parse(text);
         if (!document.is_object()) fail("its JSON is not an object");
         return document;
     } catch (const Json::exception& e) {
         const std::string_view message = e.what();  // "[json.exception.parse_error.101] parse error at ..."
-        fail(fmt::format("is not JSON: {}", shown(message.substr(message.find("] ") + 2))));
+        fail(fmt::format("is not JSON: {}", oneLine(message.substr(message.find("] ") + 2))));
     }
 }
 
@@ -123,7 +105,7 @@ void checkVersion(const Json& document) {
         asset != document.end() && asset->is_object() ? asset->value("version", Json()) : Json();
     if (!version.is_string()) fail("asset: names no version");
     const std::string text = version.get<std::string>();
-    if (!text.starts_with("2.")) fail(fmt::format("asset: version {}, not 2.0", shown(text)));
+    if (!text.starts_with("2.")) fail(fmt::format("asset: version {}, not 2.0", oneLine(text)));
 }
 
 void checkRequired(const Json& document) {
@@ -134,7 +116,7 @@ void checkRequired(const Json& document) {
     for (const Json& name : *required) {
         if (!name.is_string()) fail("extensionsRequired: holds something other than names");
         if (!isBuilt(name.get<std::string>()))
-            missing += (missing.empty() ? "" : ", ") + shown(name.get<std::string>());
+            missing += (missing.empty() ? "" : ", ") + oneLine(name.get<std::string>());
     }
     if (!missing.empty())
         fail(fmt::format("extensionsRequired: {} is not read: export the scene without it", missing));
@@ -158,8 +140,8 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
         const std::string who = fmt::format("buffer {}", i);
         const auto length = json["byteLength"].get<std::uint64_t>();
         total += length;
-        if (length > maxBufferBytes || total > maxBufferBytes)
-            fail(fmt::format("{}: buffers of more than {} bytes together: not read", who, maxBufferBytes));
+        if (length > MAX_BUFFER_BYTES || total > MAX_BUFFER_BYTES)
+            fail(fmt::format("{}: buffers of more than {} bytes together: not read", who, MAX_BUFFER_BYTES));
         tinygltf::Buffer& buffer = out.model.buffers.emplace_back();
         buffer.name = json.value("name", std::string());
         if (const auto uri = json.find("uri"); uri != json.end()) {

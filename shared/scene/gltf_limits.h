@@ -19,15 +19,14 @@ constexpr std::size_t FREE_DECODED_BYTES = std::size_t(256) << 20;
 constexpr std::size_t DECODED_BYTES_PER_BYTE = 32;
 
 // A scene file, a buffer or an image file. A .glb cannot be larger: its lengths have 32 bits.
-constexpr std::uint64_t maxFileBytes = std::uint64_t(4) << 30;
+constexpr std::uint64_t MAX_FILE_BYTES = std::uint64_t(4) << 30;
 
 // All buffers together.
-constexpr std::uint64_t maxBufferBytes = std::uint64_t(8) << 30;
+constexpr std::uint64_t MAX_BUFFER_BYTES = std::uint64_t(8) << 30;
 
 // The JSON text. Parsed it takes some 16 times as much; a million nodes are 60 to 100 MiB of it.
-constexpr std::uint64_t maxJsonBytes = std::uint64_t(256) << 20;
+constexpr std::uint64_t MAX_JSON_BYTES = std::uint64_t(256) << 20;
 
-// Arrays and objects inside each other. Scenes nest some ten deep.
-constexpr int maxJsonNesting = 64;
+// How deep it nests: json_depth (shared/text/json_depth.h).
 
 }  // namespace diptych::gltf

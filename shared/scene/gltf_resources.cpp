@@ -2,7 +2,7 @@
 #include "shared/scene/gltf_resources.h"
 
 #include "shared/scene/gltf_limits.h"
-#include "shared/scene/gltf_schema.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
@@ -73,8 +73,9 @@ void checkRelative(const std::string& name) {
     if (colon != name.npos && colon > 0 &&
         std::all_of(name.begin(), name.begin() + static_cast<long>(colon),
                     [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; }))
-        fail(shown(name) + ": only files beside the scene and data URIs are read");
-    if (name[0] == '/' || name[0] == '\\') fail(shown(name) + ": an absolute path leaves the scene's folder");
+        fail(oneLine(name) + ": only files beside the scene and data URIs are read");
+    if (name[0] == '/' || name[0] == '\\')
+        fail(oneLine(name) + ": an absolute path leaves the scene's folder");
 }
 
 }  // namespace
@@ -89,7 +90,7 @@ std::vector<unsigned char> readFile(const fs::path& file) {
     if (!fs::is_regular_file(status)) fail("is not a regular file");
     const std::uintmax_t size = fs::file_size(file, error);
     if (error) fail("cannot be read: " + error.message());
-    if (size > maxFileBytes) fail(fmt::format("is {} bytes: at most {} are read", size, maxFileBytes));
+    if (size > MAX_FILE_BYTES) fail(fmt::format("is {} bytes: at most {} are read", size, MAX_FILE_BYTES));
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail(fmt::format("cannot be read: {}", std::generic_category().message(errno)));
     Bytes bytes(size);
@@ -106,29 +107,29 @@ std::vector<unsigned char> Resources::read(const std::string& uri) const {
     if (uri.starts_with(dataScheme)) return readData(uri);
     const std::string name = percentDecoded(uri);
     checkRelative(name);
-    if (folder_.empty()) fail(shown(name) + ": only data URIs are read here");
+    if (folder_.empty()) fail(oneLine(name) + ": only data URIs are read here");
     // The words first, so that nothing outside is even asked for; then where links lead.
     const auto inside = [&](const fs::path& path) {
         return std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end()).first == folder_.end();
     };
     std::string slashes = name;
     std::ranges::replace(slashes, '\\', '/');
-    if (!inside((folder_ / slashes).lexically_normal())) fail(shown(name) + ": leaves the scene's folder");
+    if (!inside((folder_ / slashes).lexically_normal())) fail(oneLine(name) + ": leaves the scene's folder");
     std::error_code error;
     const fs::path target = fs::canonical(folder_ / name, error);
     if (error)
-        fail(fmt::format("{}: {}", shown(name),
+        fail(fmt::format("{}: {}", oneLine(name),
                          error == std::errc::no_such_file_or_directory ? "no such file" : error.message()));
-    if (!inside(target)) fail(shown(name) + ": is a link that leaves the scene's folder");
+    if (!inside(target)) fail(oneLine(name) + ": is a link that leaves the scene's folder");
     try {
         return readFile(target);
     } catch (const std::runtime_error& e) {
-        fail(fmt::format("{}: {}", shown(name), e.what()));
+        fail(fmt::format("{}: {}", oneLine(name), e.what()));
     }
 }
 
 std::string uriName(const std::string& uri) {
-    return uri.starts_with(dataScheme) ? "" : shown(percentDecoded(uri));
+    return uri.starts_with(dataScheme) ? "" : oneLine(percentDecoded(uri));
 }
 
 std::string percentDecoded(std::string_view uri) {

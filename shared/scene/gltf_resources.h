@@ -8,7 +8,7 @@
 
 namespace diptych::gltf {
 
-// A regular file's bytes, at most maxFileBytes of them. Throws std::runtime_error without its name.
+// A regular file's bytes, at most MAX_FILE_BYTES of them. Throws std::runtime_error without its name.
 std::vector<unsigned char> readFile(const std::filesystem::path& file);
 
 // What a scene's URIs may name: data inside the URI, and files in the scene's folder or below it. Symbolic

@@ -2,6 +2,7 @@
 #include "shared/scene/gltf_schema.h"
 
 #include "shared/scene/gltf_properties.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,7 +50,7 @@ std::string quoted(const Json& value) {
         case Json::value_t::array:
             return "an array";
         case Json::value_t::string:
-            return fmt::format("\"{}\"", shown(value.get_ref<const std::string&>()));
+            return fmt::format("\"{}\"", oneLine(value.get_ref<const std::string&>()));
         default:
             return value.dump();
     }
@@ -94,7 +95,7 @@ private:
                 return text(value, p, where);
             case Kind::name:
                 if (!value.is_string()) wrong(value, p.key, "text", where);
-                value = shown(value.get_ref<const std::string&>());
+                value = oneLine(value.get_ref<const std::string&>());
                 return;
             case Kind::numbers:
                 return numbers(value, p, where);
@@ -210,7 +211,7 @@ private:
     void attributes(Json& value, const Property& p, const Where& where) const {
         if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end(); ++at)
-            index(at.value(), shown(at.key()), p.of, where);
+            index(at.value(), oneLine(at.key()), p.of, where);
     }
 
     void extensions(Json& value, const Property& p, const Where& where) {
@@ -218,7 +219,7 @@ private:
         for (auto at = value.begin(); at != value.end();) {
             const auto property = std::ranges::find(p.properties, at.key(), &Property::key);
             if (property == p.properties.end()) {
-                unknown_extensions.insert(shown(at.key()));
+                unknown_extensions.insert(oneLine(at.key()));
                 at = value.erase(at);
                 continue;
             }
@@ -230,29 +231,12 @@ private:
 
 }  // namespace
 
-std::string shown(std::string_view text) {
-    constexpr std::size_t longest = 200;  // a line that people read
-    std::string line(text.substr(0, longest));
-    if (text.size() > longest) {
-        while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xc0) == 0x80) line.pop_back();
-        if (!line.empty() && static_cast<unsigned char>(line.back()) >= 0xc0) line.pop_back();
-        line += "...";
-    }
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    // Names of files need not be UTF-8, and everything that shows a line is.
-    if (std::ranges::any_of(line, [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
-        line =
-            Json::parse(Json(line).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
-    return line;
-}
-
 std::set<std::string> applySchema(nlohmann::json& document) {
     Walk walk(document);
     walk.object(document, schema::document, {});
     if (const auto used = document.find("extensionsUsed"); used != document.end())
         for (const Json& name : *used)
-            walk.unknown_extensions.insert(shown(name.get_ref<const std::string&>()));
+            walk.unknown_extensions.insert(oneLine(name.get_ref<const std::string&>()));
     return std::move(walk.unknown_extensions);
 }
 

@@ -5,7 +5,6 @@
 
 #include <set>
 #include <string>
-#include <string_view>
 
 namespace diptych::gltf {
 
@@ -15,9 +14,5 @@ namespace diptych::gltf {
 // and taken out. Throws std::runtime_error: "accessor 3: count is \"36\", not a whole number". Source:
 // Khronos, glTF 2.0 Specification, 2021, section 5 and the extensions' own texts.
 std::set<std::string> applySchema(nlohmann::json& document);
-
-// `text` as a line shows it: control characters become spaces, what is not UTF-8 becomes U+FFFD, what is
-// long is cut.
-std::string shown(std::string_view text);
 
 }  // namespace diptych::gltf

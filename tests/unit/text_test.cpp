@@ -12,6 +12,11 @@ namespace {
 
 TEST(OneLine, ControlCharactersAreShownAsQuestionMarks) {
     EXPECT_EQ(oneLine("a name"), "a name");
+    EXPECT_EQ(oneLine("\xff\xc3(\xe4 \xed\xa0\x80"), std::string(2, '?') + "(" + "? " + std::string(3, '?'))
+        << "no UTF-8: a lone byte, leads without their rest, half a pair of UTF-16";
+    EXPECT_EQ(oneLine("\xf4\x90\x80\x80\xc0\x80"), std::string(6, '?'))
+        << "beyond the last character, two bytes for one";
+    EXPECT_EQ(oneLine("\u00e4\u20ac\U0001f600"), "\u00e4\u20ac\U0001f600");
     EXPECT_EQ(oneLine("a\nb\tc\x1b[1md\x7f"), "a?b?c?[1md?");
     EXPECT_EQ(oneLine(std::string_view("a\0b", 3)), "a?b");
     EXPECT_EQ(oneLine("größer"), "größer");
