@@ -40,15 +40,19 @@ int runCompare(const Options& options) {
     say(options, "on " + device.info().name);
     std::vector<Frame> frames;
     std::vector<Requirements> needs;
+    std::vector<std::vector<FeatureMarks>> marks;  // per pair of frames
     for (const std::string& name : options.scenes) {
         say(options, name);
         const Scene scene = loadShown(options, name);
         needs.insert(needs.end(), settings.size(), needsOf(scene, options.settings));
-        std::ranges::move(renderAll(device, scene, settings, render), std::back_inserter(frames));
+        std::vector<Frame> drawn = renderAll(device, scene, settings, render);
+        for (std::size_t i = 0; i < drawn.size(); i += 2) marks.push_back(marksOf(scene, drawn[i]));
+        std::ranges::move(drawn, std::back_inserter(frames));
     }
     checkValidation(device);
 
-    const Report report = makeReport(std::move(frames), needs, reportDevice(device), options.baseline);
+    const Report report =
+        makeReport(std::move(frames), needs, reportDevice(device), options.baseline, std::move(marks));
     const std::string json =
         writeReport(report, folder, {options.picture, options.single_file, options.force});
     if (options.json)

@@ -133,7 +133,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
 }
 
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
-                  Path baseline) {
+                  Path baseline, std::vector<std::vector<FeatureMarks>> marks) {
     const auto start = std::chrono::steady_clock::now();
     Report report;
     report.device = std::move(device);
@@ -141,6 +141,7 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
     for (std::size_t i = 0; i + 1 < report.frames.size(); i += 2) {
         const bool swapped = report.frames[i + 1].settings.path == baseline;
         report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i)));
+        if (!marks.empty()) report.comparisons.back().marks = std::move(marks.at(i / 2));
     }
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -2,6 +2,7 @@
 // Two Frames, channel by channel: numbers, tolerance, verdict.
 #pragma once
 
+#include "compare/marks.h"
 #include "compare/metrics.h"
 #include "compare/tolerance.h"
 #include "shared/frame/debug_modes.h"
@@ -34,6 +35,7 @@ struct Comparison {
     Coverage coverage;
     std::vector<std::string> failures;  // beside the channels', e.g. a capture that is not the timed frame
     std::vector<std::string> notes;     // what a reader must know and what is no failure
+    std::vector<FeatureMarks> marks;    // what no comparison shows and a person must look at
 
     bool passed() const;
 };
@@ -53,15 +55,15 @@ struct Report {
     const Frame& test(const Comparison& comparison) const { return frames[comparison.test]; }
 };
 
-// frames[test] against frames[baseline] of the report, over their common channels that were asked for; what only one of them has
-// and only forward+ can make is listed as forward-only and never counts. Throws std::runtime_error where the
-// two differ in size or share no channel.
+// frames[test] against frames[baseline] of the report, over their common channels that were asked for; what
+// only one of them has and only forward+ can make is listed as forward-only and never counts. Throws
+// std::runtime_error where the two differ in size or share no channel.
 Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,
                          const Requirements& needs);
 
 // The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
-// drawn by `baseline` becomes the left panel. `needs`: one entry per frame.
+// drawn by `baseline` becomes the left panel. `needs`: one entry per frame; `marks`: one per pair, or none.
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
-                  Path baseline = Path::deferred);
+                  Path baseline = Path::deferred, std::vector<std::vector<FeatureMarks>> marks = {});
 
 }  // namespace diptych

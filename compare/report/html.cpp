@@ -73,6 +73,22 @@ std::string notes(const Report& report) {
     return listBox("notes", "Notes", items);
 }
 
+// Where to look last: what passes may still be wrong in both paths.
+std::string marksLinks(const Report& report) {
+    std::string items;
+    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+        const Comparison& comparison = report.comparisons[i];
+        const std::string line = marksLine(comparison);
+        if (line.empty()) continue;
+        const std::string where =
+            report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) + ": " : "";
+        const std::size_t colon = line.find(':');
+        items += fmt::format("<li>{}<a href=\"#eye-{}\">{}</a><span class=\"soft\">{}</span></li>", where, i,
+                             markup(line.substr(0, colon)), markup(line.substr(colon)));
+    }
+    return listBox("notes", "Both paths may be wrong alike", items);
+}
+
 std::string used(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
     // There max meets the tolerance by construction, and a full meter would read as "just barely".
@@ -126,12 +142,12 @@ std::string footer(const Report& report, const ReportLayout& layout) {
 }  // namespace
 
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
-    std::string body = header(report) + failures(report) + notes(report);
+    std::string body = header(report) + failures(report) + notes(report) + marksLinks(report);
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
         const Comparison& comparison = report.comparisons[i];
         body += fmt::format("<section><h2>{}</h2>\n",
                             report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) : "Channels");
-        body += overview(comparison, i) + channelCards(report, layout, i);
+        body += overview(comparison, i) + channelCards(report, layout, i) + marksSection(report, layout, i);
         body += "<h2>What was drawn</h2>\n" + frameTables(report, comparison) + "</section>\n";
     }
     return fmt::format(

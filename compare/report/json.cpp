@@ -60,11 +60,25 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     return json;
 }
 
+Json jsonOf(const FeatureMarks& feature, const Mark& mark) {
+    const PixelBox& box = mark.box;
+    return {{"feature", feature.feature},
+            {"what", mark.what},
+            {"where", mark.where},
+            {"box", {box.x0, box.y0, box.x1, box.y1}},
+            {"pixels", mark.pixels}};
+}
+
 Json jsonOf(const Report& report, const Comparison& comparison) {
     const Frame& baseline = report.baseline(comparison);
     Json channels = Json::array();
     for (const ChannelDiff& channel : comparison.channels)
         channels.push_back(jsonOf(report, comparison, channel));
+    Json marks = Json::array(), found = Json::object();
+    for (const FeatureMarks& feature : comparison.marks) {
+        found[std::string(feature.feature)] = feature.found;
+        for (const Mark& mark : feature.marks) marks.push_back(jsonOf(feature, mark));
+    }
     return {{"scene", baseline.scene},
             {"camera", jsonOf(baseline.camera)},
             {"baseline", baseline.name},
@@ -73,7 +87,9 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
             {"covered_pixels", comparison.coverage.count},
             {"failures", comparison.failures},
             {"notes", comparison.notes},
-            {"channels", channels}};
+            {"channels", channels},
+            {"marks", marks},
+            {"marks_found", found}};
 }
 
 }  // namespace

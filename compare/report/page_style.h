@@ -25,6 +25,7 @@ h1 { font-size: 27px; line-height: 1.2; font-weight: 650; letter-spacing: -.015e
 h2 { font-size: 19px; font-weight: 650; letter-spacing: -.01em; margin: 44px 0 12px; }
 h3 { font-size: 17px; font-weight: 650; margin: 0; }
 h4 { font-size: 12px; font-weight: 600; text-transform: uppercase; letter-spacing: .06em; color: var(--soft); margin: 0 0 8px; }
+header { overflow-wrap: anywhere; }
 p { margin: 0; } .soft { color: var(--soft); }
 .mono, td.n, dd, .values { font-family: ui-monospace, "SF Mono", "Cascadia Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace;
   font-size: .88em; font-variant-numeric: tabular-nums; }
@@ -88,6 +89,18 @@ dt { color: var(--soft); } dd { margin: 0; text-align: right; }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 16px; align-items: start; }
 .bar { display: block; height: 9px; border-radius: 2px; min-width: 1px; } .bar.a { background: var(--first); } .bar.b { background: var(--second); }
 td.bars { width: 60%; } .settings { margin-top: 16px; } .settings .scroll { margin-top: 10px; } .camera { margin: 12px 2px; font-size: 13.5px; }
+svg.sources { position: absolute; }
+.marks { scroll-margin-top: 10px; } .marks > p { margin-bottom: 14px; }
+.view { display: none; margin-bottom: 16px; padding: 14px; scroll-margin-top: 14px; }
+.view:target, .views:not(:has(:target)) > .view:first-child { display: block; }
+.view svg { display: block; width: 100%; max-height: 70vh; } .view.near svg { image-rendering: pixelated; }
+.view rect { fill: none; vector-effect: non-scaling-stroke; } .view .under { stroke: #0009; stroke-width: 3px; }
+.view .edge { stroke: #fff; stroke-width: 1px; }
+.view figcaption { justify-content: space-between; font-size: 14px; color: var(--ink); } .view .legend { color: var(--soft); overflow-wrap: anywhere; }
+.walk a { margin-left: 10px; }
+.marks td { vertical-align: top; padding-right: 18px; } .marks td.wide { min-width: 240px; } .marks td br + .soft { font-size: 13px; } .marks tr.more td { border-top: 0; padding-top: 0; }
+.place { display: inline-block; margin-right: 14px; } .place > * { overflow-wrap: anywhere; }
+.place > * + * { margin-left: 5px; padding: 0 5px; border: 1px solid var(--line); border-radius: 4px; font-size: 12px; }
 footer { margin-top: 48px; padding-top: 16px; border-top: 1px solid var(--line); font-size: 13px; color: var(--soft); }
 footer a + a::before { content: "\00b7"; color: var(--soft); margin: 0 7px; }
 @media (max-width: 800px) {
@@ -95,6 +108,9 @@ footer a + a::before { content: "\00b7"; color: var(--soft); margin: 0 7px; }
   .pictures { grid-template-columns: minmax(0, 1fr); } .card .body { padding: 0 12px 14px; } .card > summary { padding: 12px; }
   .optional { display: none; }
   .box { padding: 12px; } th, td { padding-right: 8px; } th:first-child, td:first-child { white-space: normal; overflow-wrap: anywhere; }
+  .view .pair.side { grid-template-columns: 1fr; } .walk a { margin: 0 10px 0 0; }
+  .marks tr, .marks td { display: block; } .marks th, .marks tr.more td:first-child { display: none; }
+  .marks td { border-top: 0; padding: 1px 0; } .marks tr + tr { border-top: 1px solid var(--line); padding: 8px 0; } .marks tr.more { border-top: 0; }
   .verdict { padding: 1px 6px; font-size: 11px; } td.n + td:not(.n), th.n + th:not(.n) { padding-left: 4px; }
 }
 @media print { .card { break-inside: avoid; } .buttons { display: none; } }

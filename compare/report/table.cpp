@@ -68,6 +68,7 @@ std::string reportTable(const Report& report) {
                     out += fmt::format(", worst at {},{}", channel.stats.worst_x, channel.stats.worst_y);
                 out += fmt::format(" ({})\n", channel.tolerance.because);
             }
+        if (const std::string marks = marksLine(comparison); !marks.empty()) out += "  " + marks + "\n";
         for (const std::string& note : notesOf(report, comparison))
             if (said.insert(note).second) out += "  note: " + note + "\n";
     }

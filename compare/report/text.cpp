@@ -99,6 +99,18 @@ std::vector<std::string> notesOf(const Report& report, const Comparison& compari
     return notes;
 }
 
+std::string marksLine(const Comparison& comparison) {
+    std::uint64_t count = 0;
+    std::vector<std::string> features;
+    for (const FeatureMarks& feature : comparison.marks) {
+        count += feature.found;
+        features.push_back(fmt::format("{} {}", feature.feature, feature.found));
+    }
+    if (count == 0) return {};
+    return fmt::format("{} place{} to check by eye: {}", count, count == 1 ? "" : "s",
+                       fmt::join(features, ", "));
+}
+
 std::string verdictLine(const Report& report) {
     std::size_t compared = 0, failedFrames = 0;
     std::vector<std::string_view> failed;

@@ -24,10 +24,13 @@ std::string pairTitle(const Report& report, const Comparison& comparison);
 // The channels as people want to read them: failures, then passes, then forward-only.
 std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison);
 
-// "pass: 14 channels within tolerance", "FAIL: lit, normals".
 // The comparison's notes and those of its two Frames, each once.
 std::vector<std::string> notesOf(const Report& report, const Comparison& comparison);
 
+// "3 places to check by eye: texture transforms 2, alpha masks 1"; empty where there are none.
+std::string marksLine(const Comparison& comparison);
+
+// "pass: 14 channels within tolerance", "FAIL: lit, normals".
 std::string verdictLine(const Report& report);
 
 }  // namespace diptych

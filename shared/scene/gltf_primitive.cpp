@@ -332,6 +332,7 @@ private:
     // A normal texture asks for MikkTSpace's tangents where the file has none; nothing else reads them.
     void finishTangents() {
         if (result_.tangents.empty()) {
+            result_.tangents_made = true;
             const TextureSlot& slot =
                 use_.materials[static_cast<std::size_t>(result_.material)].normal_texture;
             return makeTangents(result_, slot.texture >= 0 ? slot.texcoord : -1);

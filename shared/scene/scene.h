@@ -87,6 +87,7 @@ struct Primitive {
     std::vector<std::uint32_t> indices;  // three a triangle
     int material = 0;                    // into Scene::materials, always valid
     bool flat = false;  // the normals are the triangles' own: they follow from the positions, posed or not
+    bool tangents_made = false;  // by makeTangents: the file has none to use
 };
 
 struct Mesh {

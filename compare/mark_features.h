@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What may be wrong in both paths alike, and what is seen where it is right.
+#pragma once
+
+#include "shared/scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <string>
+
+namespace diptych {
+
+//  name              heading of the report
+#define MARK_FEATURES(X)                       \
+    X(texture_transform, "texture transforms") \
+    X(second_texcoord, "second UV set")        \
+    X(sampler, "samplers")                     \
+    X(normal_map, "normal maps")               \
+    X(vertex_colors, "vertex colours")         \
+    X(alpha_mask, "alpha masks")               \
+    X(blend, "blending")                       \
+    X(double_sided, "double-sided surfaces")   \
+    X(mirrored, "mirrored instances")          \
+    X(unlit, "unlit materials")                \
+    X(deep_image, "16 bit images")             \
+    X(skin, "skins")                           \
+    X(morph, "morph targets")                  \
+    X(flat, "flat normals")                    \
+    X(orientation, "orientation")
+
+enum class MarkFeature {
+#define DIPTYCH_MARK_FEATURE(name, heading) name,
+    MARK_FEATURES(DIPTYCH_MARK_FEATURE)
+#undef DIPTYCH_MARK_FEATURE
+};
+inline constexpr const char* markHeadings[] = {
+#define DIPTYCH_MARK_FEATURE(name, heading) heading,
+    MARK_FEATURES(DIPTYCH_MARK_FEATURE)
+#undef DIPTYCH_MARK_FEATURE
+};
+inline constexpr std::size_t markFeatureCount = std::size(markHeadings);
+
+// Bit f: MarkFeature f.
+using MarkFeatures = std::uint32_t;
+constexpr MarkFeatures bitOf(MarkFeature feature) {
+    return MarkFeatures{1} << static_cast<unsigned>(feature);
+}
+
+// What a primitive shows wherever it stands; reads each of its vertices once. A feature that cannot change a
+// pixel (white vertex colours, an edge mode where no coordinate passes the edge) is none.
+MarkFeatures featuresOf(const Scene& scene, const Primitive& primitive);
+
+// With what depends on the place.
+MarkFeatures featuresOf(const Scene& scene, const Instance& instance, MarkFeatures ofPrimitive);
+
+// What is seen where it is right, for people.
+class MarkSentences {
+public:
+    explicit MarkSentences(const Scene& scene) : scene_(scene) {}
+
+    // "Base colour: offset 0.5 0. What is pictured there (arrows, frames, seams) falls into place."
+    std::string of(const Instance& instance, MarkFeature feature);
+
+private:
+    float leastAlpha(const Primitive& primitive);
+    std::string ofMask(const Primitive& primitive);
+
+    const Scene& scene_;
+    std::map<int, float> least_alpha_;  // of the texels of an image; looked up once
+};
+
+}  // namespace diptych
