@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What a report leaves: files, keys, escapes, and that nothing of others is touched.
 #include "compare/report/report.h"
-#include "compare/picture.h"
 #include "compare/report/files.h"
 #include "compare/report/json.h"
 #include "compare/report/text.h"
-#include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "tests/unit/files.h"
+#include "tests/unit/report_maker.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -25,61 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// The fault of a text that is no well-formed markup: an unclosed or crossed element, a bare & or <. `voids`
-// are elements that HTML closes by itself.
-std::string markupFault(const std::string& text, const std::set<std::string>& voids = {}) {
-    std::vector<std::string> open;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '&' && text.find(';', i) > i + 8) return "bare & at " + text.substr(i, 20);
-        if (text[i] != '<') continue;
-        const std::size_t end = text.find('>', i);
-        if (end == std::string::npos) return "bare < at " + text.substr(i, 20);
-        std::string tag = text.substr(i + 1, end - i - 1);
-        if (std::ranges::count(tag, '"') % 2 != 0 || tag.find('<') != std::string::npos)
-            return "broken tag " + tag;
-        i = end;
-        if (tag.starts_with('?') || tag.starts_with('!') || tag.ends_with('/')) continue;
-        const std::string name = tag.substr(0, tag.find(' '));
-        if (tag.starts_with('/')) {
-            if (open.empty() || "/" + open.back() != tag) return "unexpected <" + tag + ">";
-            open.pop_back();
-        } else if (!voids.contains(name)) {
-            open.push_back(name);
-            if (name == "style" || name == "script") i = text.find("</" + name, end) - 1;
-        }
-    }
-    return open.empty() ? "" : "unclosed <" + open.back() + ">";
-}
-
-// Both paths of one small scene, one surface pixel among background; every channel there.
-std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
-    std::vector<Frame> frames(2);
-    for (const Path path : {Path::deferred, Path::forward_plus}) {
-        Frame& frame = frames[path == Path::forward_plus];
-        frame.name = std::string(nameOf(path));
-        frame.scene = scene;
-        frame.settings.path = path;
-        frame.settings.size = {4, 3};
-        frame.background = {0, 0, 1};
-        frame.camera.far = std::numeric_limits<double>::infinity();
-        frame.time = {2, 1, 3, 5};
-        frame.passes = {{"shade", 1.5}};
-        for (const DebugMode& mode : debugModes()) {
-            if (path == Path::deferred && mode.maker == MadeBy::forward_only) continue;
-            Image& image = frame.channels[mode.number] = Image(4, 3, mode.width);
-            if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
-            for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;
-        }
-    }
-    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
-        frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
-    return frames;
-}
-
-Report reportOf(std::vector<Frame> frames) {
-    const std::vector<Requirements> needs(frames.size());
-    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"});
-}
 Report passing() {
     return reportOf(bothFrames());
 }
@@ -184,8 +128,6 @@ TEST(Report, TheMarkupCheckFindsFaults) {
     EXPECT_NE(markupFault("<a>x & y and more</a>"), "");
     EXPECT_EQ(markupFault("<a b=\"c\">x &amp; y<br></a>", {"br"}), "");
 }
-
-const std::set<std::string> htmlVoids{"meta", "img", "input", "br"};
 
 TEST(Report, ThePageStandsAloneWithFailuresFirst) {
     const fs::path out = folder() / "report";
@@ -408,88 +350,6 @@ TEST(Report, OneFrameAsFileOrFolder) {
     EXPECT_THROW(writeFrame(bothFrames()[0], {}, {OutputKind::png, here / "t.png"},
                             debugMode(gpu::DEBUG_texcoords), {}, false),
                  std::runtime_error);
-}
-
-// Nine dark pixels and one bright one in twenty: the log-average alone would burn the bright one out.
-TEST(Picture, HighlightsHoldTheAutomaticExposure) {
-    Image lit(20, 1, 3, 0.01f);
-    for (int x = 0; x < 2; ++x)
-        for (int c = 0; c < 3; ++c) lit.at(x, 0, c) = 2;
-    Coverage all;
-    all.covered.assign(20, true);
-    EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 2, 1e-9);
-}
-
-TEST(Picture, BackgroundAndExposure) {
-    const Frame frame = bothFrames()[0];
-    const DebugMode& lit = debugMode(gpu::DEBUG_lit);
-    PictureChoice choice;
-    choice.tonemap = false;
-    const Exposure automatic =
-        exposureFor(choice, &frame.channels.at(gpu::DEBUG_lit), coverage(frame, frame));
-    EXPECT_DOUBLE_EQ(automatic.factor, 0.18 / 0.5) << "one covered pixel of luminance 0.5";
-    const Frame* frames[] = {&frame};
-    const Image8 image = picture(lit, frame, scaleFor(lit, automatic, frames));
-    EXPECT_EQ(image.data[3 * (2 * 4 + 1)], 118) << "sRGB of 0.18 is 117.6";
-    EXPECT_EQ(image.data[0], 0);
-    EXPECT_EQ(image.data[2], std::lround(255 * srgbFromLinear(0.36)))
-        << "background (0, 0, 1) at exposure 0.36";
-    choice.ev100 = 0;
-    EXPECT_DOUBLE_EQ(exposureFor(choice, nullptr, {}).factor, 1 / 1.2);
-    choice.exposure = 3;
-    EXPECT_EQ(exposureFor(choice, nullptr, {}).factor, 3);
-}
-
-TEST(Picture, SrgbByTheStandard) {
-    EXPECT_EQ(srgbFromLinear(0), 0);
-    EXPECT_DOUBLE_EQ(srgbFromLinear(1), 1);
-    EXPECT_NEAR(srgbFromLinear(0.0031308), 0.04045, 1e-5) << "both pieces meet";
-    EXPECT_NEAR(srgbFromLinear(0.2158605), 0.5019608, 1e-6) << "code 128";
-}
-
-// The curve's own claims: what is below its shoulder is only shifted by the Fresnel offset of 0.04; it
-// never leaves [0, 1] and keeps order.
-TEST(Picture, PbrNeutral) {
-    const auto mid = pbrNeutral({0.5f, 0.4f, 0.3f});
-    EXPECT_FLOAT_EQ(mid[0], 0.46f);
-    EXPECT_FLOAT_EQ(mid[2], 0.26f);
-    float last = -1;
-    for (float x = 0; x < 1000; x = x * 1.1f + 0.01f) {
-        const float y = pbrNeutral({x, x, x})[0];
-        EXPECT_GT(y, last - 1e-6f);
-        EXPECT_LE(y, 1);
-        last = y;
-    }
-}
-
-TEST(Picture, ErrorsBrightenMonotonicallyAndWhatIsBeyondStandsOut) {
-    double last = -1;
-    for (int i = 0; i <= 64; ++i) {
-        const auto c = errorColor(i / 64.0);
-        const auto linear = [](double v) {
-            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-        };
-        const double y =
-            0.2126 * linear(c[0] / 255.0) + 0.7152 * linear(c[1] / 255.0) + 0.0722 * linear(c[2] / 255.0);
-        EXPECT_GT(y, last) << i;
-        last = y;
-    }
-    Image errors(4, 1, 1);
-    errors.data = {0, 0.5f, 2, std::numeric_limits<float>::infinity()};
-    const Image8 image = errorPicture(errors, 1);
-    const auto at = [&](std::size_t i) {
-        return std::array<std::uint8_t, 3>{image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]};
-    };
-    EXPECT_EQ(at(0), (std::array<std::uint8_t, 3>{}));
-    EXPECT_NE(at(1), at(0));
-    EXPECT_EQ(at(2), beyondColor);
-    EXPECT_EQ(at(3), nonfiniteColor);
-}
-
-TEST(Picture, HalfSizeAverages) {
-    const Image8 image{2, 2, 3, {0, 0, 0, 4, 4, 4, 8, 8, 8, 12, 12, 12}};
-    EXPECT_EQ(halfSize(image).data, (std::vector<std::uint8_t>{6, 6, 6}));
-    EXPECT_EQ(halfSize({1, 1, 3, {9, 8, 7}}).data, (std::vector<std::uint8_t>{9, 8, 7}));
 }
 
 // RFC 4648's own examples.

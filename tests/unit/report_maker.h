@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Small reports that a test makes, and how their pages are read.
+#pragma once
+
+#include "compare/diff.h"
+#include "compare/report/report.h"
+#include "shared/contract/debug_mode.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+// The fault of a text that is no well-formed markup: an unclosed or crossed element, a bare & or <. `voids`
+// are elements that HTML closes by itself.
+inline std::string markupFault(const std::string& text, const std::set<std::string>& voids = {}) {
+    std::vector<std::string> open;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '&' && text.find(';', i) > i + 8) return "bare & at " + text.substr(i, 20);
+        if (text[i] != '<') continue;
+        const std::size_t end = text.find('>', i);
+        if (end == std::string::npos) return "bare < at " + text.substr(i, 20);
+        std::string tag = text.substr(i + 1, end - i - 1);
+        if (std::ranges::count(tag, '"') % 2 != 0 || tag.find('<') != std::string::npos)
+            return "broken tag " + tag;
+        i = end;
+        if (tag.starts_with('?') || tag.starts_with('!') || tag.ends_with('/')) continue;
+        const std::string name = tag.substr(0, tag.find(' '));
+        if (tag.starts_with('/')) {
+            if (open.empty() || "/" + open.back() != tag) return "unexpected <" + tag + ">";
+            open.pop_back();
+        } else if (!voids.contains(name)) {
+            open.push_back(name);
+            if (name == "style" || name == "script") i = text.find("</" + name, end) - 1;
+        }
+    }
+    return open.empty() ? "" : "unclosed <" + open.back() + ">";
+}
+
+// Both paths of one small scene, one surface pixel among background; every channel there.
+inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
+    std::vector<Frame> frames(2);
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Frame& frame = frames[path == Path::forward_plus];
+        frame.name = std::string(nameOf(path));
+        frame.scene = scene;
+        frame.settings.path = path;
+        frame.settings.size = {4, 3};
+        frame.background = {0, 0, 1};
+        frame.camera.far = std::numeric_limits<double>::infinity();
+        frame.time = {2, 1, 3, 5};
+        frame.passes = {{"shade", 1.5}};
+        for (const DebugMode& mode : debugModes()) {
+            if (path == Path::deferred && mode.maker == MadeBy::forward_only) continue;
+            Image& image = frame.channels[mode.number] = Image(4, 3, mode.width);
+            if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
+            for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;
+        }
+    }
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
+        frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+    return frames;
+}
+
+inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureMarks>> marks = {}) {
+    const std::vector<Requirements> needs(frames.size());
+    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, Path::deferred, std::move(marks));
+}
+// Elements that HTML closes by itself.
+inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br"};
+
+}  // namespace diptych
