@@ -47,8 +47,12 @@ glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who) {
     glm::dmat4 m(1.0);
     if (!node.matrix.empty()) {
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-        if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
-            fail(who, "the last row of its matrix is not 0 0 0 1");
+        // Exporters multiply matrices in float32: its last row may be off by some roundings.
+        constexpr double rounding = 1e-4;
+        const glm::dvec4 row(m[0][3], m[1][3], m[2][3], m[3][3] - 1);
+        if (!(glm::length(row) <= rounding)) fail(who, "the last row of its matrix is not 0 0 0 1");
+        m[0][3] = m[1][3] = m[2][3] = 0;
+        m[3][3] = 1;
         return m;
     }
     if (!node.rotation.empty()) {
@@ -154,9 +158,9 @@ Light readLight(const tinygltf::Light& l, const std::string& who) {
     if (l.range < 0) fail(who, fmt::format("range {:g} is negative", l.range));
     if (l.range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(l.range);
     if (light.kind == LightKind::spot) {
-        if (!(l.spot.innerConeAngle >= 0 && l.spot.innerConeAngle < l.spot.outerConeAngle &&
+        if (!(l.spot.innerConeAngle >= 0 && l.spot.innerConeAngle <= l.spot.outerConeAngle &&
               l.spot.outerConeAngle <= glm::half_pi<double>() + 1e-6))  // a rounded pi / 2 is one
-            fail(who, fmt::format("cone angles {:g} and {:g} are not 0 <= inner < outer <= pi / 2",
+            fail(who, fmt::format("cone angles {:g} and {:g} are not 0 <= inner <= outer <= pi / 2",
                                   l.spot.innerConeAngle, l.spot.outerConeAngle));
         light.inner_cone = static_cast<float>(l.spot.innerConeAngle);
         light.outer_cone = static_cast<float>(std::min(l.spot.outerConeAngle, glm::half_pi<double>()));

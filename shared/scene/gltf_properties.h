@@ -201,7 +201,8 @@ constexpr Property camera[] = {required(text("type", "perspective orthographic")
                                object("perspective", perspective), object("orthographic", orthographic),
                                name()};
 
-constexpr Property channelTarget[] = {index("node", "nodes"), required(text("path"))};
+constexpr Property channelTarget[] = {index("node", "nodes"),
+                                      required(Property{.key = "path", .kind = Kind::name})};
 constexpr Property channel[] = {required(whole("sampler")), required(object("target", channelTarget))};
 constexpr Property animationSampler[] = {required(index("input", "accessors")),
                                          text("interpolation", "LINEAR STEP CUBICSPLINE"),

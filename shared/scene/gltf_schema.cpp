@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -163,8 +164,9 @@ private:
     static void text(const Json& value, const Property& p, const Where& where) {
         if (!value.is_string()) wrong(value, p.key, "text", where);
         if (p.choices.empty()) return;
-        const std::string padded = fmt::format(" {} ", value.get_ref<const std::string&>());
-        if (fmt::format(" {} ", p.choices).find(padded) == std::string::npos)
+        const std::string& text = value.get_ref<const std::string&>();
+        if (text.find(' ') != text.npos ||
+            fmt::format(" {} ", p.choices).find(fmt::format(" {} ", text)) == std::string::npos)
             wrong(value, p.key, fmt::format("one of {}", p.choices), where);
     }
 
@@ -210,8 +212,11 @@ private:
 
     void attributes(Json& value, const Property& p, const Where& where) const {
         if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
-        for (auto at = value.begin(); at != value.end(); ++at)
-            index(at.value(), oneLine(at.key()), p.of, where);
+        for (auto at = value.begin(); at != value.end(); ++at) {
+            const std::string name = oneLine(at.key());
+            if (name != at.key()) fail(where, fmt::format("{} is no name of an attribute", name));
+            index(at.value(), name, p.of, where);
+        }
     }
 
     void extensions(Json& value, const Property& p, const Where& where) {
@@ -229,11 +234,50 @@ private:
     }
 };
 
+// What one property says of another.
+void checkAccessors(const Json& document) {
+    constexpr std::array types{5120, 5121, 5122, 5123, 5125, 5126};
+    static const Json none = Json::array();
+    for (std::size_t i = 0;
+         const Json& accessor : document.contains("accessors") ? document["accessors"] : none) {
+        const Where where{nullptr, "accessor", i++};
+        if (const int type = accessor["componentType"].get<int>();
+            std::ranges::find(types, type) == types.end())
+            fail(where, fmt::format("componentType {} is none of glTF's", type));
+        if (accessor.contains("sparse") && accessor["sparse"]["count"] > accessor["count"])
+            fail(where, fmt::format("{} sparse elements of {}", accessor["sparse"]["count"].dump(),
+                                    accessor["count"].dump()));
+    }
+    for (std::size_t i = 0;
+         const Json& view : document.contains("bufferViews") ? document["bufferViews"] : none) {
+        const Where where{nullptr, "bufferView", i++};
+        if (const int stride = view.value("byteStride", 4); stride % 4 != 0)
+            fail(where, fmt::format("byteStride {} is no multiple of 4", stride));
+    }
+}
+
+// A camera and a spot light bring an object that their type names.
+void checkKinds(const Json& document) {
+    static const Json none = Json::array();
+    for (std::size_t i = 0; const Json& camera : document.contains("cameras") ? document["cameras"] : none) {
+        const Where where{nullptr, "camera", i++};
+        const std::string& type = camera["type"].get_ref<const std::string&>();
+        if (!camera.contains(type)) fail(where, fmt::format("is {0}, but has no {0}", type));
+    }
+    static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+    for (std::size_t i = 0; const Json& light : document.contains(lights) ? document[lights] : none) {
+        const Where where{nullptr, "light", i++};
+        if (light["type"] == "spot" && !light.contains("spot")) fail(where, "is spot, but has no spot");
+    }
+}
+
 }  // namespace
 
 std::set<std::string> applySchema(nlohmann::json& document) {
     Walk walk(document);
     walk.object(document, schema::document, {});
+    checkAccessors(document);
+    checkKinds(document);
     if (const auto used = document.find("extensionsUsed"); used != document.end())
         for (const Json& name : *used)
             walk.unknown_extensions.insert(oneLine(name.get_ref<const std::string&>()));
