@@ -86,6 +86,28 @@ TEST(GltfErrors, Schema) {
          }},
         {"node 0: KHR_lights_punctual: light 0, but the file has 0",
          [](GltfFile& f) { f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0; }},
+        {"accessor 0: componentType 9999 is none of glTF's",
+         [](GltfFile& f) { f.json["accessors"][0]["componentType"] = 9999; }},
+        {"accessor 0: type is \"VEC2 VEC3\", not one of SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4",
+         [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC2 VEC3"; }},
+        {"accessor 0: 4 sparse elements of 3",
+         [](GltfFile& f) {
+             f.json["accessors"][0]["sparse"] = {{"count", 4},
+                                                 {"indices", {{"bufferView", 0}, {"componentType", UBYTE}}},
+                                                 {"values", {{"bufferView", 0}}}};
+         }},
+        {"bufferView 0: byteStride 14 is no multiple of 4",
+         [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 14; }},
+        {"camera 0: is orthographic, but has no orthographic",
+         [](GltfFile& f) {
+             f.json["cameras"] = {{{"type", "orthographic"}}};
+         }},
+        {"light 0: is spot, but has no spot",
+         [](GltfFile& f) {
+             f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
+         }},
+        {"mesh 0, primitive 0: attributes: A?B is no name of an attribute",
+         [](GltfFile& f) { f.primitive()["attributes"]["A\nB"] = 0; }},
         {"meshes is an object, not an array", [](GltfFile& f) { f.json["meshes"] = Json::object(); }},
         {"extensionsRequired: KHR_texture_basisu is not read: export the scene without it",
          [](GltfFile& f) {

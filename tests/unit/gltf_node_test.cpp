@@ -108,3 +108,19 @@ TEST(GltfNode, Cameras) {
     f.json["cameras"][0]["perspective"]["yfov"] = 4;
     EXPECT_NE(f.error().find("camera 0: yfov"), std::string::npos);
 }
+
+// Products of float32 matrices end in 0 0 0 0.99999994, a spot without a penumbra has one angle: both are
+// right.
+TEST(GltfNode, RoundedMatricesAndHardSpotsAreRight) {
+    GltfFile f = GltfFile::triangle();
+    f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}};
+    f.json["nodes"][0]["matrix"] = {1, 0, 0, 1e-17, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 0.99999994};
+    f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.nodes[0].parent_from_node[3], glm::dvec4(2, 3, 4, 1));
+    EXPECT_EQ(scene.nodes[0].parent_from_node[0], glm::dvec4(1, 0, 0, 0));
+    EXPECT_EQ(scene.lights.at(0).inner_cone, scene.lights.at(0).outer_cone);
+    f.json["nodes"][0]["matrix"][15] = 0.99;
+    EXPECT_NE(f.error().find("node 0: the last row of its matrix is not 0 0 0 1"), std::string::npos);
+}
