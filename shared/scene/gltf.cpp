@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf_compression.h"
 #include "shared/scene/gltf_file.h"
+#include "shared/scene/gltf_limits.h"
 #include "shared/scene/gltf_material.h"
 #include "shared/scene/gltf_mesh.h"
 #include "shared/scene/gltf_motion.h"
@@ -14,6 +15,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
 
+#include <atomic>
+#include <cstdint>
 #include <stdexcept>
 
 namespace diptych {
@@ -21,19 +24,32 @@ namespace diptych {
 namespace {
 
 void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
-    for (const std::string& name : document.left_out)
+    constexpr std::size_t most = 20;  // a file may name any number
+    for (const std::string& name : document.left_out) {
+        if (notes.size() == most) {
+            notes.push_back(fmt::format("{} more extensions: left out, they are not read",
+                                        document.left_out.size() - most));
+            break;
+        }
         notes.push_back(fmt::format("{}: left out, it is not read", name));
+    }
 }
 
 // The encoded bytes of those images that somebody reads.
 void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
+    std::atomic<std::uint64_t> held = 0;
     gltf::forEachInParallel(imageOf.size(), [&](std::size_t i) {
         tinygltf::Image& image = document.model.images[static_cast<std::size_t>(imageOf[i])];
-        if (image.bufferView >= 0 || image.uri.empty()) return;
+        if (image.uri.empty()) return;
         const std::string uri = std::move(image.uri);
         image.uri = gltf::uriName(uri);
+        if (image.bufferView >= 0) return;
         try {
-            image.image = document.resources.read(uri);
+            image.image = document.resources.read(uri, gltf::MAX_ENCODED_IMAGE_BYTES);
+            if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
+                throw std::runtime_error(
+                    fmt::format("the image files are more than {} bytes together: not read",
+                                gltf::MAX_ENCODED_IMAGE_BYTES));
         } catch (const std::runtime_error& e) {
             throw std::runtime_error(fmt::format("image {}: {}", imageOf[i], e.what()));
         }

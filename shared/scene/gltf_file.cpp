@@ -116,10 +116,11 @@ void checkRequired(const Json& document) {
     for (const Json& name : *required) {
         if (!name.is_string()) fail("extensionsRequired: holds something other than names");
         if (!isBuilt(name.get<std::string>()))
-            missing += (missing.empty() ? "" : ", ") + oneLine(name.get<std::string>());
+            missing += (missing.empty() ? "" : ", ") + name.get<std::string>();
     }
     if (!missing.empty())
-        fail(fmt::format("extensionsRequired: {} is not read: export the scene without it", missing));
+        fail(
+            fmt::format("extensionsRequired: {} is not read: export the scene without it", oneLine(missing)));
 }
 
 // ---- buffers and images ------------------------------------------------------------------------------
@@ -146,7 +147,7 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
         buffer.name = json.value("name", std::string());
         if (const auto uri = json.find("uri"); uri != json.end()) {
             try {
-                buffer.data = out.resources.read(uri->get_ref<const std::string&>());
+                buffer.data = out.resources.read(uri->get_ref<const std::string&>(), length);
             } catch (const std::runtime_error& e) {
                 fail(fmt::format("{}: {}", who, e.what()));
             }

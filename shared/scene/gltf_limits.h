@@ -24,6 +24,10 @@ constexpr std::uint64_t MAX_FILE_BYTES = std::uint64_t(4) << 30;
 // All buffers together.
 constexpr std::uint64_t MAX_BUFFER_BYTES = std::uint64_t(8) << 30;
 
+// The image files that materials read, as they are, together: as many 16384 x 16384 PNGs as memory holds
+// decoded.
+constexpr std::uint64_t MAX_ENCODED_IMAGE_BYTES = std::uint64_t(2) << 30;
+
 // The JSON text. Parsed it takes some 16 times as much; a million nodes are 60 to 100 MiB of it.
 constexpr std::uint64_t MAX_JSON_BYTES = std::uint64_t(256) << 20;
 

@@ -7,6 +7,7 @@
 #include "shared/scene/gltf_value.h"
 #include "shared/scene/image_decode.h"
 #include "shared/scene/material_slots.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
@@ -256,7 +257,7 @@ void noteMaterials(const tinygltf::Model& model, const Test& test, const char* w
     }
     if (count)
         scene.notes.push_back(
-            fmt::format("{} material{} ({}) {}", count, count == 1 ? "" : "s", names, what));
+            fmt::format("{} material{} ({}) {}", count, count == 1 ? "" : "s", oneLine(names), what));
 }
 
 // Scene::images holds what some material reads, in the file's order; textures are pointed there.

@@ -80,7 +80,7 @@ void checkRelative(const std::string& name) {
 
 }  // namespace
 
-std::vector<unsigned char> readFile(const fs::path& file) {
+std::vector<unsigned char> readFile(const fs::path& file, std::uint64_t most) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status))
@@ -88,9 +88,10 @@ std::vector<unsigned char> readFile(const fs::path& file) {
                                                        : "cannot be read: " + error.message());
     if (fs::is_directory(status)) fail("is a folder");
     if (!fs::is_regular_file(status)) fail("is not a regular file");
-    const std::uintmax_t size = fs::file_size(file, error);
+    std::uintmax_t size = fs::file_size(file, error);
     if (error) fail("cannot be read: " + error.message());
     if (size > MAX_FILE_BYTES) fail(fmt::format("is {} bytes: at most {} are read", size, MAX_FILE_BYTES));
+    size = std::min<std::uintmax_t>(size, most);
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail(fmt::format("cannot be read: {}", std::generic_category().message(errno)));
     Bytes bytes(size);
@@ -103,7 +104,7 @@ Resources::Resources(const fs::path& folder) {
     if (!folder.empty()) folder_ = fs::canonical(folder);
 }
 
-std::vector<unsigned char> Resources::read(const std::string& uri) const {
+std::vector<unsigned char> Resources::read(const std::string& uri, std::uint64_t most) const {
     if (uri.starts_with(dataScheme)) return readData(uri);
     const std::string name = percentDecoded(uri);
     checkRelative(name);
@@ -122,7 +123,7 @@ std::vector<unsigned char> Resources::read(const std::string& uri) const {
                          error == std::errc::no_such_file_or_directory ? "no such file" : error.message()));
     if (!inside(target)) fail(oneLine(name) + ": is a link that leaves the scene's folder");
     try {
-        return readFile(target);
+        return readFile(target, most);
     } catch (const std::runtime_error& e) {
         fail(fmt::format("{}: {}", oneLine(name), e.what()));
     }

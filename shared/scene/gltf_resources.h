@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/scene/gltf_limits.h"
+
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,8 +11,9 @@
 
 namespace diptych::gltf {
 
-// A regular file's bytes, at most MAX_FILE_BYTES of them. Throws std::runtime_error without its name.
-std::vector<unsigned char> readFile(const std::filesystem::path& file);
+// The first `most` bytes of a regular file, or all that there are. Throws std::runtime_error without its
+// name, also where the file is larger than MAX_FILE_BYTES.
+std::vector<unsigned char> readFile(const std::filesystem::path& file, std::uint64_t most = MAX_FILE_BYTES);
 
 // What a scene's URIs may name: data inside the URI, and files in the scene's folder or below it. Symbolic
 // links are followed, but what they lead to must be there as well.
@@ -18,8 +22,9 @@ public:
     // Empty: there is no folder, only data URIs are read.
     explicit Resources(const std::filesystem::path& folder);
 
-    // Throws std::runtime_error: "a.bin: no such file", without the name of who asks.
-    std::vector<unsigned char> read(const std::string& uri) const;
+    // The first `most` bytes, or all that there are. Throws std::runtime_error: "a.bin: no such file",
+    // without the name of who asks.
+    std::vector<unsigned char> read(const std::string& uri, std::uint64_t most = MAX_FILE_BYTES) const;
 
 private:
     std::filesystem::path folder_;  // canonical

@@ -229,3 +229,33 @@ TEST(GltfDoor, OtherFilesAreRefusedInOneLine) {
         EXPECT_EQ(error.find('\n'), error.npos);
     }
 }
+
+// A buffer holds its byteLength and no more, however large the file is.
+TEST(GltfDoor, OnlyWhatABufferNamesIsRead) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    // A hole of 3 GiB behind the data: read whole, sixteen of them would not fit in memory.
+    std::filesystem::resize_file(testFolder() / "a buffer.bin", std::uint64_t(3) << 30);
+    const Json buffer = f.json["buffers"][0];
+    for (int i = 1; i < 16; ++i) f.json["buffers"].push_back(buffer);
+    f.data.clear();
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).positions.size(), 3u);
+    std::filesystem::remove(testFolder() / "a buffer.bin");
+}
+
+// Lines are for people: what a file repeats without end is cut and counted.
+TEST(GltfDoor, LinesAndNotesHaveAnEnd) {
+    GltfFile f = GltfFile::triangle();
+    for (int i = 0; i < 1000; ++i) f.json["extensionsUsed"].push_back("EXT_" + std::to_string(i));
+    const std::vector<std::string> notes = f.load().notes;
+    EXPECT_EQ(notes.size(), 21u);
+    EXPECT_EQ(notes.back(), "980 more extensions: left out, they are not read");
+    f.json["extensionsRequired"] = f.json["extensionsUsed"];
+    EXPECT_LT(f.error().size(), 500u);
+    f.json["extensionsRequired"] = Json::array();
+    f.json["images"] = {{{"bufferView", 0}, {"uri", "data:image/png;base64," + std::string(100000, 'A')}}};
+    f.json["textures"] = {{{"source", 0}}};
+    f.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+    EXPECT_LT(f.error().size(), 500u) << "a data URI is no name";
+}
