@@ -121,10 +121,11 @@ int runRender(const Options& options) {
         Json json = jsonOf(frame);
         json["file"] = target.path.string();
         result["frames"].push_back(std::move(json));
-        if (!options.json && !options.quiet)
-            fmt::print("{}: {}, {}x{}{}\n", target.path.string(), frame.scene, settings[0].size.width,
-                       settings[0].size.height,
-                       frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
+        if (options.json || options.quiet) continue;
+        fmt::print("{}: {}, {}x{}{}\n", target.path.string(), frame.scene, settings[0].size.width,
+                   settings[0].size.height,
+                   frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
+        for (const std::string& line : frame.notes) fmt::print("  note: {}\n", line);
     }
     if (several) writeFile(output.path / several_mark, jsonText(result));
     if (output.kind == OutputKind::folder) removeStale(output.path, frames.size(), severalBefore);
