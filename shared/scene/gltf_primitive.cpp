@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf_accessor.h"
 #include "shared/scene/gltf_value.h"
+#include "shared/scene/material_slots.h"
 #include "shared/scene/tangents.h"
 
 #include <fmt/format.h>
@@ -217,9 +218,20 @@ private:
             const std::string name = fmt::format("TEXCOORD_{}", set);
             result_.texcoords[set] = attribute<glm::vec2>(name, readVectors<glm::vec2>);
             repair(result_.texcoords[set], glm::vec2(0), name, "0, 0");
+            if (result_.texcoords[set].empty() && materialReads(set))
+                note("its material reads {}, which it does not have: 0, 0", name);
         }
         repair(result_.colors, glm::vec4(1), "COLOR_0", "white");
         for (glm::vec4& color : result_.colors) color = glm::clamp(color, 0.0f, 1.0f);
+    }
+
+    bool materialReads(std::size_t set) const {
+        const Material& material = use_.materials[static_cast<std::size_t>(result_.material)];
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+            if (readsSlot(material, slot) &&
+                (material.*materialSlots[slot].texture).texcoord == static_cast<int>(set))
+                return true;
+        return false;
     }
 
     // JOINTS_n with WEIGHTS_n for n = 0, 1, ... while there are any.

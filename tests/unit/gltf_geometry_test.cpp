@@ -196,3 +196,19 @@ TEST(GltfGeometry, TangentsOfTheFileAreUsedOnlyWithItsNormals) {
     EXPECT_NEAR(glm::length(glm::vec3(f.only(scene).tangents[2])), 1, 1e-6f)
         << "one without a direction is replaced";
 }
+
+// One texel all over is easily taken for an untextured surface.
+TEST(GltfGeometry, MissingTextureCoordinatesAreNoted) {
+    GltfFile f = GltfFile::triangle();
+    f.primitive()["material"] = 0;
+    f.primitive()["attributes"]["TEXCOORD_0"] = f.accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC2", 2);
+    f.json["images"] = {{{"uri", twoPixels}}};
+    f.json["textures"] = {{{"source", 0}}};
+    auto& texture = f.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    texture = {{"index", 0}};
+    EXPECT_EQ(f.load().notes, std::vector<std::string>());
+    texture["texCoord"] = 1;
+    EXPECT_EQ(f.load().notes,
+              std::vector<std::string>{
+                  "mesh 0, primitive 0: its material reads TEXCOORD_1, which it does not have: 0, 0"});
+}
