@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/frame/settings.h"
 
-#include "shared/text/json_depth.h"
+#include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -258,7 +258,7 @@ std::string toJson(const Settings& settings, int indent) {
 }
 
 Settings settingsFromJson(const std::string& text, const Settings& base) {
-    if (jsonDepth(text) > json_depth)
+    if (jsonShape(text).depth > json_depth)
         throw std::runtime_error(fmt::format("settings: nests deeper than {}", json_depth));
     Json object;
     try {

@@ -24,15 +24,9 @@ namespace diptych {
 namespace {
 
 void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
-    constexpr std::size_t most = 20;  // a file may name any number
-    for (const std::string& name : document.left_out) {
-        if (notes.size() == most) {
-            notes.push_back(fmt::format("{} more extensions: left out, they are not read",
-                                        document.left_out.size() - most));
-            break;
-        }
+    for (const std::string& name : document.left_out)
         notes.push_back(fmt::format("{}: left out, it is not read", name));
-    }
+    gltf::limitNotes(notes, 0, "extensions");
 }
 
 // The encoded bytes of those images that somebody reads.
@@ -45,7 +39,9 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
         image.uri = gltf::uriName(uri);
         if (image.bufferView >= 0) return;
         try {
-            image.image = document.resources.read(uri, gltf::MAX_ENCODED_IMAGE_BYTES);
+            const std::uint64_t left =
+                gltf::MAX_ENCODED_IMAGE_BYTES - std::min(held.load(), gltf::MAX_ENCODED_IMAGE_BYTES);
+            image.image = document.resources.read(uri, left + 1);  // one too many tells
             if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
                 throw std::runtime_error(
                     fmt::format("the image files are more than {} bytes together: not read",

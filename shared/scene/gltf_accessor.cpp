@@ -221,9 +221,14 @@ private:
         sparse_values_ =
             locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
                    shape_.bytes(), shape_.columns * shape_.columnStride(), who_, "sparse values");
-        for (std::size_t s = 0; s < count; ++s)
+        // Ascending without repetition (glTF 2.0, 3.6.2.3), so that no element costs more than two visits.
+        for (std::size_t s = 0; s < count; ++s) {
             if (sparseIndex(s) >= file_.count)
                 fail(who_, fmt::format("sparse index {} of {} elements", sparseIndex(s), file_.count));
+            if (s > 0 && sparseIndex(s) <= sparseIndex(s - 1))
+                fail(who_, fmt::format("sparse index {} does not ascend: {} after {}", s, sparseIndex(s),
+                                       sparseIndex(s - 1)));
+        }
     }
 
     std::uint32_t sparseIndex(std::size_t s) const {

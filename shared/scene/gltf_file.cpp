@@ -4,7 +4,7 @@
 #include "shared/scene/gltf_limits.h"
 #include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_value.h"
-#include "shared/text/json_depth.h"
+#include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -88,7 +88,12 @@ Json parse(std::string_view text) {
     if (text.empty()) fail("is empty");
     if (text.size() > MAX_JSON_BYTES)
         fail(fmt::format("its JSON is {} bytes: at most {} are read", text.size(), MAX_JSON_BYTES));
-    if (jsonDepth(text) > json_depth) fail(fmt::format("its JSON nests deeper than {}", json_depth));
+    const JsonShape shape = jsonShape(text);
+    if (shape.depth > json_depth) fail(fmt::format("its JSON nests deeper than {}", json_depth));
+    if (shape.objects > MAX_JSON_OBJECTS)
+        fail(fmt::format("its JSON has {} objects: at most {} are read", shape.objects, MAX_JSON_OBJECTS));
+    if (shape.values > MAX_JSON_VALUES)
+        fail(fmt::format("its JSON has {} values: at most {} are read", shape.values, MAX_JSON_VALUES));
     try {
         Json document = Json::parse(text);
         if (!document.is_object()) fail("its JSON is not an object");

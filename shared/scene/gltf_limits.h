@@ -28,9 +28,13 @@ constexpr std::uint64_t MAX_BUFFER_BYTES = std::uint64_t(8) << 30;
 // decoded.
 constexpr std::uint64_t MAX_ENCODED_IMAGE_BYTES = std::uint64_t(2) << 30;
 
-// The JSON text. Parsed it takes some 16 times as much; a million nodes are 60 to 100 MiB of it.
+// The JSON text, the objects in it and all its values, before it is parsed. A million nodes are 60 to 100 MiB
+// of text. A value costs 16 bytes or more twice over, an empty node, of all objects the dearest for its
+// length, some 600 bytes in the parser's tree and in ours, an accessor 900: below 2 GiB together.
 constexpr std::uint64_t MAX_JSON_BYTES = std::uint64_t(256) << 20;
+constexpr std::size_t MAX_JSON_OBJECTS = std::size_t(1) << 21;
+constexpr std::size_t MAX_JSON_VALUES = std::size_t(1) << 25;
 
-// How deep it nests: json_depth (shared/text/json_depth.h).
+// How deep it nests: json_depth (shared/text/json_shape.h).
 
 }  // namespace diptych::gltf

@@ -282,9 +282,11 @@ void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& ima
 }  // namespace
 
 void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>& imageOf) {
+    const std::size_t before = scene.notes.size();
     readTextures(model, scene);
     for (std::size_t i = 0; i < model.materials.size(); ++i)
         scene.materials.push_back(MaterialReader(model, scene, i).read());
+    limitNotes(scene.notes, before, "materials");
     noteMaterials(
         model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
         "with alphaMode BLEND: drawn opaque, blending is not built yet", scene);

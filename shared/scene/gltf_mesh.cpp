@@ -72,16 +72,6 @@ std::vector<float> readWeights(const tinygltf::Mesh& mesh, std::size_t targets, 
     return weights;
 }
 
-// A file of faults may have one in each of a million primitives.
-void append(std::vector<std::string>& notes, std::vector<std::vector<std::string>>&& found) {
-    constexpr std::size_t shown = 20;
-    std::size_t count = 0;
-    for (std::vector<std::string>& some : found)
-        for (std::string& note : some)
-            if (++count <= shown) notes.push_back(std::move(note));
-    if (count > shown) notes.push_back(fmt::format("{} more notes on meshes like these", count - shown));
-}
-
 }  // namespace
 
 std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
@@ -113,7 +103,9 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
     });
     for (Mesh& mesh : meshes)
         std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
-    append(notes, std::move(found));
+    const std::size_t before = notes.size();
+    for (std::vector<std::string>& some : found) std::ranges::move(some, std::back_inserter(notes));
+    limitNotes(notes, before, "meshes");
     if (morphed)
         notes.push_back(
             fmt::format("{} mesh{} with morph targets: drawn without them, morphing is not built yet",

@@ -62,6 +62,7 @@ public:
     void read() {
         std::map<int, int> place;  // of the file's skins in Scene::skins
         std::size_t skinned = 0;
+        const std::size_t before = scene_.notes.size();
         for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
             const tinygltf::Node& file = model_.nodes[n];
             if (scene_node_[n] < 0 || file.skin < 0 || file.mesh < 0) continue;
@@ -76,6 +77,7 @@ public:
             scene_.nodes[static_cast<std::size_t>(scene_node_[n])].skin = at->second;
             ++skinned;
         }
+        limitNotes(scene_.notes, before, "skins");
         if (skinned)
             scene_.notes.push_back(
                 fmt::format("{} skinned mesh{}: drawn in bind pose, skinning is not built yet", skinned,
@@ -152,7 +154,9 @@ public:
         : model_(model), scene_node_(sceneNode), budget_(budget), scene_(scene) {}
 
     void read() {
+        const std::size_t before = scene_.notes.size();
         for (std::size_t a = 0; a < model_.animations.size(); ++a) animation(a);
+        limitNotes(scene_.notes, before, "animations");
         const std::size_t count = scene_.animations.size();
         if (count)
             scene_.notes.push_back(

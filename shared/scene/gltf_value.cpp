@@ -54,6 +54,14 @@ std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, st
     return fallback;
 }
 
+void limitNotes(std::vector<std::string>& notes, std::size_t first, std::string_view what) {
+    constexpr std::size_t shown = 20;
+    if (notes.size() - first <= shown) return;
+    const std::size_t more = notes.size() - first - shown;
+    notes.resize(first + shown);
+    notes.push_back(fmt::format("{} more notes on {} like these", more, what));
+}
+
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name) {
     const auto at = extensions.find(name);
     return at == extensions.end() || !at->second.IsObject() ? nullptr : &at->second;

@@ -2,7 +2,7 @@
 #include "shared/scene/lights_json.h"
 
 #include "shared/image/file_bytes.h"
-#include "shared/text/json_depth.h"
+#include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -143,7 +143,7 @@ Light readLight(const Json& object, const std::string& who) {
 }
 
 Json parse(std::string_view text) {
-    if (jsonDepth(text) > json_depth)
+    if (jsonShape(text).depth > json_depth)
         throw std::runtime_error(fmt::format("nests deeper than {}", json_depth));
     try {
         return Json::parse(text);

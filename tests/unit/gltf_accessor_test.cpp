@@ -227,6 +227,25 @@ TEST(GltfAccessor, EveryModeWithEveryIndexType) {
             }
 }
 
+TEST(GltfAccessor, SparseIndicesAscend) {
+    for (const auto& [second, fault] : {std::pair{2, ""},
+                                        {1, "sparse index 1 does not ascend: 1 after 1"},
+                                        {0, "sparse index 1 does not ascend: 0 after 1"}}) {
+        GltfFile f = GltfFile::triangle();
+        const int where =
+            f.accessor<std::uint8_t>({1, static_cast<std::uint8_t>(second)}, UBYTE, "SCALAR", 1);
+        const int what = f.accessor<float>({2, 0, 0, 0, 2, 0}, FLOAT, "VEC3", 3);
+        f.json["accessors"][0]["sparse"] = {{"count", 2},
+                                            {"indices", {{"bufferView", where}, {"componentType", UBYTE}}},
+                                            {"values", {{"bufferView", what}}}};
+        const std::string error = f.error();
+        if (*fault)
+            EXPECT_NE(error.find("accessor 0: " + std::string(fault)), std::string::npos) << error;
+        else
+            EXPECT_EQ(error, "");
+    }
+}
+
 TEST(GltfAccessor, IndicesFromNothingAreZeros) {
     GltfFile f = GltfFile::triangle();
     f.json["accessors"].push_back({{"componentType", USHORT}, {"count", 6}, {"type", "SCALAR"}});

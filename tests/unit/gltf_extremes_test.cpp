@@ -4,6 +4,7 @@
 #include "shared/scene/tangents.h"
 #include "tests/unit/gltf_maker.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -94,8 +95,8 @@ TEST(GltfExtremes, AFewVerticesOfManyAreFound) {
     std::vector<float> positions(3 * 1000);
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = static_cast<float>(i / 3 * (1 + i % 3));
     const int many = f.accessor(positions, FLOAT, "VEC3", 3);
-    const int where = f.accessor<std::uint16_t>({999, 500, 7}, USHORT, "SCALAR", 1);
-    const int what = f.accessor<float>({1, 2, 3, 4, 5, 6, 7, 8, 9}, FLOAT, "VEC3", 3);
+    const int where = f.accessor<std::uint16_t>({7, 500, 999}, USHORT, "SCALAR", 1);
+    const int what = f.accessor<float>({7, 8, 9, 4, 5, 6, 1, 2, 3}, FLOAT, "VEC3", 3);
     f.json["accessors"][static_cast<std::size_t>(many)]["sparse"] = {
         {"count", 3},
         {"indices", {{"bufferView", where}, {"componentType", USHORT}}},
@@ -137,6 +138,25 @@ TEST(GltfExtremes, NotesOfAMillionFaultsAreFew) {
     const Scene scene = f.load();
     EXPECT_EQ(scene.notes.size(), 21u);
     EXPECT_TRUE(mentions(scene.notes, "980 more notes on meshes like these"));
+}
+
+TEST(GltfExtremes, NotesOnMaterialsSkinsAndAnimationsAreFewToo) {
+    GltfFile f = GltfFile::triangle();
+    const int times = f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
+    f.json["skins"] = {{{"joints", {0}}}};
+    f.json["scenes"][0]["nodes"] = Json::array();
+    for (int i = 0; i < 100; ++i) {
+        f.json["materials"].push_back({{"pbrMetallicRoughness", {{"metallicFactor", 2}}}});
+        f.json["nodes"][i] = {{"mesh", 0}, {"skin", 0}};
+        f.json["scenes"][0]["nodes"].push_back(i);
+        f.json["animations"].push_back(
+            {{"samplers", {{{"input", times}, {"output", times}}}},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", i}, {"path", "scale"}}}}}}});
+    }
+    const Scene scene = f.load();
+    for (const char* what : {"materials", "skins", "animations"})
+        EXPECT_TRUE(mentions(scene.notes, fmt::format("80 more notes on {} like these", what))) << what;
+    EXPECT_EQ(scene.notes.size(), 3 * 21u);
 }
 
 TEST(GltfExtremes, MeshesThatNothingDrawsAreNotRead) {

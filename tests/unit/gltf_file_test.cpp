@@ -244,13 +244,48 @@ TEST(GltfDoor, OnlyWhatABufferNamesIsRead) {
     std::filesystem::remove(testFolder() / "a buffer.bin");
 }
 
+// Two image files that are together a little more than is read; the large one is a hole.
+TEST(GltfDoor, ImageFilesHaveALimitTogether) {
+    GltfFile f = GltfFile::triangle();
+    f.written();
+    for (const auto& [name, bytes] : {std::pair{"hole.png", std::uint64_t(2) << 30}, {"byte.png", 1}}) {
+        std::ofstream(testFolder() / name).close();
+        std::filesystem::resize_file(testFolder() / name, bytes);
+        f.json["images"].push_back({{"uri", name}});
+        f.json["textures"].push_back({{"source", f.json["textures"].size()}});
+        f.json["materials"].push_back({{"emissiveTexture", {{"index", f.json["materials"].size()}}}});
+    }
+    const std::string error = f.error();
+    EXPECT_NE(error.find("the image files are more than 2147483648 bytes together: not read"),
+              std::string::npos)
+        << error;
+    std::filesystem::remove(testFolder() / "hole.png");
+}
+
+TEST(GltfDoor, ObjectsAndValuesHaveALimit) {
+    const auto times = [](std::size_t n, const std::string& item) {
+        std::string text = item;
+        text.reserve(n * (item.size() + 1));
+        for (std::size_t i = 1; i < n; ++i) text += "," + item;
+        return text;
+    };
+    const std::string head = R"({"asset":{"version":"2.0"},)";
+    EXPECT_NE(loadBytes(head + "\"nodes\":[" + times(2097151, "{}") + "]}", "objects.gltf")
+                  .find("its JSON has 2097153 objects: at most 2097152 are read"),
+              std::string::npos);
+    EXPECT_NE(loadBytes(head + "\"extras\":[" + times(33554432, "0") + "]}", "values.gltf")
+                  .find("its JSON has 33554436 values: at most 33554432 are read"),
+              std::string::npos);
+    for (const char* name : {"objects.gltf", "values.gltf"}) std::filesystem::remove(testFolder() / name);
+}
+
 // Lines are for people: what a file repeats without end is cut and counted.
 TEST(GltfDoor, LinesAndNotesHaveAnEnd) {
     GltfFile f = GltfFile::triangle();
     for (int i = 0; i < 1000; ++i) f.json["extensionsUsed"].push_back("EXT_" + std::to_string(i));
     const std::vector<std::string> notes = f.load().notes;
     EXPECT_EQ(notes.size(), 21u);
-    EXPECT_EQ(notes.back(), "980 more extensions: left out, they are not read");
+    EXPECT_EQ(notes.back(), "980 more notes on extensions like these");
     f.json["extensionsRequired"] = f.json["extensionsUsed"];
     EXPECT_LT(f.error().size(), 500u);
     f.json["extensionsRequired"] = Json::array();

@@ -141,8 +141,8 @@ TEST(GltfGeometry, StridesAndOffsetsAreFollowed) {
 TEST(GltfGeometry, SparseAccessorsReplaceElements) {
     for (const bool base : {true, false}) {
         GltfFile f = GltfFile::triangle();
-        const int indices = f.accessor<std::uint8_t>({2, 1}, UBYTE, "SCALAR", 1),
-                  values = f.accessor<float>({0, 5, 0, 4, 0, 0}, FLOAT, "VEC3", 3);
+        const int indices = f.accessor<std::uint8_t>({1, 2}, UBYTE, "SCALAR", 1),
+                  values = f.accessor<float>({4, 0, 0, 0, 5, 0}, FLOAT, "VEC3", 3);
         f.json["accessors"][0]["sparse"] = {{"count", 2},
                                             {"indices", {{"bufferView", indices}, {"componentType", UBYTE}}},
                                             {"values", {{"bufferView", values}}}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Strings from outside: one line of them for a message, and how deep JSON nests before anything parses it.
-#include "shared/text/json_depth.h"
+// Strings from outside: one line of them for a message, and the shape of JSON before anything parses it.
+#include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
 #include <gtest/gtest.h>
@@ -30,16 +30,25 @@ TEST(OneLine, LongTextIsCutBetweenCharacters) {
     EXPECT_EQ(oneLine("\x80\x80\x80", 2), "...") << "no character begins here";
 }
 
-TEST(JsonDepth, CountsWhatIsOpenAtOnce) {
-    EXPECT_EQ(jsonDepth(""), 0u);
-    EXPECT_EQ(jsonDepth("1"), 0u);
-    EXPECT_EQ(jsonDepth("[{}]"), 2u);
-    EXPECT_EQ(jsonDepth("[[],[],[[]]]"), 3u);
-    EXPECT_EQ(jsonDepth(R"({"a": "[[[[", "b\"[[": {}})"), 2u) << "brackets in strings are text";
-    EXPECT_EQ(jsonDepth(R"(["\\", [1]])"), 2u) << "an escaped backslash does not keep a string open";
-    EXPECT_EQ(jsonDepth(std::string(100000, '[')), 100000u);
-    EXPECT_EQ(jsonDepth("]]][["), 2u) << "closing what was never open is no credit";
-    EXPECT_EQ(jsonDepth("\"\\"), 0u) << "ends in the middle of an escape";
+TEST(JsonShape, DepthIsWhatIsOpenAtOnce) {
+    EXPECT_EQ(jsonShape("").depth, 0u);
+    EXPECT_EQ(jsonShape("1").depth, 0u);
+    EXPECT_EQ(jsonShape("[{}]").depth, 2u);
+    EXPECT_EQ(jsonShape("[[],[],[[]]]").depth, 3u);
+    EXPECT_EQ(jsonShape(R"({"a": "[[[[", "b\"[[": {}})").depth, 2u) << "brackets in strings are text";
+    EXPECT_EQ(jsonShape(R"(["\\", [1]])").depth, 2u) << "an escaped backslash does not keep a string open";
+    EXPECT_EQ(jsonShape(std::string(100000, '[')).depth, 100000u);
+    EXPECT_EQ(jsonShape("]]][[").depth, 2u) << "closing what was never open is no credit";
+    EXPECT_EQ(jsonShape("\"\\").depth, 0u) << "ends in the middle of an escape";
+}
+
+TEST(JsonShape, CountsWhatAParserKeeps) {
+    EXPECT_EQ(jsonShape("").objects, 0u);
+    EXPECT_EQ(jsonShape("").values, 1u);
+    EXPECT_EQ(jsonShape("7").values, 1u);
+    const JsonShape shape = jsonShape(R"({"a": [1, 2, "x,{}"], "b": {}})");
+    EXPECT_EQ(shape.objects, 2u) << "braces in strings are text";
+    EXPECT_EQ(shape.values, 7u) << "the object, an array of three, an object; one is counted too many";
 }
 
 }  // namespace
