@@ -4,7 +4,7 @@
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr_header.h"
 #include "shared/image/file_bytes.h"
-#include "shared/text/one_line.h"
+#include "shared/text/named.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -196,17 +196,11 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
 
 std::vector<ExrLayer> readExr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     useAllCores();
-    try {
-        return readLayers(bytes, most);
-    } catch (const std::bad_alloc&) {
-        throw std::runtime_error(name + ": too large for this machine's memory");
-    } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("{}: {}", name, oneLine(error.what())));
-    }
+    return named(name, [&] { return readLayers(bytes, most); });
 }
 
 std::vector<ExrLayer> readExr(const std::filesystem::path& file) {
-    return readExr(bytesOf(file), file.string());
+    return readExr(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
 }
 
 }  // namespace diptych

@@ -2,32 +2,42 @@
 #include "shared/image/file_bytes.h"
 
 #include "shared/image/limits.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace diptych {
 
 namespace fs = std::filesystem;
 
-std::vector<std::byte> bytesOf(const fs::path& file) {
-    const auto fail = [&](const std::string& what) { throw std::runtime_error(file.string() + ": " + what); };
+std::vector<unsigned char> firstBytesOf(const fs::path& file, std::uint64_t limit, std::uint64_t most) {
+    const auto fail = [](const std::string& what) { throw std::runtime_error(what); };
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) fail("no such file");
+    if (status.type() == fs::file_type::not_found) fail("no such file");
+    if (!fs::exists(status)) fail("cannot be read: " + error.message());
     if (fs::is_directory(status)) fail("is a folder");
     if (!fs::is_regular_file(status)) fail("is not a regular file");
-    const std::uintmax_t size = fs::file_size(file, error);
-    if (error) fail(error.message());
-    if (size > limits::imageBytes()) fail(fmt::format("is larger than {} MiB", limits::imageBytes() >> 20));
+    const std::uint64_t size = fs::file_size(file, error);
+    if (error) fail("cannot be read: " + error.message());
+    if (size > limit) fail(fmt::format("is {} bytes: at most {} are read", size, limit));
 
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     std::ifstream stream(file, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!stream) fail("cannot be read");
+    if (!stream) fail("cannot be read: " + std::generic_category().message(errno));
+    std::vector<unsigned char> bytes(std::min(size, most));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!stream) fail("cannot be read to its end");
     return bytes;
+}
+
+std::vector<unsigned char> bytesOf(const fs::path& file) {
+    return named(file.string(), [&] { return firstBytesOf(file, limits::imageBytes()); });
 }
 
 }  // namespace diptych

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 namespace diptych {
 
-// The whole of a regular file, up to limits::imageBytes(). Throws std::runtime_error: "FILE: no such file",
-// "FILE: is a folder".
-std::vector<std::byte> bytesOf(const std::filesystem::path& file);
+// The first `most` bytes of a regular file that has no more than `limit`. Throws std::runtime_error without
+// its name: "no such file", "is a folder", "is 5000000000 bytes: at most 4294967296 are read".
+std::vector<unsigned char> firstBytesOf(const std::filesystem::path& file, std::uint64_t limit,
+                                        std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+
+// The whole of a file up to limits::imageBytes(). Throws std::runtime_error: "FILE: no such file".
+std::vector<unsigned char> bytesOf(const std::filesystem::path& file);
 
 }  // namespace diptych

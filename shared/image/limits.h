@@ -8,9 +8,12 @@
 
 namespace diptych::limits {
 
-// Pixels a side: four times what GPUs draw (16384), room for every panorama in use; the product of two sides
+// Pixels a side: four times what GPUs draw, room for every panorama in use; the product of two sides
 // with any number of channels stays far below 2^63.
 inline constexpr std::int64_t image_side = 65536;
+
+// A texture's side in pixels: the largest that GPUs and lavapipe take (maxImageDimension2D).
+inline constexpr std::int64_t texture_side = 16384;
 
 // Channels of an EXR file: ours have some 50, light groups and ids of film renderers some 300.
 inline constexpr std::int64_t image_channels = 1024;
@@ -20,7 +23,7 @@ inline constexpr std::int64_t image_channels = 1024;
 std::uint64_t imageBytes();
 
 // The most that one byte of deflate unfolds to: a match of 258 bytes takes two bits (RFC 1951, 1996).
-inline constexpr double deflate_ratio = 1032;
+inline constexpr std::int64_t deflate_ratio = 1032;
 
 }  // namespace diptych::limits
 

@@ -3,7 +3,7 @@
 
 #include "shared/image/atomic_file.h"
 #include "shared/image/file_bytes.h"
-#include "shared/text/one_line.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -100,7 +100,7 @@ Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::u
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     const std::unique_ptr<png_image, void (*)(png_imagep)> freed(&png, png_image_free);
-    try {
+    return named(name, [&] {
         if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) fail(png.message);
         checkImageSize(png.width, png.height, 4, most);
         checkDeflated(png.width, png.height, pixelBits(bytes), bytes.size());
@@ -110,15 +110,11 @@ Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::u
         image.data.resize(static_cast<std::size_t>(png.width) * png.height * 4);
         if (!png_image_finish_read(&png, nullptr, image.data.data(), 0, nullptr)) fail(png.message);
         return image;
-    } catch (const std::bad_alloc&) {
-        throw std::runtime_error(name + ": too large for this machine's memory");
-    } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("{}: {}", name, oneLine(error.what())));
-    }
+    });
 }
 
 Image8 readPng(const std::filesystem::path& file) {
-    return readPng(bytesOf(file), file.string());
+    return readPng(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
 }
 
 }  // namespace diptych

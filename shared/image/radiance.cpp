@@ -3,6 +3,7 @@
 
 #include "shared/image/atomic_file.h"
 #include "shared/image/file_bytes.h"
+#include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -287,17 +288,11 @@ void appendRuns(std::vector<std::uint8_t>& out, const std::vector<Rgbe>& line, s
 }  // namespace
 
 Image readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    try {
-        return readPicture(bytes, most);
-    } catch (const std::bad_alloc&) {
-        throw std::runtime_error(name + ": too large for this machine's memory");
-    } catch (const std::exception& error) {
-        throw std::runtime_error(fmt::format("{}: {}", name, oneLine(error.what())));
-    }
+    return named(name, [&] { return readPicture(bytes, most); });
 }
 
 Image readHdr(const std::filesystem::path& file) {
-    return readHdr(bytesOf(file), file.string());
+    return readHdr(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
 }
 
 std::size_t writeHdr(const std::filesystem::path& file, const Image& image) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf.h"
 
+#include "shared/image/file_bytes.h"
 #include "shared/scene/gltf_compression.h"
 #include "shared/scene/gltf_file.h"
 #include "shared/scene/gltf_limits.h"
@@ -11,6 +12,7 @@
 #include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
@@ -86,22 +88,8 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     for (const std::exception_ptr& failure : {meshFailure, imageFailure})
         if (failure) std::rethrow_exception(failure);
     scene.notes.insert(scene.notes.end(), meshNotes.begin(), meshNotes.end());
+    leaveOutWhatIsBeyond(scene);
     return scene;
-}
-
-// Whatever goes wrong in `read` as one line that begins with the file's name.
-template <class Read>
-Scene named(const std::string& name, const Read& read) {
-    try {
-        Scene scene = read();
-        leaveOutWhatIsBeyond(scene);
-        scene.name = name;
-        return scene;
-    } catch (const std::bad_alloc&) {
-        throw std::runtime_error(name + ": does not fit in memory");
-    } catch (const std::exception& e) {
-        throw std::runtime_error(name + ": " + e.what());
-    }
 }
 
 }  // namespace
@@ -110,7 +98,7 @@ Scene loadGltf(const std::string& file, const std::string& scene, const LoadProg
     return named(file, [&] {
         const std::filesystem::path path(file);
         const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-        return readScene(gltf::open(gltf::readFile(path), folder), scene, progress);
+        return readScene(gltf::open(firstBytesOf(path, gltf::MAX_FILE_BYTES), folder), scene, progress);
     });
 }
 

@@ -3,6 +3,7 @@
 
 #include "shared/scene/draco_stream.h"
 #include "shared/scene/gltf_accessor.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ DracoPrimitive readExtension(const tinygltf::Model& model, const tinygltf::Value
     for (const std::string& name : attributes.Keys()) {
         const auto at = primitive.attributes.find(name);
         if (at == primitive.attributes.end())
-            fail(who, fmt::format("{}: the primitive has none", firstLine(name)));
+            fail(who, fmt::format("{}: the primitive has none", oneLine(name)));
         const std::string whose = who + ": " + name;
         if (checkedIndex(at->second, model.accessors.size(), whose, "accessor") < 0)
             fail(whose, "names no accessor");

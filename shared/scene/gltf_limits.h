@@ -35,6 +35,7 @@ constexpr std::uint64_t MAX_JSON_BYTES = std::uint64_t(256) << 20;
 constexpr std::size_t MAX_JSON_OBJECTS = std::size_t(1) << 21;
 constexpr std::size_t MAX_JSON_VALUES = std::size_t(1) << 25;
 
-// How deep it nests: json_depth (shared/text/json_shape.h).
+// How deep it nests: json_depth (shared/text/json_shape.h). Images: texture_side (shared/image/limits.h), and
+// scans of a JPEG (image_jpeg.cpp). Coordinates: maxCoordinate (shared/scene/scene.h).
 
 }  // namespace diptych::gltf

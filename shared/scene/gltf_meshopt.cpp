@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf_meshopt.h"
 
+#include "shared/text/one_line.h"
+
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
@@ -35,7 +37,7 @@ Enum choice(const tinygltf::Value& object, const char* key, const char* const (&
                              : !object.Get(key).IsString() ? ""
                                                            : object.Get(key).Get<std::string>();
     const auto at = std::find(std::begin(words), std::end(words), word);
-    if (at == std::end(words)) fail(view, fmt::format("\"{}\" is no {}", firstLine(word), key));
+    if (at == std::end(words)) fail(view, fmt::format("\"{}\" is no {}", oneLine(word), key));
     return static_cast<Enum>(at - words);
 }
 

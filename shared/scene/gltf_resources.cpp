@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf_resources.h"
 
+#include "shared/image/file_bytes.h"
 #include "shared/scene/gltf_limits.h"
 #include "shared/text/one_line.h"
 
@@ -9,10 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -80,26 +79,6 @@ void checkRelative(const std::string& name) {
 
 }  // namespace
 
-std::vector<unsigned char> readFile(const fs::path& file, std::uint64_t most) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status))
-        fail(status.type() == fs::file_type::not_found ? "no such file"
-                                                       : "cannot be read: " + error.message());
-    if (fs::is_directory(status)) fail("is a folder");
-    if (!fs::is_regular_file(status)) fail("is not a regular file");
-    std::uintmax_t size = fs::file_size(file, error);
-    if (error) fail("cannot be read: " + error.message());
-    if (size > MAX_FILE_BYTES) fail(fmt::format("is {} bytes: at most {} are read", size, MAX_FILE_BYTES));
-    size = std::min<std::uintmax_t>(size, most);
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail(fmt::format("cannot be read: {}", std::generic_category().message(errno)));
-    Bytes bytes(size);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!stream) fail("cannot be read to its end");
-    return bytes;
-}
-
 Resources::Resources(const fs::path& folder) {
     if (!folder.empty()) folder_ = fs::canonical(folder);
 }
@@ -123,7 +102,7 @@ std::vector<unsigned char> Resources::read(const std::string& uri, std::uint64_t
                          error == std::errc::no_such_file_or_directory ? "no such file" : error.message()));
     if (!inside(target)) fail(oneLine(name) + ": is a link that leaves the scene's folder");
     try {
-        return readFile(target, most);
+        return firstBytesOf(target, MAX_FILE_BYTES, most);
     } catch (const std::runtime_error& e) {
         fail(fmt::format("{}: {}", oneLine(name), e.what()));
     }

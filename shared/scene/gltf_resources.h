@@ -11,10 +11,6 @@
 
 namespace diptych::gltf {
 
-// The first `most` bytes of a regular file, or all that there are. Throws std::runtime_error without its
-// name, also where the file is larger than MAX_FILE_BYTES.
-std::vector<unsigned char> readFile(const std::filesystem::path& file, std::uint64_t most = MAX_FILE_BYTES);
-
 // What a scene's URIs may name: data inside the URI, and files in the scene's folder or below it. Symbolic
 // links are followed, but what they lead to must be there as well.
 class Resources {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image_decode.h"
 
+#include "shared/image/limits.h"
 #include "shared/scene/image_codecs.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,7 @@ namespace diptych {
 
 namespace {
 
-// The largest image side that GPUs and lavapipe take (maxImageDimension2D).
-constexpr std::int64_t maxSide = 16384;
+constexpr std::int64_t maxSide = limits::texture_side;
 
 bool beginsWith(std::span<const unsigned char> encoded, std::span<const unsigned char> signature) {
     return encoded.size() > signature.size() &&

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/image/limits.h"
 #include "shared/scene/image_codecs.h"
 
 #include <png.h>
@@ -70,8 +71,7 @@ ImageHeader readPngHeader(Bytes encoded) {
     };
     const int depth = encoded[24], color = encoded[25];  // libpng checks both
     const int bits = std::max(depth, 1) * (color == 2 ? 3 : color == 4 ? 2 : color == 6 ? 4 : 1);
-    // Deflate: a match of 258 bytes takes two bits at least (RFC 1951, 1996).
-    return {ImageHeader::Kind::png, word(16), word(20), depth == 16, std::int64_t{8 * 1032} / bits};
+    return {ImageHeader::Kind::png, word(16), word(20), depth == 16, 8 * limits::deflate_ratio / bits};
 }
 
 void decodePng(Bytes encoded, const ImageHeader& header, unsigned char* pixels) {

@@ -3,6 +3,7 @@
 
 #include "shared/image/file_bytes.h"
 #include "shared/text/json_shape.h"
+#include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -164,15 +165,11 @@ std::vector<Light> readDocument(const Json& document) {
 }  // namespace
 
 std::vector<Light> lightsFromJson(std::string_view text, const std::string& name) {
-    try {
-        return readDocument(parse(text));
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(name + ": " + error.what());
-    }
+    return named(name, [&] { return readDocument(parse(text)); });
 }
 
 std::vector<Light> readLights(const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = bytesOf(file);
+    const std::vector<unsigned char> bytes = bytesOf(file);
     return lightsFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
