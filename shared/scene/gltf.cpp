@@ -102,8 +102,9 @@ Scene loadGltf(const std::string& file, const std::string& scene, const LoadProg
     });
 }
 
-Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name) {
-    return named(name, [&] { return readScene(gltf::open(std::move(bytes), {}), "", {}); });
+Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
+                const std::filesystem::path& folder) {
+    return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder), "", {}); });
 }
 
 }  // namespace diptych

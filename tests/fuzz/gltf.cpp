@@ -1,16 +1,54 @@
 // SPDX-License-Identifier: MIT
-// .gltf and .glb alike, told apart as a reader does: by their first bytes. No file beside it can be named.
+// .gltf and .glb alike, told apart as a reader does: by their first bytes. A few files lie beside it.
 #include "shared/scene/gltf.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sound_scene.h"
 
 #include <tbb/global_control.h>
 
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <stdlib.h>
+
 using namespace diptych;
+
+namespace {
+
+// A folder of the fuzzer's own: 256 bytes, the same below, a link to them, links that lead out, and to
+// nowhere.
+class Beside {
+public:
+    Beside() {
+        namespace fs = std::filesystem;
+        std::string name = (fs::temp_directory_path() / "diptych_fuzz_XXXXXX").string();
+        if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be made");
+        folder = name;
+        fs::create_directory(folder / "sub");
+        for (const char* file : {"a.bin", "sub/b.bin"})
+            std::ofstream(folder / file) << std::string(256, '\1');
+        fs::create_symlink("sub/b.bin", folder / "link.bin");
+        fs::create_symlink("/etc/passwd", folder / "out.bin");
+        fs::create_directory_symlink("/etc", folder / "etc");
+        fs::create_symlink("loop.bin", folder / "loop.bin");
+    }
+    ~Beside() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+    }
+    std::filesystem::path folder;
+};
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     // One thread: an input does the same whenever it runs.
     static const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-    fuzz::readOrSayWhy([&] { fuzz::requireSound(parseGltf({data, data + size}, "fuzz.gltf")); });
+    static const Beside beside;
+    fuzz::readOrSayWhy([&] {
+        fuzz::requireSound(parseGltf({data, data + size}, "fuzz.gltf", beside.folder));
+    });
     return 0;
 }
