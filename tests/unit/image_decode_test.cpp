@@ -267,8 +267,32 @@ TEST(ImageDecode, JpegsOfEveryColourSpace) {
 
 TEST(ImageDecode, OtherFilesAreNeither) {
     EXPECT_EQ(failure({}), "is neither PNG nor JPEG");
-    EXPECT_EQ(failure({'G', 'I', 'F', '8', '9', 'a', 0, 0, 0, 0}), "is neither PNG nor JPEG");
-    EXPECT_EQ(failure({'R', 'I', 'F', 'F', 0, 0, 0, 0, 'W', 'E', 'B', 'P'}), "is neither PNG nor JPEG");
+    EXPECT_EQ(failure({'B', 'M', 'X', ' ', 'i', 's', ' ', 't', 'e', 'x', 't', '.', '.', '.'}),
+              "is neither PNG nor JPEG");
+    const auto named = [](std::string_view begin) {
+        Bytes bytes(begin.begin(), begin.end());
+        bytes.resize(64);
+        return failure(bytes);
+    };
+    using namespace std::string_view_literals;
+    EXPECT_EQ(named("GIF87a"), "is GIF; PNG and JPEG are read");
+    EXPECT_EQ(named("GIF89a"), "is GIF; PNG and JPEG are read");
+    EXPECT_EQ(named("RIFF\x40\0\0\0WEBPVP8 "sv), "is WebP; PNG and JPEG are read");
+    EXPECT_EQ(named("\xabKTX 11\xbb\r\n\x1a\n"), "is KTX; PNG and JPEG are read");
+    EXPECT_EQ(named("\xabKTX 20\xbb\r\n\x1a\n"), "is KTX2; PNG and JPEG are read");
+    EXPECT_EQ(named("BM\x40"), "is BMP; PNG and JPEG are read");
+    EXPECT_EQ(named("II*\0"sv), "is TIFF; PNG and JPEG are read");
+    EXPECT_EQ(named("MM\0*"sv), "is TIFF; PNG and JPEG are read");
+    EXPECT_EQ(named("\0\0\0\x20"
+                    "ftypavif"sv),
+              "is AVIF; PNG and JPEG are read");
+    EXPECT_EQ(named("DDS "), "is DDS; PNG and JPEG are read");
+    for (std::size_t size = 0; size < 12;
+         ++size) {  // cut short they are nothing in particular, or still named
+        const std::string_view webp = "RIFF\x40\0\0\0WEBP"sv;
+        EXPECT_EQ(failure(Bytes(webp.begin(), webp.begin() + static_cast<std::ptrdiff_t>(size))),
+                  "is neither PNG nor JPEG");
+    }
 }
 
 // Cut anywhere, a file ends in one line, and nothing is printed.
