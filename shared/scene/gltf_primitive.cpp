@@ -200,14 +200,24 @@ private:
         return read(model_, at->second, fmt::format("{}: {}", who_, name), which());
     }
 
-    // What is not finite becomes `instead`.
+    // What is not finite or beyond what is drawn becomes `instead`.
     template <class Vec>
     void repair(std::vector<Vec>& values, const Vec& instead, const std::string& name, const char* said) {
-        std::size_t broken = 0;
-        for (Vec& v : values)
-            if (!isUsable(v)) v = instead, ++broken;
-        if (broken)
-            note("{}: {} not finite: {}", name, broken == 1 ? "1 is" : fmt::format("{} are", broken), said);
+        std::size_t broken = 0, finite = 0;
+        for (Vec& v : values) {
+            if (isUsable(v)) continue;
+            ++broken;
+            bool all = true;
+            for (int c = 0; c < Vec::length(); ++c) all &= std::isfinite(v[c]);
+            finite += all;
+            v = instead;
+        }
+        const auto say = [&](std::size_t count, const std::string& what) {
+            if (count)
+                note("{}: {} {}: {}", name, count == 1 ? "1 is" : fmt::format("{} are", count), what, said);
+        };
+        say(broken - finite, "not finite");
+        say(finite, fmt::format("beyond {:g}", maxCoordinate));
     }
 
     void readAttributes() {
@@ -252,7 +262,9 @@ private:
     }
 
     void normalizeWeights() {
-        std::size_t broken = 0, unweighted = 0;
+        // Each weight may be rounded to 8 bits: half a step.
+        const double rounding = 4.0 * static_cast<double>(result_.joint_sets.size()) * 0.5 / 255;
+        std::size_t broken = 0, unweighted = 0, uneven = 0;
         for (std::size_t v = 0; v < result_.positions.size(); ++v) {
             double sum = 0;
             for (JointSet& set : result_.joint_sets)
@@ -265,6 +277,7 @@ private:
                 result_.joint_sets[0].weights[v].x = 1;
                 sum = 1, ++unweighted;
             }
+            uneven += std::abs(sum - 1) > rounding;
             for (JointSet& set : result_.joint_sets)
                 for (int c = 0; c < 4; ++c) {
                     set.weights[v][c] = static_cast<float>(set.weights[v][c] / sum);
@@ -275,6 +288,7 @@ private:
                 }
         }
         if (broken) note("{} joint weights are negative or not finite: 0", broken);
+        if (uneven) note("the joint weights of {} vertices do not add up to 1: divided by their sum", uneven);
         if (unweighted) note("{} vertices have no joint weight: their first joint moves them", unweighted);
     }
 

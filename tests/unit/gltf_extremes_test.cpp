@@ -78,6 +78,17 @@ TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepairedWithACount) {
     EXPECT_TRUE(mentions(scene.notes, "COLOR_0: 2 are not finite: white"));
 }
 
+// What is beyond is not called infinite.
+TEST(GltfExtremes, AttributesBeyondWhatIsDrawnAreNamedSo) {
+    GltfFile f = GltfFile::triangle();
+    f.primitive()["attributes"]["TEXCOORD_0"] =
+        f.accessor<float>({1e19f, 0.5f, NaN, 0, 0.25f, -2e18f}, FLOAT, "VEC2", 2);
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).texcoords[0], (std::vector<glm::vec2>(3, {0, 0})));
+    EXPECT_TRUE(mentions(scene.notes, "TEXCOORD_0: 1 is not finite: 0, 0"));
+    EXPECT_TRUE(mentions(scene.notes, "TEXCOORD_0: 2 are beyond 1e+18: 0, 0"));
+}
+
 // Nothing depends on vertices that no triangle touches, not even their being finite.
 TEST(GltfExtremes, UntouchedVerticesAreNotKept) {
     GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, NaN, 1, 0, 0, 2, 0, 9, 9, 9});

@@ -179,6 +179,16 @@ TEST(GltfMotion, EightInfluencesAreTwoSets) {
     EXPECT_EQ(p.joint_sets[1].weights[1].w, 0.75f);
 }
 
+// A sum that rounding to 8 bits explains is one.
+TEST(GltfMotion, WeightsThatDoNotAddUpAreNoted) {
+    SkinnedFile f;
+    f.setWeights({0.25f, 0.75f, 0, 0, 0.25f, 0.744f, 0, 0, 1, 3, 0, 0});
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).joint_sets.at(0).weights[2], glm::vec4(0.25f, 0.75f, 0, 0));
+    EXPECT_TRUE(
+        mentions(scene.notes, "the joint weights of 1 vertices do not add up to 1: divided by their sum"));
+}
+
 TEST(GltfMotion, WeightsOfNothingGoToTheFirstJointWithANote) {
     SkinnedFile f;
     f.setWeights({0, 0, 0, 0, -1, 0, 0, 0, NaN, 1, 0, 0});
