@@ -9,6 +9,7 @@
 #include "shared/scene/gltf_mesh.h"
 #include "shared/scene/gltf_motion.h"
 #include "shared/scene/gltf_node.h"
+#include "shared/scene/gltf_note_list.h"
 #include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
@@ -32,10 +33,14 @@ void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>&
 }
 
 // The encoded bytes of those images that somebody reads.
-void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
+void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
+                 std::vector<std::string>& sceneNotes) {
     std::atomic<std::uint64_t> held = 0;
+    std::vector<std::vector<std::string>> notes(imageOf.size());
     gltf::forEachInParallel(imageOf.size(), [&](std::size_t i) {
         tinygltf::Image& image = document.model.images[static_cast<std::size_t>(imageOf[i])];
+        if (image.uri.empty() && image.bufferView < 0)
+            throw std::runtime_error(fmt::format("image {}: has neither a uri nor a bufferView", imageOf[i]));
         if (image.uri.empty()) return;
         const std::string uri = std::move(image.uri);
         image.uri = gltf::uriName(uri);
@@ -43,7 +48,7 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
         try {
             const std::uint64_t left =
                 gltf::MAX_ENCODED_IMAGE_BYTES - std::min(held.load(), gltf::MAX_ENCODED_IMAGE_BYTES);
-            image.image = document.resources.read(uri, left + 1);  // one too many tells
+            image.image = document.resources.read(uri, left + 1, notes[i]);  // one too many tells
             if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
                 throw std::runtime_error(
                     fmt::format("the image files are more than {} bytes together: not read",
@@ -52,18 +57,30 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf) {
             throw std::runtime_error(fmt::format("image {}: {}", imageOf[i], e.what()));
         }
     });
+    gltf::NoteList list("images");
+    for (std::size_t i = 0; i < notes.size(); ++i)
+        for (const std::string& note : notes[i]) list.add(fmt::format("image {}: {}", imageOf[i], note));
+    list.moveTo(sceneNotes);
+}
+
+std::vector<bool> drawnMeshes(const Scene& scene, std::size_t count) {
+    std::vector<bool> drawn(count, false);
+    for (const Node& node : scene.nodes)
+        if (node.mesh >= 0) drawn[static_cast<std::size_t>(node.mesh)] = true;
+    return drawn;
 }
 
 Scene readScene(gltf::Document document, const std::string& choice, const LoadProgress& progress) {
     Scene scene;
     noteWhatIsLeftOut(document, scene.notes);
+    scene.notes.insert(scene.notes.end(), document.notes.begin(), document.notes.end());
     if (progress) progress(0, "geometry");
-    gltf::decompress(document.model);
     const std::vector<int> sceneNode = gltf::readNodes(document.model, choice, scene);
+    gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), scene.notes);
     gltf::readMotion(document.model, sceneNode, scene);
     std::vector<int> imageOf;
     gltf::readMaterials(document.model, scene, imageOf);
-    fetchImages(document, imageOf);
+    fetchImages(document, imageOf, scene.notes);
 
     // Pixels and vertices know nothing of each other; each fails only after the other has ended, meshes
     // first.

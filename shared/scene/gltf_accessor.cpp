@@ -254,7 +254,9 @@ std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int index
     const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
     const std::string name = fmt::format("bufferView {}", index);
     if (checkedIndex(view.buffer, model.buffers.size(), name, "buffer") < 0) fail(name, "names no buffer");
-    const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+    const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(view.buffer)];
+    if (!missing(buffer).empty()) throw std::runtime_error(missing(buffer));
+    const std::vector<unsigned char>& data = buffer.data;
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
         fail(name, fmt::format("{} bytes from {} on end past buffer {} ({} bytes)", view.byteLength,
                                view.byteOffset, view.buffer, data.size()));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace diptych::gltf {
 
@@ -20,13 +21,13 @@ constexpr std::size_t bytesPerByte = 64;
 
 }  // namespace
 
-void decompress(tinygltf::Model& model) {
+void decompress(tinygltf::Model& model, const std::vector<bool>& drawn, std::vector<std::string>& notes) {
     std::size_t held = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) held += buffer.data.size();
     const std::size_t limit = freeBytes + bytesPerByte * held;
 
-    const std::vector<MeshoptView> views = findMeshopt(model);
-    const std::vector<DracoPrimitive> primitives = findDraco(model);
+    std::vector<MeshoptView> views = findMeshopt(model);
+    const std::vector<DracoPrimitive> primitives = findDraco(model, drawn);
     double claimed = 0;  // a sum of claims: it may pass 64 bits
     for (const MeshoptView& view : views) claimed += static_cast<double>(view.count * view.stride);
     for (const DracoPrimitive& primitive : primitives) claimed += dracoCost(model, primitive);
@@ -35,7 +36,9 @@ void decompress(tinygltf::Model& model) {
             fmt::format("its compressed geometry asks for {:.0f} bytes, more than the {} that buffers of {} "
                         "bytes may decode to",
                         claimed, limit, held));
-    decodeMeshopt(model, views);
+    NoteList found("compressed bufferViews");
+    decodeMeshopt(model, std::move(views), found);
+    found.moveTo(notes);
     decodeDraco(model, primitives, limit);
 }
 

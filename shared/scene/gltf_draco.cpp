@@ -206,10 +206,10 @@ int append(tinygltf::Model& model, tinygltf::Accessor accessor, Bytes bytes) {
 
 }  // namespace
 
-std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model) {
+std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn) {
     std::vector<DracoPrimitive> result;
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
-        for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
+        for (std::size_t p = 0; drawn[m] && p < model.meshes[m].primitives.size(); ++p)
             if (const auto* e = extension(model.meshes[m].primitives[p].extensions, extensionName))
                 result.push_back(readExtension(model, *e, m, p));
     return result;

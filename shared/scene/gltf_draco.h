@@ -23,8 +23,9 @@ struct DracoPrimitive {
     std::size_t vertices;  // of every one of them
 };
 
-// Throws std::runtime_error at the first that breaks a rule of the extension.
-std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model);
+// Of those meshes that are drawn, one flag each. Throws std::runtime_error at the first that breaks a rule of
+// the extension.
+std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn);
 
 // Bytes that its accessors ask for, and what Draco needs for as many triangles.
 double dracoCost(const tinygltf::Model& model, const DracoPrimitive& primitive);

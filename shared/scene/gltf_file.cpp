@@ -2,6 +2,7 @@
 #include "shared/scene/gltf_file.h"
 
 #include "shared/scene/gltf_limits.h"
+#include "shared/scene/gltf_note_list.h"
 #include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_value.h"
 #include "shared/text/json_shape.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
@@ -46,6 +48,7 @@ struct Container {
     };
     Range json;
     std::optional<Range> binary;
+    std::vector<std::string> notes = {};
 };
 
 std::uint32_t word(const Bytes& bytes, std::size_t at) {
@@ -56,13 +59,17 @@ std::uint32_t word(const Bytes& bytes, std::size_t at) {
 // glTF 2.0, 4.4: a header of three words, then chunks of length, type, data.
 Container readContainer(const Bytes& bytes) {
     constexpr std::uint32_t json = 0x4e4f534a, binary = 0x004e4942;  // "JSON", "BIN\0"
-    if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {{0, bytes.size()}, {}};
+    if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {{0, bytes.size()}, {}, {}};
     if (bytes.size() < 12) fail(fmt::format("is cut short: {} bytes of a header of 12", bytes.size()));
     const std::size_t length = word(bytes, 8);
     if (word(bytes, 4) != 2) fail(fmt::format("binary glTF version {}, not 2", word(bytes, 4)));
     if (length > bytes.size())
         fail(fmt::format("is cut short: {} bytes of the {} that its header names", bytes.size(), length));
     Container container;
+    if (length < bytes.size())
+        container.notes.push_back(fmt::format("{} bytes after the {} that its header names: not read",
+                                              bytes.size() - length, length));
+    std::size_t binaries = 0;
     for (std::size_t at = 12, chunk = 0; at < length; ++chunk) {
         if (length - at < 8) fail(fmt::format("chunk {}: its header ends past the file", chunk));
         const std::size_t size = word(bytes, at);
@@ -73,12 +80,13 @@ Container readContainer(const Bytes& bytes) {
         if (chunk == 0) {
             if (type != json) fail("chunk 0: is not JSON");
             container.json = {at + 8, size};
-        } else if (type == binary && !container.binary) {
+        } else if (type == binary && binaries++ == 0) {
             container.binary = {at + 8, size};
         }
         at += 8 + size;
     }
     if (container.json.size == 0) fail("holds no JSON chunk");
+    if (binaries > 1) container.notes.push_back(fmt::format("{} binary chunks: the first is read", binaries));
     return container;
 }
 
@@ -104,18 +112,30 @@ Json parse(std::string_view text) {
     }
 }
 
+// The newest version that this reader may be asked for.
+bool isBeyond(const std::string& version) {
+    int major = 0, minor = 0;
+    char end = 0;
+    const int found = std::sscanf(version.c_str(), "%4d.%4d%c", &major, &minor, &end);
+    return found != 2 || major > 2 || (major == 2 && minor > 0);
+}
+
 void checkVersion(const Json& document) {
     const auto asset = document.find("asset");
-    const Json version =
-        asset != document.end() && asset->is_object() ? asset->value("version", Json()) : Json();
-    if (!version.is_string()) fail("asset: names no version");
-    const std::string text = version.get<std::string>();
-    if (!text.starts_with("2.")) fail(fmt::format("asset: version {}, not 2.0", oneLine(text)));
+    const auto text = [&](const char* key) {
+        const Json value = asset != document.end() && asset->is_object() ? asset->value(key, Json()) : Json();
+        return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    const std::string version = text("version"), least = text("minVersion");
+    if (version.empty()) fail("asset: names no version");
+    if (!version.starts_with("2.")) fail(fmt::format("asset: version {}, not 2.0", oneLine(version)));
+    if (!least.empty() && isBeyond(least))
+        fail(fmt::format("asset: minVersion {}: 2.0 is read", oneLine(least)));
 }
 
 void checkRequired(const Json& document) {
     const auto required = document.find("extensionsRequired");
-    if (required == document.end()) return;
+    if (required == document.end() || required->is_null()) return;
     if (!required->is_array()) fail("extensionsRequired: is not an array");
     std::string missing;
     for (const Json& name : *required) {
@@ -130,17 +150,39 @@ void checkRequired(const Json& document) {
 
 // ---- buffers and images ------------------------------------------------------------------------------
 
-// Every view of it is compressed, or it says so: a buffer that only stands in where EXT_meshopt_compression
-// is not known may have no bytes.
+// A buffer that only stands in where EXT_meshopt_compression is not known may have no bytes.
 bool mayBeEmpty(const Json& buffer) {
     static const Json::json_pointer meshopt("/extensions/EXT_meshopt_compression");
     return buffer.contains(meshopt);
 }
 
-// The first buffer of a .glb without a uri is its binary chunk. `bytes` is used up for it.
+Bytes bytesOf(const Json& json, bool isFirst, Bytes& file, const std::optional<Container::Range>& binary,
+              const Resources& resources, std::vector<std::string>& notes) {
+    const auto length = json["byteLength"].get<std::uint64_t>();
+    Bytes data;
+    if (const auto uri = json.find("uri"); uri != json.end()) {
+        data = resources.read(uri->get_ref<const std::string&>(), length, notes);
+    } else if (isFirst && binary) {
+        file.resize(binary->offset + binary->size);
+        file.erase(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(binary->offset));
+        data = std::move(file);
+    } else if (mayBeEmpty(json)) {
+        fail("has no data: it stands in where EXT_meshopt_compression is not read");
+    } else {
+        fail("has no uri, and the file no binary chunk for it");
+    }
+    if (data.size() < length)
+        fail(fmt::format("holds {} bytes of the {} that its byteLength names", data.size(), length));
+    data.resize(length);
+    return data;
+}
+
+// The first buffer of a .glb without a uri is its binary chunk. `bytes` is used up for it. A buffer whose
+// bytes are not there is a fault only where somebody reads it.
 void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Container::Range>& binary,
                  Document& out) {
     std::uint64_t total = 0;
+    NoteList notes("buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const Json& json = buffers[i];
         const std::string who = fmt::format("buffer {}", i);
@@ -150,26 +192,17 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
             fail(fmt::format("{}: buffers of more than {} bytes together: not read", who, MAX_BUFFER_BYTES));
         tinygltf::Buffer& buffer = out.model.buffers.emplace_back();
         buffer.name = json.value("name", std::string());
-        if (const auto uri = json.find("uri"); uri != json.end()) {
-            try {
-                buffer.data = out.resources.read(uri->get_ref<const std::string&>(), length);
-            } catch (const std::runtime_error& e) {
-                fail(fmt::format("{}: {}", who, e.what()));
-            }
-        } else if (i == 0 && binary) {
-            bytes.resize(binary->offset + binary->size);
-            bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(binary->offset));
-            buffer.data = std::move(bytes);
-        } else if (mayBeEmpty(json)) {
-            continue;
-        } else {
-            fail(who + ": has no uri, and the file no binary chunk for it");
+        try {
+            std::vector<std::string> found;
+            buffer.data = bytesOf(json, i == 0, bytes, binary, out.resources, found);
+            for (const std::string& note : found) notes.add(fmt::format("{}: {}", who, note));
+        } catch (const std::runtime_error& e) {
+            setMissing(buffer, fmt::format("{}: {}", who, e.what()));
+            if (!mayBeEmpty(json) || json.contains("uri"))
+                notes.add(missing(buffer) + ": nothing that is drawn reads it");
         }
-        if (buffer.data.size() < length)
-            fail(fmt::format("{}: holds {} bytes of the {} that its byteLength names", who,
-                             buffer.data.size(), length));
-        buffer.data.resize(length);
     }
+    notes.moveTo(out.notes);
 }
 
 // Only what they are called and where they are.
@@ -239,14 +272,21 @@ tinygltf::Model parseModel(const std::string& text) {
 
 Document open(Bytes bytes, const std::filesystem::path& folder) {
     const Container container = readContainer(bytes);
-    Document result{{}, Resources(folder), {}};
+    Document result{{}, Resources(folder), {}, {}};
     Json buffers, images;
     {
         Json document =
             parse({reinterpret_cast<const char*>(bytes.data()) + container.json.offset, container.json.size});
         checkVersion(document);
         checkRequired(document);
-        result.left_out = applySchema(document);
+        Schema found = applySchema(document);
+        result.notes = container.notes;
+        result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
+        for (const auto& [name, where] : found.misplaced)
+            if (isBuilt(name))
+                result.notes.push_back(fmt::format("{}: {} is not read there: left out",
+                                                   where.empty() ? "the document" : where, name));
+        result.left_out = std::move(found.extensions);
         std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
         buffers = taken(document, "buffers");
         images = taken(document, "images");

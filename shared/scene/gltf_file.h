@@ -19,6 +19,7 @@ struct Document {
     tinygltf::Model model;
     Resources resources;             // images are read from there, when somebody needs them
     std::set<std::string> left_out;  // extensions that are not read
+    std::vector<std::string> notes;  // what was repaired or left out
 };
 
 // The door. Checked before anything is believed: the container's lengths, the size and nesting of the JSON,

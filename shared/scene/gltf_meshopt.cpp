@@ -48,7 +48,7 @@ std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tiny
     const int index = checkedIndex(indexIn(e, "buffer", -1, who), model.buffers.size(), who, "buffer");
     if (index < 0) fail(view, "names no buffer");
     const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(index)];
-    if (buffer.data.empty()) fail(view, fmt::format("reads buffer {}, which has no data", index));
+    if (!missing(buffer).empty()) fail(view, missing(buffer));
     const auto offset = static_cast<std::size_t>(indexIn(e, "byteOffset", 0, who));
     const auto length = static_cast<std::size_t>(indexIn(e, "byteLength", 0, who));
     if (offset > buffer.data.size() || length > buffer.data.size() - offset)
@@ -133,45 +133,59 @@ Bytes decoded(const MeshoptView& v) {
     return bytes;
 }
 
+MeshoptView viewOf(const tinygltf::Model& model, const tinygltf::Value& e, std::size_t i) {
+    static constexpr const char* modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+    static constexpr const char* filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+    MeshoptView v{i,
+                  streamOf(model, e, i),
+                  static_cast<std::size_t>(indexIn(e, "count", 0, nameOf(i))),
+                  static_cast<std::size_t>(indexIn(e, "byteStride", 0, nameOf(i))),
+                  choice<Mode>(e, "mode", modes, "", i),
+                  choice<Filter>(e, "filter", filters, "NONE", i)};
+    checkRules(v, model.bufferViews[i]);
+    return v;
+}
+
+// The view of a buffer of its own: decoded bytes, or none, and the line for whoever reads them.
+void give(tinygltf::Model& model, std::size_t view, Bytes bytes, std::string line) {
+    tinygltf::BufferView& file = model.bufferViews[view];
+    file.buffer = static_cast<int>(model.buffers.size());
+    file.byteOffset = 0;
+    file.extensions.erase(extensionName);
+    tinygltf::Buffer& buffer = model.buffers.emplace_back();
+    buffer.data = std::move(bytes);
+    setMissing(buffer, std::move(line));
+}
+
 }  // namespace
 
 std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model) {
-    static constexpr const char* modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
-    static constexpr const char* filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
     std::vector<MeshoptView> views;
     for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
-        const tinygltf::BufferView& parent = model.bufferViews[i];
-        const tinygltf::Value* e = extension(parent.extensions, extensionName);
-        if (!e) {
-            if (parent.buffer < 0 || static_cast<std::size_t>(parent.buffer) >= model.buffers.size())
-                continue;
-            // What stands in where the extension is not known may have no data (gltf_file.h).
-            if (model.buffers[static_cast<std::size_t>(parent.buffer)].data.empty())
-                throw std::runtime_error(fmt::format(
-                    "bufferView {}: is not compressed, but buffer {} has no data", i, parent.buffer));
-            continue;
+        const tinygltf::Value* e = extension(model.bufferViews[i].extensions, extensionName);
+        if (!e) continue;
+        try {
+            views.push_back(viewOf(model, *e, i));
+        } catch (const std::runtime_error& error) {
+            views.push_back({.view = i, .fault = error.what()});
         }
-        MeshoptView v{i,
-                      streamOf(model, *e, i),
-                      static_cast<std::size_t>(indexIn(*e, "count", 0, nameOf(i))),
-                      static_cast<std::size_t>(indexIn(*e, "byteStride", 0, nameOf(i))),
-                      choice<Mode>(*e, "mode", modes, "", i),
-                      choice<Filter>(*e, "filter", filters, "NONE", i)};
-        checkRules(v, parent);
-        views.push_back(v);
     }
     return views;
 }
 
-void decodeMeshopt(tinygltf::Model& model, const std::vector<MeshoptView>& views) {
+void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteList& notes) {
     std::vector<Bytes> results(views.size());
-    forEachInParallel(views.size(), [&](std::size_t i) { results[i] = decoded(views[i]); });
+    forEachInParallel(views.size(), [&](std::size_t i) {
+        if (!views[i].fault.empty()) return;
+        try {
+            results[i] = decoded(views[i]);
+        } catch (const std::runtime_error& e) {
+            views[i].fault = e.what();
+        }
+    });
     for (std::size_t i = 0; i < views.size(); ++i) {
-        tinygltf::BufferView& view = model.bufferViews[views[i].view];
-        view.buffer = static_cast<int>(model.buffers.size());
-        view.byteOffset = 0;
-        view.extensions.erase(extensionName);
-        model.buffers.emplace_back().data = std::move(results[i]);
+        if (!views[i].fault.empty()) notes.add(views[i].fault + ": nothing that is drawn reads it");
+        give(model, views[i].view, std::move(results[i]), std::move(views[i].fault));
     }
 }
 

@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/scene/gltf_note_list.h"
 #include "shared/scene/gltf_value.h"
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace diptych::gltf {
 
-// A bufferView of EXT_meshopt_compression that keeps the extension's rules. Source: Khronos,
-// EXT_meshopt_compression, 2021, "JSON schema updates".
+// A bufferView of EXT_meshopt_compression. Source: Khronos, EXT_meshopt_compression, 2021, "JSON schema
+// updates".
 struct MeshoptView {
     enum class Mode { attributes, triangles, indices };
     enum class Filter { none, octahedral, quaternion, exponential };
 
     std::size_t view;
-    std::span<const unsigned char> stream;  // long enough to hold `count` elements
-    std::size_t count, stride;              // elements, bytes: their product is the bufferView's length
-    Mode mode;
-    Filter filter;
+    std::span<const unsigned char> stream = {};  // long enough to hold `count` elements
+    std::size_t count = 0, stride = 0;           // elements, bytes: their product is the bufferView's length
+    Mode mode = Mode::attributes;
+    Filter filter = Filter::none;
+    std::string fault = {};  // which rule of the extension it breaks; then there is nothing to decode
 };
 
-// Throws std::runtime_error at the first that breaks a rule, and where bytes are asked of a fallback buffer
-// that has none.
+// All that the file has.
 std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model);
 
-// Gives every one of them a buffer of decoded bytes. Decoded indices may still be any number.
-void decodeMeshopt(tinygltf::Model& model, const std::vector<MeshoptView>& views);
+// Gives every one of them a buffer of decoded bytes. Decoded indices may still be any number. What cannot be
+// decoded is noted, and its fault is thrown at whoever reads it (missing, gltf_value.h).
+void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteList& notes);
 
 }  // namespace diptych::gltf

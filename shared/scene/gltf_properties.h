@@ -121,7 +121,7 @@ constexpr Property bufferExtensions[] = {object("EXT_meshopt_compression", mesho
 constexpr Property bufferView[] = {required(index("buffer", "buffers")),
                                    whole("byteOffset", 0, maxSize),
                                    required(whole("byteLength", 0, maxSize)),
-                                   whole("byteStride", 4, 252),
+                                   whole("byteStride", 0, 252),
                                    name(),
                                    extensions(viewExtensions)};
 constexpr Property buffer[] = {text("uri"), required(whole("byteLength", 0, maxSize)), name(),
@@ -130,7 +130,11 @@ constexpr Property buffer[] = {text("uri"), required(whole("byteLength", 0, maxS
 constexpr Property image[] = {text("uri"), index("bufferView", "bufferViews"), text("mimeType"), name()};
 constexpr Property sampler[] = {whole("magFilter"), whole("minFilter"), whole("wrapS"), whole("wrapT"),
                                 name()};
-constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"), name()};
+// Images of kinds that are not read: it is only told that they are there.
+constexpr Property textureExtensions[] = {object("KHR_texture_basisu", {}), object("EXT_texture_webp", {}),
+                                          object("EXT_texture_avif", {})};
+constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"), name(),
+                                extensions(textureExtensions)};
 
 constexpr Property textureTransform[] = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
                                          whole("texCoord")};
@@ -144,7 +148,7 @@ constexpr Property occlusionInfo[] = {required(index("index", "textures")), whol
 constexpr Property metallicRoughness[] = {
     numbers("baseColorFactor", 4), object("baseColorTexture", textureInfo), number("metallicFactor"),
     number("roughnessFactor"), object("metallicRoughnessTexture", textureInfo)};
-constexpr Property emissiveStrength[] = {number("emissiveStrength", 0)};
+constexpr Property emissiveStrength[] = {number("emissiveStrength")};
 constexpr Property ior[] = {number("ior")};
 constexpr Property specular[] = {number("specularFactor"), object("specularTexture", textureInfo),
                                  numbers("specularColorFactor", 3),
@@ -235,5 +239,12 @@ constexpr Property document[] = {required(object("asset", asset)),
                                  objects("skins", "skin", skin),
                                  objects("textures", "texture", texture),
                                  extensions(documentExtensions)};
+
+// What a line calls an item of one of the document's collections.
+constexpr std::string_view itemOf(std::string_view collection) {
+    for (const Property& p : document)
+        if (p.key == collection) return p.of;
+    return {};
+}
 
 }  // namespace diptych::gltf::schema

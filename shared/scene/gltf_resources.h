@@ -19,10 +19,13 @@ public:
     explicit Resources(const std::filesystem::path& folder);
 
     // The first `most` bytes, or all that there are. Throws std::runtime_error: "a.bin: no such file",
-    // without the name of who asks.
-    std::vector<unsigned char> read(const std::string& uri, std::uint64_t most = MAX_FILE_BYTES) const;
+    // without the name of who asks; so are the notes on what the uri was taken for.
+    std::vector<unsigned char> read(const std::string& uri, std::uint64_t most,
+                                    std::vector<std::string>& notes) const;
 
 private:
+    std::filesystem::path find(const std::string& uri, std::vector<std::string>& notes) const;
+
     std::filesystem::path folder_;  // canonical
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf_schema.h"
 
+#include "shared/scene/gltf_note_list.h"
 #include "shared/scene/gltf_properties.h"
+#include "shared/scene/gltf_references.h"
+#include "shared/scene/gltf_rules.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -59,16 +62,20 @@ std::string quoted(const Json& value) {
 
 class Walk {
 public:
-    explicit Walk(const Json& document) : document_(document) {}
+    explicit Walk(const Json& document) : references(document) {}
 
-    std::set<std::string> unknown_extensions;
+    References references;
+    std::set<std::string> met_extensions;
+    std::map<std::string, std::string> misplaced;  // where
+    NoteList notes{"objects"};
 
     // Takes out what is not read and checks the rest.
     void object(Json& value, std::span<const Property> properties, const Where& where) {
         if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end();) {
             const auto property = std::ranges::find(properties, at.key(), &Property::key);
-            if (property == properties.end()) {
+            if (property == properties.end() && at.key() == "extensions") leaveOut(at.value(), where);
+            if (property == properties.end() || isAbsent(at.value(), *property, where)) {
                 at = value.erase(at);
                 continue;
             }
@@ -81,7 +88,34 @@ public:
     }
 
 private:
-    const Json& document_;
+    void note(const Where& where, const std::string& what) {
+        const std::string words = where.words();
+        notes.add(words.empty() ? what : words + ": " + what);
+    }
+
+    // Extensions of an object that has none which are read.
+    void leaveOut(const Json& extensions, const Where& where) {
+        if (!extensions.is_object()) return;
+        for (const auto& extension : extensions.items()) met(extension.key(), false, where);
+    }
+
+    void met(const std::string& extension, bool read, const Where& where) {
+        const std::string name = oneLine(extension);
+        met_extensions.insert(name);
+        if (!read && !misplaced.contains(name)) misplaced[name] = where.words();
+    }
+
+    // Exporters write null for what they do not have, and numbers where people expect names: neither is
+    // needed to draw.
+    bool isAbsent(const Json& value, const Property& p, const Where& where) {
+        if (value.is_null()) {
+            note(where, fmt::format("{} is null: taken as absent", p.key));
+            return true;
+        }
+        if (p.kind != Kind::name || p.required || value.is_string()) return false;
+        note(where, fmt::format("{} is {}, not text: left out", p.key, quoted(value)));
+        return true;
+    }
 
     void check(Json& value, const Property& p, const Where& where) {
         switch (p.kind) {
@@ -118,11 +152,30 @@ private:
             case Kind::object:
                 return object(value, p.properties, {&where, p.key});
             case Kind::objects:
-                for (std::size_t i = 0; Json & item : array(value, p, where))
-                    object(item, p.properties, {&where, p.of, i++});
-                return;
+                return objects(array(value, p, where), p, where);
             case Kind::extensions:
                 return extensions(value, p, where);
+        }
+    }
+
+    // An item of the document's own collections that is wrong may be one that nobody needs.
+    void objects(Json& value, const Property& p, const Where& where) {
+        const std::string_view collection = p.of == "light" ? "KHR_lights_punctual" : p.key;
+        const bool items = !references.inside();
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (!items) {
+                object(value[i], p.properties, {&where, p.of, i});
+                continue;
+            }
+            const Where here{p.of == "light" ? nullptr : &where, p.of, i};
+            references.enter(collection, i);
+            try {
+                object(value[i], p.properties, here);
+                checkRules(collection, value[i], here.words(), notes);
+            } catch (const std::runtime_error& e) {
+                references.broken(collection, i, e.what());
+            }
+            references.leave();
         }
     }
 
@@ -182,35 +235,26 @@ private:
         }
     }
 
-    struct Collection {
-        std::size_t count;
-        std::string_view one;  // what a message calls an item
-    };
-
-    // What an index may lead to.
-    Collection collection(std::string_view key) const {
-        static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-        if (key.empty()) return {std::numeric_limits<int>::max(), ""};
-        if (key == "KHR_lights_punctual")
-            return {document_.contains(lights) ? document_[lights].size() : 0, "light"};
-        const auto at = document_.find(key);
-        return {at == document_.end() || !at->is_array() ? 0 : at->size(),
-                std::ranges::find(schema::document, key, &Property::key)->of};
-    }
-
-    void index(Json& value, std::string_view key, std::string_view of, const Where& where) const {
+    // What an index names; without a collection it may be any number. A node draws without its skin and
+    // without its camera.
+    void index(Json& value, std::string_view key, std::string_view of, const Where& where) {
         if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
             wrong(value, key, "an index", where);
         const double v = value.get<double>();
-        const auto [count, one] = collection(of);
+        const std::size_t count = of.empty() ? std::numeric_limits<int>::max() : references.count(of);
+        const std::string_view one = of.empty()                    ? ""
+                                     : of == "KHR_lights_punctual" ? "light"
+                                                                   : schema::itemOf(of);
         if (!(v >= 0 && v < static_cast<double>(count)))
             fail(where,
                  fmt::format("{}{} {}, but the file has {}", key == one ? "" : fmt::format("{} names ", key),
                              one, value.dump(), count));
         value = static_cast<std::int64_t>(v);
+        if (!of.empty() && of != "skins" && of != "cameras")
+            references.names(of, static_cast<std::size_t>(v));
     }
 
-    void attributes(Json& value, const Property& p, const Where& where) const {
+    void attributes(Json& value, const Property& p, const Where& where) {
         if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end(); ++at) {
             const std::string name = oneLine(at.key());
@@ -223,8 +267,8 @@ private:
         if (!value.is_object()) wrong(value, p.key, "an object", where);
         for (auto at = value.begin(); at != value.end();) {
             const auto property = std::ranges::find(p.properties, at.key(), &Property::key);
-            if (property == p.properties.end()) {
-                unknown_extensions.insert(oneLine(at.key()));
+            met(at.key(), property != p.properties.end(), where);
+            if (property == p.properties.end() || isAbsent(at.value(), *property, where)) {
                 at = value.erase(at);
                 continue;
             }
@@ -234,54 +278,19 @@ private:
     }
 };
 
-// What one property says of another.
-void checkAccessors(const Json& document) {
-    constexpr std::array types{5120, 5121, 5122, 5123, 5125, 5126};
-    static const Json none = Json::array();
-    for (std::size_t i = 0;
-         const Json& accessor : document.contains("accessors") ? document["accessors"] : none) {
-        const Where where{nullptr, "accessor", i++};
-        if (const int type = accessor["componentType"].get<int>();
-            std::ranges::find(types, type) == types.end())
-            fail(where, fmt::format("componentType {} is none of glTF's", type));
-        if (accessor.contains("sparse") && accessor["sparse"]["count"] > accessor["count"])
-            fail(where, fmt::format("{} sparse elements of {}", accessor["sparse"]["count"].dump(),
-                                    accessor["count"].dump()));
-    }
-    for (std::size_t i = 0;
-         const Json& view : document.contains("bufferViews") ? document["bufferViews"] : none) {
-        const Where where{nullptr, "bufferView", i++};
-        if (const int stride = view.value("byteStride", 4); stride % 4 != 0)
-            fail(where, fmt::format("byteStride {} is no multiple of 4", stride));
-    }
-}
-
-// A camera and a spot light bring an object that their type names.
-void checkKinds(const Json& document) {
-    static const Json none = Json::array();
-    for (std::size_t i = 0; const Json& camera : document.contains("cameras") ? document["cameras"] : none) {
-        const Where where{nullptr, "camera", i++};
-        const std::string& type = camera["type"].get_ref<const std::string&>();
-        if (!camera.contains(type)) fail(where, fmt::format("is {0}, but has no {0}", type));
-    }
-    static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-    for (std::size_t i = 0; const Json& light : document.contains(lights) ? document[lights] : none) {
-        const Where where{nullptr, "light", i++};
-        if (light["type"] == "spot" && !light.contains("spot")) fail(where, "is spot, but has no spot");
-    }
-}
-
 }  // namespace
 
-std::set<std::string> applySchema(nlohmann::json& document) {
+Schema applySchema(nlohmann::json& document) {
     Walk walk(document);
     walk.object(document, schema::document, {});
-    checkAccessors(document);
-    checkKinds(document);
+    checkStrides(document, walk.references, walk.notes);
+    leaveOutUnusable(document, walk.references, walk.notes);
     if (const auto used = document.find("extensionsUsed"); used != document.end())
         for (const Json& name : *used)
-            walk.unknown_extensions.insert(oneLine(name.get_ref<const std::string&>()));
-    return std::move(walk.unknown_extensions);
+            walk.met_extensions.insert(oneLine(name.get_ref<const std::string&>()));
+    Schema found{std::move(walk.met_extensions), std::move(walk.misplaced), {}};
+    walk.notes.moveTo(found.notes);
+    return found;
 }
 
 }  // namespace diptych::gltf

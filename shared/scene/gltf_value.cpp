@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace diptych::gltf {
 
@@ -65,6 +66,15 @@ void limitNotes(std::vector<std::string>& notes, std::size_t first, std::string_
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name) {
     const auto at = extensions.find(name);
     return at == extensions.end() || !at->second.IsObject() ? nullptr : &at->second;
+}
+
+// No buffer is fetched any more once its bytes are in the model: the place of its uri is free.
+void setMissing(tinygltf::Buffer& buffer, std::string line) {
+    buffer.uri = std::move(line);
+}
+
+const std::string& missing(const tinygltf::Buffer& buffer) {
+    return buffer.uri;
 }
 
 }  // namespace diptych::gltf

@@ -32,6 +32,11 @@ void limitNotes(std::vector<std::string>& notes, std::size_t first, std::string_
 // The extension's object, or nullptr.
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
 
+// Why a buffer's bytes are not there, as whoever reads it is told: "buffer 1: a.bin: no such file". Empty:
+// they are there.
+void setMissing(tinygltf::Buffer& buffer, std::string line);
+const std::string& missing(const tinygltf::Buffer& buffer);
+
 // run(i) for i below `count` on all cores; then the first failure by index, whatever thread met it.
 template <class Run>
 void forEachInParallel(std::size_t count, const Run& run) {

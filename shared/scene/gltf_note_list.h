@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::gltf {
+
+// Notes of one kind, of which a file may give any number: the first are kept, once each, the rest are
+// counted.
+class NoteList {
+public:
+    // `about` is what a line calls them: "12 more notes on nodes like these".
+    explicit NoteList(std::string about) : about_(std::move(about)) {}
+
+    void add(std::string note) {
+        if (std::find(notes_.begin(), notes_.end(), note) != notes_.end()) return;
+        if (notes_.size() < shown)
+            notes_.push_back(std::move(note));
+        else
+            ++more_;
+    }
+
+    void moveTo(std::vector<std::string>& notes) {
+        for (std::string& note : notes_) notes.push_back(std::move(note));
+        if (more_) notes.push_back(fmt::format("{} more notes on {} like these", more_, about_));
+        notes_.clear();
+        more_ = 0;
+    }
+
+private:
+    static constexpr std::size_t shown = 20;  // a screenful
+    std::string about_;
+    std::vector<std::string> notes_;
+    std::size_t more_ = 0;
+};
+
+}  // namespace diptych::gltf
