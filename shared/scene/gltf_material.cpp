@@ -3,6 +3,7 @@
 
 #include "shared/image/limits.h"
 #include "shared/scene/gltf_accessor.h"
+#include "shared/scene/gltf_note_list.h"
 #include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
 #include "shared/scene/image_decode.h"
@@ -79,27 +80,45 @@ Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
     return sampler;
 }
 
-void readTextures(const tinygltf::Model& model, Scene& scene) {
-    std::vector<Sampler> samplers;
-    for (std::size_t i = 0; i < model.samplers.size(); ++i)
-        samplers.push_back(readSampler(model.samplers[i], fmt::format("sampler {}", i)));
+// What is wrong with a sampler is a fault of the materials that read it.
+void readTextures(const tinygltf::Model& model, Scene& scene, std::vector<std::string>& faults) {
     for (std::size_t i = 0; i < model.textures.size(); ++i) {
         const tinygltf::Texture& t = model.textures[i];
         const std::string who = fmt::format("texture {}", i);
         Texture texture;
         texture.image = checkedIndex(t.source, model.images.size(), who, "image");
-        if (checkedIndex(t.sampler, samplers.size(), who, "sampler") >= 0)
-            texture.sampler = samplers[static_cast<std::size_t>(t.sampler)];
+        std::string& fault = faults.emplace_back();
+        const int sampler = checkedIndex(t.sampler, model.samplers.size(), who, "sampler");
+        try {
+            if (sampler >= 0)
+                texture.sampler = readSampler(model.samplers[static_cast<std::size_t>(sampler)],
+                                              fmt::format("sampler {}", sampler));
+        } catch (const std::runtime_error& e) {
+            fault = e.what();
+        }
         scene.textures.push_back(texture);
     }
+}
+
+// Of its extensions, one that brings an image of a kind that is not read; nullptr: none does.
+const char* otherImageOf(const tinygltf::Texture& texture) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"})
+        if (extension(texture.extensions, name)) return name;
+    return nullptr;
 }
 
 // ---- materials ---------------------------------------------------------------------------------------
 
 class MaterialReader {
 public:
-    MaterialReader(const tinygltf::Model& model, Scene& scene, std::size_t index)
-        : file_(model.materials[index]), scene_(scene), who_(fmt::format("material {}", index)) {}
+    // `faults`: of each texture.
+    MaterialReader(const tinygltf::Model& model, Scene& scene, const std::vector<std::string>& faults,
+                   std::size_t index)
+        : model_(model),
+          file_(model.materials[index]),
+          scene_(scene),
+          faults_(faults),
+          who_(fmt::format("material {}", index)) {}
 
     Material read() {
         const tinygltf::PbrMetallicRoughness& pbr = file_.pbrMetallicRoughness;
@@ -116,18 +135,21 @@ public:
         m.alpha_mode = alphaMode();
         m.double_sided = file_.doubleSided;
         m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
+        if (extension(file_.extensions, "KHR_materials_unlit")) return unlit(m);
         m.metallic_roughness_texture = slot("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
         m.normal_texture = slot("normalTexture", file_.normalTexture);
         m.occlusion_texture = slot("occlusionTexture", file_.occlusionTexture);
         m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
         readEmission(m);
         readSpecular(m);
-        return extension(file_.extensions, "KHR_materials_unlit") ? unlit(m) : m;
+        return m;
     }
 
 private:
+    const tinygltf::Model& model_;
     const tinygltf::Material& file_;
     Scene& scene_;
+    const std::vector<std::string>& faults_;
     std::string who_;
 
     // Where glTF has no bound, or none on one side: squares and products of such stay finite in float32.
@@ -136,8 +158,9 @@ private:
     double bounded(const std::string& what, double x, double least, double most) {
         const double inside = std::clamp(x, least, most);
         if (inside != x)
-            scene_.notes.push_back(fmt::format("{}: {} {:g} is outside {:g} to {:g}: taken as {:g}", who_,
-                                               what, x, least, most, inside));
+            // Every digit: 1.0000001 is outside, too.
+            scene_.notes.push_back(fmt::format("{}: {} {} is outside {:g} to {:g}: taken as {:g}", who_, what,
+                                               x, least, most, inside));
         return inside;
     }
     float within(const std::string& what, double x, double least, double most) {
@@ -160,6 +183,12 @@ private:
         TextureSlot result;
         const std::string who = fmt::format("{}: {}", who_, name);
         if (checkedIndex(texture, scene_.textures.size(), who, "texture") < 0) return result;
+        if (const std::string& fault = faults_[static_cast<std::size_t>(texture)]; !fault.empty())
+            throw std::runtime_error(fault);
+        const char* other = otherImageOf(model_.textures[static_cast<std::size_t>(texture)]);
+        if (other && scene_.textures[static_cast<std::size_t>(texture)].image < 0)
+            fail(who,
+                 fmt::format("texture {} has no image but that of {}, which is not read", texture, other));
         if (transform) texcoord = readTransform(*transform, name, result, texcoord);
         if (texcoord < 0 || texcoord > 1)
             scene_.notes.push_back(
@@ -202,7 +231,7 @@ private:
         return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
     }
 
-    // KHR_materials_unlit: all other parameters are ignored, though they had to be right.
+    // KHR_materials_unlit: all other parameters are ignored.
     static Material unlit(const Material& lit) {
         Material m;
         m.unlit = true;
@@ -218,7 +247,8 @@ private:
     void readEmission(Material& m) {
         double strength = 1;
         if (const auto* e = extension(file_.extensions, "KHR_materials_emissive_strength"))
-            strength = numberIn(*e, "emissiveStrength", 1, who_);
+            strength = bounded("emissiveStrength", numberIn(*e, "emissiveStrength", 1, who_), 0,
+                               std::numeric_limits<float>::max());
         for (int c = 0; c < 3; ++c) {
             const double emitted = file_.emissiveFactor[static_cast<std::size_t>(c)] * strength;
             if (!(emitted <= static_cast<double>(std::numeric_limits<float>::max())))
@@ -230,8 +260,10 @@ private:
     void readSpecular(Material& m) {
         if (const auto* e = extension(file_.extensions, "KHR_materials_ior")) {
             const double ior = numberIn(*e, "ior", 1.5, who_);
-            if (ior != 0 && ior < 1) fail(who_, fmt::format("ior {:g} is neither 0 nor at least 1", ior));
-            m.ior = static_cast<float>(ior);
+            if (ior != 0 && ior < 1)
+                scene_.notes.push_back(
+                    fmt::format("{}: ior {} is neither 0 nor at least 1: taken as 1", who_, ior));
+            m.ior = ior == 0 ? 0.0f : static_cast<float>(std::max(ior, 1.0));
         }
         if (const auto* e = extension(file_.extensions, "KHR_materials_specular")) {
             m.specular = within("specularFactor", numberIn(*e, "specularFactor", 1, who_), 0, 1);
@@ -260,6 +292,17 @@ void noteMaterials(const tinygltf::Model& model, const Test& test, const char* w
             fmt::format("{} material{} ({}) {}", count, count == 1 ? "" : "s", oneLine(names), what));
 }
 
+std::vector<bool> drawnMaterials(const tinygltf::Model& model, const Scene& scene) {
+    std::vector<bool> drawn(model.materials.size(), false);
+    for (const Node& node : scene.nodes) {
+        if (node.mesh < 0) continue;
+        for (const tinygltf::Primitive& p : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+            if (checkedIndex(p.material, drawn.size(), fmt::format("mesh {}", node.mesh), "material") >= 0)
+                drawn[static_cast<std::size_t>(p.material)] = true;
+    }
+    return drawn;
+}
+
 // Scene::images holds what some material reads, in the file's order; textures are pointed there.
 void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
     std::vector<bool> used(imageCount, false);
@@ -283,10 +326,25 @@ void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& ima
 
 void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>& imageOf) {
     const std::size_t before = scene.notes.size();
-    readTextures(model, scene);
-    for (std::size_t i = 0; i < model.materials.size(); ++i)
-        scene.materials.push_back(MaterialReader(model, scene, i).read());
+    std::vector<std::string> faults;
+    readTextures(model, scene, faults);
+    const std::vector<bool> drawn = drawnMaterials(model, scene);
+    NoteList left("materials");
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        Material& m = scene.materials.emplace_back();
+        try {
+            m = MaterialReader(model, scene, faults, i).read();
+        } catch (const std::runtime_error& e) {
+            if (drawn[i]) throw;
+            left.add(std::string(e.what()) + ": left out, nothing is drawn with it");
+            m = {};
+            m.name = model.materials[i].name;
+        }
+        if (!drawn[i])
+            for (const MaterialSlot& slot : materialSlots) m.*slot.texture = {};
+    }
     limitNotes(scene.notes, before, "materials");
+    left.moveTo(scene.notes);
     noteMaterials(
         model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
         "with alphaMode BLEND: drawn opaque, blending is not built yet", scene);

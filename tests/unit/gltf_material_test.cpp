@@ -138,6 +138,7 @@ TEST(GltfMaterial, BrokenImagesInUseAreRefused) {
           std::pair{"scene.gltf", "image 0 (scene.gltf): is neither PNG nor JPEG"},
           std::pair{"data:image/png;base64,iVBORw0KGgoAAAAN", "image 0: does not decode"}}) {
         GltfFile f = GltfFile::triangle();
+        f.primitive()["material"] = 0;
         f.json["images"] = {{{"uri", uri}}};
         f.json["textures"] = {{{"source", 0}}};
         f.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
@@ -150,6 +151,7 @@ TEST(GltfMaterial, BrokenImagesInUseAreRefused) {
 
 TEST(GltfMaterial, ImagesInBufferViewsAreChecked) {
     GltfFile f = GltfFile::triangle();
+    f.primitive()["material"] = 0;
     f.json["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
     f.json["textures"] = {{{"source", 0}}};
     f.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
@@ -358,8 +360,9 @@ TEST(GltfMaterial, ModesThatAreNoneAreRefused) {
                                                {"wrapT", 1, "sampler 0: 1 is no wrap mode"},
                                                {"magFilter", 9987, "sampler 0: 9987 is no magFilter"},
                                                {"minFilter", 9988, "sampler 0: 9988 is no minFilter"}}) {
-        GltfFile f = withMaterial(Json::object());
+        GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
         f.json["samplers"] = {{{key, value}}};
+        f.json["textures"][0]["sampler"] = 0;
         EXPECT_TRUE(f.error().ends_with(std::string(": ") + expected)) << f.error();
     }
 }
@@ -406,6 +409,20 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
          [](const Material& m) { return m.alpha_cutoff; },
          0,
          "alphaCutoff -1 "},
+        {{{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}},
+         [](const Material& m) { return m.ior; },
+         1,
+         "material 0: ior 0.5 is neither 0 nor at least 1: taken as 1"},
+        {{{"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}},
+          {"emissiveFactor", {1, 1, 1}}},
+         [](const Material& m) { return m.emissive.g; },
+         0,
+         "material 0: emissiveStrength -1 is outside 0 to "},
+        // Printed with few digits it would be 1.
+        {{{"pbrMetallicRoughness", {{"metallicFactor", 1.00000001}}}},
+         [](const Material& m) { return m.metallic; },
+         1,
+         "metallicFactor 1.00000001 is outside 0 to 1: taken as 1"},
         {specular({{"specularFactor", 1.5}}), [](const Material& m) { return m.specular; }, 1,
          "specularFactor 1.5 "},
         {specular({{"specularColorFactor", {-1, 1, 1}}}),
@@ -438,13 +455,7 @@ TEST(GltfMaterial, FactorsWithoutBoundStay) {
     EXPECT_FALSE(mentions(scene.notes, "material 0: "));
 }
 
-TEST(GltfMaterial, WhatNoSurfaceCanBeIsRefused) {
-    const auto extension = [](const char* name, Json value) {
-        return withMaterial({{"extensions", {{name, value}}}, {"emissiveFactor", {1, 1, 1}}}).error();
-    };
-    EXPECT_TRUE(extension("KHR_materials_ior", {{"ior", 0.5}})
-                    .ends_with(": material 0: ior 0.5 is neither 0 nor at least 1"));
-    EXPECT_NE(extension("KHR_materials_emissive_strength", {{"emissiveStrength", -1}}), "");
+TEST(GltfMaterial, EmissionBeyondAnyFloatIsRefused) {
     GltfFile f =
         withMaterial({{"emissiveFactor", {1e38, 0, 0}},
                       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 10}}}}}});
@@ -454,7 +465,7 @@ TEST(GltfMaterial, WhatNoSurfaceCanBeIsRefused) {
 // ---- images of other kinds ---------------------------------------------------------------------------
 
 TEST(GltfMaterial, BasisuAndWebpAreRefusedByNameWhereRequired) {
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"}) {
         GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
         f.json["extensionsUsed"] = f.json["extensionsRequired"] = {name};
         EXPECT_TRUE(f.error().ends_with(std::string(": extensionsRequired: ") + name +
@@ -463,23 +474,30 @@ TEST(GltfMaterial, BasisuAndWebpAreRefusedByNameWhereRequired) {
     }
 }
 
-// Where they are optional, a PNG or JPEG stands beside them; without one the slot is left out, with notes.
-TEST(GltfMaterial, FallbacksOfBasisuAndWebpAreRead) {
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"})
-        for (const bool fallback : {true, false}) {
-            GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
-            f.json["extensionsUsed"] = {name};
-            f.json["images"].push_back({{"uri", "picture.ktx2"}});  // nobody opens it
-            f.json["textures"][0]["extensions"] = {{name, {{"source", 1}}}};
-            if (!fallback) f.json["textures"][0].erase("source");
-            const Scene scene = f.load();
-            EXPECT_TRUE(mentions(scene.notes, name));
-            EXPECT_EQ(scene.images.size(), fallback ? 1u : 0u);
-            EXPECT_EQ(scene.materials[0].emissive_texture.texture, fallback ? 0 : -1);
-            EXPECT_EQ(mentions(scene.notes,
-                               "material 0: emissiveTexture: texture 0 has no PNG or JPEG image: left out"),
-                      !fallback);
-        }
+// Where they are optional, a PNG or JPEG stands beside them; a material that has nothing else cannot be
+// drawn.
+TEST(GltfMaterial, FallbacksOfOtherImagesAreRead) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"}) {
+        GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
+        f.json["extensionsUsed"] = {name};
+        f.json["images"].push_back({{"uri", "picture.ktx2"}});  // nobody opens it
+        f.json["textures"][0]["extensions"] = {{name, {{"source", 1}}}};
+        const Scene scene = f.load();
+        EXPECT_TRUE(mentions(scene.notes, std::string(name) + ": left out, it is not read"));
+        EXPECT_EQ(scene.images.size(), 1u);
+        EXPECT_EQ(scene.materials[0].emissive_texture.texture, 0);
+        f.json["textures"][0].erase("source");
+        EXPECT_TRUE(f.error().ends_with(
+            std::string(": material 0: emissiveTexture: texture 0 has no image but that of ") + name +
+            ", which is not read"))
+            << f.error();
+        f.primitive().erase("material");
+        EXPECT_TRUE(mentions(f.load().notes, "which is not read: left out, nothing is drawn with it"));
+    }
+    GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
+    f.json["textures"][0].erase("source");
+    EXPECT_TRUE(mentions(f.load().notes,
+                         "material 0: emissiveTexture: texture 0 has no PNG or JPEG image: left out"));
 }
 
 // Each image is far below the limit; together they are not.
@@ -496,6 +514,8 @@ TEST(GltfMaterial, AllImagesTogetherHaveALimit) {
         f.json["images"].push_back({{"bufferView", view}, {"mimeType", "image/jpeg"}});
         f.json["textures"].push_back({{"source", i}});
         f.json["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+        f.json["meshes"][0]["primitives"].push_back(f.primitive());
+        f.json["meshes"][0]["primitives"].back()["material"] = f.json["materials"].size() - 1;
     }
     const std::string most = std::to_string(limits::imageBytes() >> 20);
     EXPECT_TRUE(f.error().ends_with("MiB decoded: " + most + " MiB are read at most")) << f.error();
