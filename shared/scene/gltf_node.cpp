@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf_node.h"
 
+#include "shared/scene/gltf_note_list.h"
 #include "shared/scene/gltf_value.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace diptych::gltf {
 
@@ -39,7 +42,7 @@ void checkLength(const std::vector<double>& values, std::size_t count, const std
         if (!std::isfinite(v)) fail(who, fmt::format("{} is not finite", what));
 }
 
-glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who) {
+glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteList& notes) {
     checkLength(node.matrix, 16, who, "matrix");
     checkLength(node.translation, 3, who, "translation");
     checkLength(node.rotation, 4, who, "rotation");
@@ -58,7 +61,10 @@ glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who) {
     if (!node.rotation.empty()) {
         const std::vector<double>& r = node.rotation;
         const glm::dquat q(r[3], r[0], r[1], r[2]);
-        if (glm::length(q) > 0) m = glm::mat4_cast(glm::normalize(q));
+        if (glm::length(q) > 0)
+            m = glm::mat4_cast(glm::normalize(q));
+        else
+            notes.add(who + ": rotation 0 0 0 0: taken as none");
     }
     if (!node.scale.empty())
         for (int c = 0; c < 3; ++c) m[c] *= node.scale[static_cast<std::size_t>(c)];
@@ -139,7 +145,25 @@ std::vector<bool> reached(const tinygltf::Model& model, int index, const std::ve
 
 // ---- what hangs on nodes -----------------------------------------------------------------------------
 
-Light readLight(const tinygltf::Light& l, const std::string& who) {
+// `x` within its bounds, with a note where it was not.
+double bounded(const std::string& who, const char* what, double x, double least, double most,
+               NoteList& notes) {
+    const double inside = std::clamp(x, least, most);
+    if (inside != x) notes.add(fmt::format("{}: {} {}: taken as {:g}", who, what, x, inside));
+    return inside;
+}
+
+void readCone(const tinygltf::SpotLight& spot, const std::string& who, Light& light, NoteList& notes) {
+    static constexpr double right = glm::half_pi<double>();
+    // A rounded pi / 2 is one.
+    const auto rounded = [](double x) { return x <= right + 1e-6 ? std::min(x, right) : x; };
+    const double outer = bounded(who, "outerConeAngle", rounded(spot.outerConeAngle), 0, right, notes);
+    light.outer_cone = static_cast<float>(outer);
+    light.inner_cone =
+        static_cast<float>(bounded(who, "innerConeAngle", rounded(spot.innerConeAngle), 0, outer, notes));
+}
+
+Light readLight(const tinygltf::Light& l, const std::string& who, NoteList& notes) {
     Light light;
     light.name = l.name;
     if (l.type == "directional")
@@ -151,24 +175,19 @@ Light readLight(const tinygltf::Light& l, const std::string& who) {
     else
         fail(who, fmt::format("type \"{}\" is none of directional, point, spot", l.type));
     checkLength(l.color, 3, who, "color");
+    constexpr double most = std::numeric_limits<float>::max();
     for (int c = 0; c < 3 && !l.color.empty(); ++c)
-        light.color[c] = static_cast<float>(std::max(l.color[static_cast<std::size_t>(c)], 0.0));
-    if (!(l.intensity >= 0)) fail(who, fmt::format("intensity {:g} is negative", l.intensity));
-    light.intensity = static_cast<float>(l.intensity);
-    if (l.range < 0) fail(who, fmt::format("range {:g} is negative", l.range));
+        light.color[c] =
+            static_cast<float>(bounded(who, "color", l.color[static_cast<std::size_t>(c)], 0, most, notes));
+    light.intensity = static_cast<float>(bounded(who, "intensity", l.intensity, 0, most, notes));
+    if (l.range < 0) notes.add(fmt::format("{}: range {}: taken as none", who, l.range));
     if (l.range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(l.range);
-    if (light.kind == LightKind::spot) {
-        if (!(l.spot.innerConeAngle >= 0 && l.spot.innerConeAngle <= l.spot.outerConeAngle &&
-              l.spot.outerConeAngle <= glm::half_pi<double>() + 1e-6))  // a rounded pi / 2 is one
-            fail(who, fmt::format("cone angles {:g} and {:g} are not 0 <= inner <= outer <= pi / 2",
-                                  l.spot.innerConeAngle, l.spot.outerConeAngle));
-        light.inner_cone = static_cast<float>(l.spot.innerConeAngle);
-        light.outer_cone = static_cast<float>(std::min(l.spot.outerConeAngle, glm::half_pi<double>()));
-    }
+    if (light.kind == LightKind::spot) readCone(l.spot, who, light, notes);
     return light;
 }
 
-Camera readCamera(const tinygltf::Camera& c, const std::string& who) {
+// Throws where nothing can be seen through it.
+Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& notes) {
     Camera camera;
     camera.name = c.name;
     if (c.type == "perspective") {
@@ -176,20 +195,28 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who) {
         camera.near = c.perspective.znear;
         if (c.perspective.zfar != 0) camera.far = c.perspective.zfar;
         if (!(camera.yfov > 0 && camera.yfov < glm::pi<double>()))
-            fail(who, fmt::format("yfov {:g} does not lie between 0 and pi", camera.yfov));
-        if (!(camera.near > 0)) fail(who, fmt::format("znear {:g} is not above 0", camera.near));
+            fail(who, fmt::format("yfov {} does not lie between 0 and pi", camera.yfov));
+        if (!(camera.near > 0)) fail(who, fmt::format("znear {} is not above 0", camera.near));
+        if (!(camera.far > camera.near)) {
+            notes.add(fmt::format("{}: zfar {} is not beyond znear {}: taken as none", who, camera.far,
+                                  camera.near));
+            camera.far = std::numeric_limits<double>::infinity();
+        }
     } else if (c.type == "orthographic") {
         camera.orthographic = true;
         camera.ymag = std::abs(c.orthographic.ymag);
         camera.near = c.orthographic.znear;
         camera.far = c.orthographic.zfar;
         if (!(camera.ymag > 0)) fail(who, "ymag is 0");
-        if (!(camera.near >= 0)) fail(who, fmt::format("znear {:g} is negative", camera.near));
+        if (!(camera.near >= 0)) fail(who, fmt::format("znear {} is negative", camera.near));
+        if (!(camera.far > camera.near))
+            fail(who, fmt::format("zfar {} is not beyond znear {}", camera.far, camera.near));
+        for (const auto& [what, mag] :
+             {std::pair{"xmag", c.orthographic.xmag}, std::pair{"ymag", c.orthographic.ymag}})
+            if (mag < 0) notes.add(fmt::format("{}: {} {}: taken as {}", who, what, mag, -mag));
     } else {
         fail(who, fmt::format("type \"{}\" is neither perspective nor orthographic", c.type));
     }
-    if (!(camera.far > camera.near))
-        fail(who, fmt::format("zfar {:g} is not beyond znear {:g}", camera.far, camera.near));
     return camera;
 }
 
@@ -205,6 +232,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choi
     for (std::size_t n = 0; n < place.size(); ++n)
         if (inScene[n]) place[n] = count++;
 
+    NoteList nodeNotes("nodes"), notes("lights and cameras");
     std::vector<std::pair<int, Camera>> cameras;  // with the file's index
     for (std::size_t n = 0; n < model.nodes.size(); ++n) {
         if (!inScene[n]) continue;
@@ -212,21 +240,25 @@ std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choi
         Node node;
         node.name = file.name;
         node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
-        node.parent_from_node = transformOf(file, nameOf(n));
+        node.parent_from_node = transformOf(file, nameOf(n), nodeNotes);
         node.mesh = checkedIndex(file.mesh, model.meshes.size(), nameOf(n), "mesh");
         if (checkedIndex(file.camera, model.cameras.size(), nameOf(n), "camera") >= 0) {
-            Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
-                                       fmt::format("camera {}", file.camera));
-            if (camera.name.empty()) camera.name = file.name;
-            camera.node = place[n];
-            cameras.emplace_back(file.camera, camera);
+            try {
+                Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
+                                           fmt::format("camera {}", file.camera), notes);
+                if (camera.name.empty()) camera.name = file.name;
+                camera.node = place[n];
+                cameras.emplace_back(file.camera, camera);
+            } catch (const std::runtime_error& e) {
+                notes.add(std::string(e.what()) + ": left out");
+            }
         }
         if (const auto* e = extension(file.extensions, "KHR_lights_punctual")) {
             const int index =
                 checkedIndex(indexIn(*e, "light", -1, nameOf(n)), model.lights.size(), nameOf(n), "light");
             if (index >= 0) {
-                Light light =
-                    readLight(model.lights[static_cast<std::size_t>(index)], fmt::format("light {}", index));
+                Light light = readLight(model.lights[static_cast<std::size_t>(index)],
+                                        fmt::format("light {}", index), notes);
                 if (light.name.empty()) light.name = file.name;
                 light.node = place[n];
                 scene.lights.push_back(light);
@@ -234,6 +266,8 @@ std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choi
         }
         scene.nodes.push_back(std::move(node));
     }
+    nodeNotes.moveTo(scene.notes);
+    notes.moveTo(scene.notes);
     std::stable_sort(cameras.begin(), cameras.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [index, camera] : cameras) scene.cameras.push_back(camera);
