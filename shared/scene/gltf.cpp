@@ -12,6 +12,7 @@
 #include "shared/scene/gltf_note_list.h"
 #include "shared/scene/gltf_schema.h"
 #include "shared/scene/gltf_tally.h"
+#include "shared/scene/gltf_texture.h"
 #include "shared/scene/gltf_value.h"
 #include "shared/text/named.h"
 

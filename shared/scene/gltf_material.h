@@ -9,16 +9,10 @@ class Model;
 
 namespace diptych::gltf {
 
-class Tally;
-
 // Materials, textures and samplers in the file's order, and a last material, glTF's default, if a primitive
 // names none. One that nothing is drawn with reads no texture, and its faults are notes. Scene::images gets
 // the encoded images' places only: those that a material reads, and `imageOf[i]` is the file's index of
 // Scene::images[i].
 void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>& imageOf);
-
-// The pixels of images[i], on all cores.
-void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                std::vector<TextureImage>& images, Tally& tally);
 
 }  // namespace diptych::gltf

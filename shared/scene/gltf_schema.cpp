@@ -242,13 +242,12 @@ private:
             wrong(value, key, "an index", where);
         const double v = value.get<double>();
         const std::size_t count = of.empty() ? std::numeric_limits<int>::max() : references.count(of);
-        const std::string_view one = of.empty()                    ? ""
-                                     : of == "KHR_lights_punctual" ? "light"
-                                                                   : schema::itemOf(of);
-        if (!(v >= 0 && v < static_cast<double>(count)))
+        if (!(v >= 0 && v < static_cast<double>(count))) {
+            const std::string_view one = of == "KHR_lights_punctual" ? "light" : schema::itemOf(of);
             fail(where,
                  fmt::format("{}{} {}, but the file has {}", key == one ? "" : fmt::format("{} names ", key),
                              one, value.dump(), count));
+        }
         value = static_cast<std::int64_t>(v);
         if (!of.empty() && of != "skins" && of != "cameras")
             references.names(of, static_cast<std::size_t>(v));

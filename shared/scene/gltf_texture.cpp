@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf_texture.h"
+
+#include "shared/image/limits.h"
+#include "shared/scene/gltf_accessor.h"
+#include "shared/scene/gltf_tally.h"
+#include "shared/scene/gltf_value.h"
+#include "shared/scene/image_decode.h"
+
+#include <fmt/format.h>
+
+#include <span>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+Wrap wrapOf(int value, const std::string& who) {
+    switch (value) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return Wrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirrored_repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp_to_edge;
+        default:
+            fail(who, fmt::format("{} is no wrap mode", value));
+    }
+}
+
+// A filter that the file leaves open is linear, with mipmaps.
+Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
+    Sampler sampler;
+    sampler.wrap_s = wrapOf(s.wrapS, who);
+    sampler.wrap_t = wrapOf(s.wrapT, who);
+    if (s.magFilter != -1 && s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST &&
+        s.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
+        fail(who, fmt::format("{} is no magFilter", s.magFilter));
+    sampler.magnify_linear = s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
+    const auto minify = [&](bool linear, bool mipmaps, bool between) {
+        sampler.minify_linear = linear;
+        sampler.mipmaps = mipmaps;
+        sampler.mipmaps_linear = between;
+    };
+    switch (s.minFilter) {
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+            minify(false, false, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+            minify(true, false, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+            minify(false, true, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+            minify(true, true, false);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+            minify(false, true, true);
+            break;
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+        case -1:
+            minify(true, true, true);
+            break;
+        default:
+            fail(who, fmt::format("{} is no minFilter", s.minFilter));
+    }
+    return sampler;
+}
+
+}  // namespace
+
+std::vector<std::string> readTextures(const tinygltf::Model& model, Scene& scene) {
+    std::vector<std::string> faults;
+    for (std::size_t i = 0; i < model.textures.size(); ++i) {
+        const tinygltf::Texture& t = model.textures[i];
+        const std::string who = fmt::format("texture {}", i);
+        Texture texture;
+        texture.image = checkedIndex(t.source, model.images.size(), who, "image");
+        std::string& fault = faults.emplace_back();
+        const int sampler = checkedIndex(t.sampler, model.samplers.size(), who, "sampler");
+        try {
+            if (sampler >= 0)
+                texture.sampler = readSampler(model.samplers[static_cast<std::size_t>(sampler)],
+                                              fmt::format("sampler {}", sampler));
+        } catch (const std::runtime_error& e) {
+            fault = e.what();
+        }
+        scene.textures.push_back(texture);
+    }
+    return faults;
+}
+
+const char* otherImageOf(const tinygltf::Texture& texture) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"})
+        if (extension(texture.extensions, name)) return name;
+    return nullptr;
+}
+
+void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+                std::vector<TextureImage>& images, Tally& tally) {
+    struct Encoded {
+        std::string file, who;
+        std::span<const unsigned char> bytes;
+        std::uint64_t decoded = 0;  // bytes
+    };
+    std::vector<Encoded> all(images.size());
+    const auto ofEach = [&](const auto& run) {
+        forEachInParallel(all.size(), [&](std::size_t i) {
+            try {
+                run(i, all[i]);
+            } catch (const std::runtime_error& e) {
+                fail(all[i].who, e.what());
+            }
+        });
+    };
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const tinygltf::Image& image = model.images[static_cast<std::size_t>(imageOf[i])];
+        all[i].file = image.uri.empty() ? image.name : image.uri;
+        all[i].who =
+            fmt::format("image {}{}", imageOf[i], all[i].file.empty() ? "" : " (" + all[i].file + ")");
+        all[i].bytes =
+            image.bufferView >= 0 ? viewBytes(model, image.bufferView, all[i].who) : std::span(image.image);
+        if (all[i].bytes.empty())
+            fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
+    }
+    // What all of them take together is known before the first is decoded.
+    ofEach([](std::size_t, Encoded& image) { image.decoded = imageHeader(image.bytes).bytes(); });
+    std::uint64_t total = 0;
+    for (const Encoded& image : all)
+        if ((total += image.decoded) > limits::imageBytes())
+            fail(image.who, fmt::format("with it the images take {} MiB decoded: {} MiB are read at most",
+                                        total >> 20, limits::imageBytes() >> 20));
+    ofEach([&](std::size_t i, const Encoded& image) {
+        images[i] = decodeImage(image.bytes);
+        images[i].name = image.file;
+        tally.oneMore();
+    });
+}
+
+}  // namespace diptych::gltf
