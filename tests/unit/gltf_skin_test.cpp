@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/gltf_maker.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace diptych;
+using Json = nlohmann::json;
+
+namespace {
+
+const float NaN = std::numeric_limits<float>::quiet_NaN();
+
+// The triangle of GltfFile, moved by a skin of two joints, nodes 1 and 2; node 0 draws it.
+struct SkinnedFile : GltfFile {
+    SkinnedFile() : GltfFile(triangle()) {
+        json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
+                         {{"children", {2}}, {"translation", {0, 5, 0}}},
+                         {{"translation", {0, 1, 0}}}};
+        json["scenes"] = {{{"nodes", {0, 1}}}};
+        json["skins"] = {{{"joints", {1, 2}}, {"name", "arm"}}};
+        setJoints({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0});
+        setWeights({1, 0, 0, 0, 1, 0, 0, 0, 0.25f, 0.75f, 0, 0});
+    }
+    void setJoints(const std::vector<std::uint8_t>& joints) {
+        primitive()["attributes"]["JOINTS_0"] = accessor(joints, UBYTE, "VEC4", 4);
+    }
+    void setWeights(const std::vector<float>& weights) {
+        primitive()["attributes"]["WEIGHTS_0"] = accessor(weights, FLOAT, "VEC4", 4);
+    }
+    // Both joints' inverse bind matrices: nothing but a translation.
+    void setInverseBinds(const glm::vec3& first, const glm::vec3& second) {
+        std::vector<float> values;
+        for (const glm::vec3& t : {first, second})
+            values.insert(values.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, t.x, t.y, t.z, 1});
+        json["skins"][0]["inverseBindMatrices"] = accessor(values, FLOAT, "MAT4", 16);
+    }
+};
+
+}  // namespace
+
+TEST(GltfSkin, SkinsJointsAndWeights) {
+    SkinnedFile f;
+    f.json["skins"][0]["skeleton"] = 1;
+    f.setInverseBinds({0, -5, 0}, {0, -6, 0});
+    const Scene scene = f.load();
+    ASSERT_EQ(scene.skins.size(), 1u);
+    const Skin& skin = scene.skins[0];
+    EXPECT_EQ(skin.name, "arm");
+    EXPECT_EQ(skin.joints, (std::vector<int>{1, 2}));
+    EXPECT_EQ(skin.skeleton, 1);
+    ASSERT_EQ(skin.joint_from_mesh.size(), 2u);
+    EXPECT_EQ(skin.joint_from_mesh[1][3], glm::vec4(0, -6, 0, 1));
+    EXPECT_EQ(scene.nodes[0].skin, 0);
+    EXPECT_EQ(scene.nodes[1].skin, -1);
+    // Flat normals give every corner a vertex of its own, here in the order of the file's.
+    const JointSet& set = f.only(scene).joint_sets.at(0);
+    ASSERT_EQ(set.joints.size(), 3u);
+    EXPECT_EQ(set.joints[1], glm::u16vec4(1, 0, 0, 0));
+    EXPECT_EQ(set.weights[2], glm::vec4(0.25f, 0.75f, 0, 0));
+    EXPECT_TRUE(mentions(scene.notes, "1 skinned mesh: drawn in bind pose"));
+}
+
+// The node's own translation by 100 counts nothing: vertices stand where joint 0 (y = 5) and its inverse bind
+// matrix (y - 4) put them.
+TEST(GltfSkin, SkinnedMeshesStandInBindPose) {
+    SkinnedFile f;
+    f.setInverseBinds({0, -4, 0}, {0, -5, 0});
+    const Scene scene = f.load();
+    EXPECT_EQ(poseAt(scene, 0).instances.at(0).world_from_object[3], glm::dvec4(0, 1, 0, 1));
+    f.json["nodes"][1]["scale"] = {1, 0, 1};  // a joint that flattens: the node's own transform is better
+    const Scene flat = f.load();
+    EXPECT_EQ(poseAt(flat, 0).instances.at(0).world_from_object[3], glm::dvec4(100, 0, 0, 1));
+}
+
+// A real one: modelled with +Z up, on its feet only through its joints. The extent is the assets' own
+// table's.
+TEST(GltfSkin, CesiumManStandsOnItsFeet) {
+    const auto file =
+        std::filesystem::path(DIPTYCH_SOURCE_DIR "/../shared") / "assets/scenes/cesium_man/CesiumMan.gltf";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "NO ASSETS at " << file << ": no real skin is tried";
+    const Scene scene = loadScene(file.string());
+    EXPECT_EQ(scene.skins.at(0).joints.size(), 19u);
+    EXPECT_EQ(scene.animations.at(0).channels.size(), 57u) << "three parts of 19 joints";
+    const Bounds bounds = worldBounds(scene, poseAt(scene, 0));
+    const glm::dvec3 extent = bounds.max - bounds.min, expected(1.14, 1.51, 0.31);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(extent[c], expected[c], 0.005) << "the table has two decimals";
+    EXPECT_NEAR(bounds.min.y, 0, 1e-3) << "a foot's sole to a millimetre";
+}
+
+TEST(GltfSkin, WithoutInverseBindMatricesTheyAreTheIdentity) {
+    SkinnedFile f;
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.skins.at(0).joint_from_mesh, (std::vector<glm::mat4>{glm::mat4(1), glm::mat4(1)}));
+    EXPECT_EQ(poseAt(scene, 0).instances.at(0).world_from_object[3], glm::dvec4(0, 5, 0, 1));
+}
+
+// 64 + 191 + 0 = 255: as normalized bytes 64/255 and 191/255; unnormalized floats 1 and 3 are a quarter and
+// three.
+TEST(GltfSkin, WeightsAddUpToOneWhateverTheirType) {
+    SkinnedFile f;
+    f.setWeights({1, 3, 0, 0, 2, 0, 0, 0, 0, 0, 0, 5});
+    f.setJoints({0, 1, 9, 9, 1, 9, 9, 9, 9, 9, 9, 0});  // joint 9 is none, but moves nothing
+    Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).joint_sets[0].weights[0], glm::vec4(0.25f, 0.75f, 0, 0));
+    EXPECT_EQ(f.only(scene).joint_sets[0].weights[1], glm::vec4(1, 0, 0, 0));
+    EXPECT_EQ(f.only(scene).joint_sets[0].joints[0], glm::u16vec4(0, 1, 0, 0));
+    for (const bool shorts : {false, true}) {
+        std::vector<std::uint8_t> bytes;
+        std::vector<std::uint16_t> words;
+        for (int v = 0; v < 3; ++v)
+            for (const int w : {64, 191, 0, 0}) {
+                bytes.push_back(static_cast<std::uint8_t>(w));
+                words.push_back(static_cast<std::uint16_t>(257 * w));  // 65535 = 257 * 255
+            }
+        f.primitive()["attributes"]["WEIGHTS_0"] =
+            shorts ? f.accessor(words, USHORT, "VEC4", 4, true) : f.accessor(bytes, UBYTE, "VEC4", 4, true);
+        f.primitive()["attributes"]["JOINTS_0"] =
+            f.accessor<std::uint16_t>({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, USHORT, "VEC4", 4);
+        scene = f.load();
+        EXPECT_FLOAT_EQ(f.only(scene).joint_sets[0].weights[0].x, 64.0f / 255);
+        EXPECT_FLOAT_EQ(f.only(scene).joint_sets[0].weights[0].y, 191.0f / 255);
+    }
+}
+
+TEST(GltfSkin, EightInfluencesAreTwoSets) {
+    SkinnedFile f;
+    f.primitive()["attributes"]["JOINTS_1"] = f.primitive()["attributes"]["JOINTS_0"];
+    f.primitive()["attributes"]["WEIGHTS_1"] =
+        f.accessor<float>({1, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0}, FLOAT, "VEC4", 4);
+    const Scene scene = f.load();
+    const Primitive& p = f.only(scene);
+    ASSERT_EQ(p.joint_sets.size(), 2u);
+    EXPECT_EQ(p.joint_sets[0].weights[0].x, 0.5f) << "the sum is over both sets";
+    EXPECT_EQ(p.joint_sets[1].weights[0].x, 0.5f);
+    EXPECT_EQ(p.joint_sets[1].weights[1].w, 0.75f);
+}
+
+// A sum that rounding to 8 bits explains is one.
+TEST(GltfSkin, WeightsThatDoNotAddUpAreNoted) {
+    SkinnedFile f;
+    f.setWeights({0.25f, 0.75f, 0, 0, 0.25f, 0.744f, 0, 0, 1, 3, 0, 0});
+    const Scene scene = f.load();
+    EXPECT_EQ(f.only(scene).joint_sets.at(0).weights[2], glm::vec4(0.25f, 0.75f, 0, 0));
+    EXPECT_TRUE(
+        mentions(scene.notes, "the joint weights of 1 vertices do not add up to 1: divided by their sum"));
+}
+
+TEST(GltfSkin, WeightsOfNothingGoToTheFirstJointWithANote) {
+    SkinnedFile f;
+    f.setWeights({0, 0, 0, 0, -1, 0, 0, 0, NaN, 1, 0, 0});
+    const Scene scene = f.load();
+    const JointSet& set = f.only(scene).joint_sets.at(0);
+    EXPECT_EQ(set.weights[0], glm::vec4(1, 0, 0, 0));
+    EXPECT_EQ(set.weights[1], glm::vec4(1, 0, 0, 0));
+    EXPECT_EQ(set.joints[1].x, 1) << "the first that the vertex names";
+    EXPECT_EQ(set.weights[2], glm::vec4(0, 1, 0, 0));
+    EXPECT_TRUE(mentions(scene.notes, "2 joint weights are negative or not finite: 0"));
+    EXPECT_TRUE(mentions(scene.notes, "2 vertices have no joint weight"));
+}
+
+TEST(GltfSkin, SkinsThatCannotBeAreRefusedInOneLine) {
+    const auto error = [](const auto& change) {
+        SkinnedFile f;
+        f.setInverseBinds({0, 0, 0}, {0, 0, 0});
+        change(f);
+        return f.error();
+    };
+    const auto ends = [](const std::string& line, const std::string& end) { return line.ends_with(end); };
+    EXPECT_PRED2(ends, error([](SkinnedFile&) {}), "");
+    EXPECT_PRED2(ends, error([](SkinnedFile& f) {
+                     f.setJoints({0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0});
+                 }),
+                 "mesh 0, primitive 0: vertex 1 names joint 2, but a skin that moves it has 2");
+    EXPECT_PRED2(ends, error([](SkinnedFile& f) { f.json["scenes"][0]["nodes"] = {0}; }),
+                 "skin 0: joint node 1 is not in the scene that is drawn");
+    EXPECT_PRED2(ends, error([](SkinnedFile& f) { f.primitive()["attributes"].erase("WEIGHTS_0"); }),
+                 "mesh 0, primitive 0: has JOINTS_0 without WEIGHTS_0");
+    EXPECT_PRED2(ends, error([](SkinnedFile& f) {
+                     f.json["skins"][0]["inverseBindMatrices"] =
+                         f.accessor(std::vector<float>(16, 0), FLOAT, "MAT4", 16);
+                 }),
+                 "skin 0: inverseBindMatrices: 1 matrices for 2 joints");
+    EXPECT_PRED2(ends, error([](SkinnedFile& f) {
+                     f.json["skins"][0]["inverseBindMatrices"] =
+                         f.accessor(std::vector<float>(32, 0), FLOAT, "MAT4", 16);
+                 }),
+                 "skin 0: inverseBindMatrices: the last row of matrix 0 is not 0 0 0 1");
+    EXPECT_PRED2(ends, error([](SkinnedFile& f) {
+                     f.setInverseBinds({NaN, 0, 0}, {0, 0, 0});
+                 }),
+                 "skin 0: inverseBindMatrices: matrix 0 is not finite");
+    EXPECT_PRED2(ends, error([](SkinnedFile& f) { f.json["skins"][0]["inverseBindMatrices"] = 0; }),
+                 "skin 0: inverseBindMatrices: accessor 0 is not MAT4 of floats");
+}
+
+TEST(GltfSkin, FaultsOfWhatMovesNothingAreNoFaults) {
+    SkinnedFile f;
+    f.setJoints({0, 0, 0, 0, 77, 0, 0, 0, 0, 1, 0, 0});
+    f.json["nodes"][0].erase("skin");
+    EXPECT_EQ(f.error(), "") << "a mesh that no skin moves has no joints";
+    EXPECT_TRUE(f.only(f.load()).joint_sets.empty());
+    f.json["nodes"][0] = {{"skin", 0}};
+    EXPECT_EQ(f.error(), "") << "a node without a mesh may have a skin";
+    f.json["nodes"][0] = {{"mesh", 0}, {"skin", 0}};
+    f.primitive()["attributes"].erase("JOINTS_0");
+    f.primitive()["attributes"].erase("WEIGHTS_0");
+    EXPECT_TRUE(mentions(f.load().notes, "node 0: has a skin, but its mesh has no JOINTS_0"));
+}
