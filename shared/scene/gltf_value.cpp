@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf_value.h"
 
+#include "shared/scene/gltf_note_list.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -55,12 +57,11 @@ std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, st
     return fallback;
 }
 
-void limitNotes(std::vector<std::string>& notes, std::size_t first, std::string_view what) {
-    constexpr std::size_t shown = 20;
-    if (notes.size() - first <= shown) return;
-    const std::size_t more = notes.size() - first - shown;
-    notes.resize(first + shown);
-    notes.push_back(fmt::format("{} more notes on {} like these", more, what));
+void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what) {
+    NoteList some(what);
+    for (std::size_t i = first; i < notes.size(); ++i) some.add(std::move(notes[i]));
+    notes.resize(std::min(first, notes.size()));
+    some.moveTo(notes);
 }
 
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name) {

@@ -25,9 +25,8 @@ int indexIn(const tinygltf::Value& object, const char* key, int fallback, const 
 std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, std::vector<double> fallback,
                               const std::string& who);  // as many as the fallback has
 
-// A file of faults may have one in each of a million objects: of the notes from `first` on, twenty stay, then
-// there is one that counts the others, "980 more notes on meshes like these".
-void limitNotes(std::vector<std::string>& notes, std::size_t first, std::string_view what);
+// Those of `notes` from `first` on as a NoteList keeps them: the first of each kind, the others counted.
+void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what);
 
 // The extension's object, or nullptr.
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
