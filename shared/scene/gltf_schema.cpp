@@ -255,10 +255,16 @@ private:
 
     void attributes(Json& value, const Property& p, const Where& where) {
         if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
-        for (auto at = value.begin(); at != value.end(); ++at) {
+        for (auto at = value.begin(); at != value.end();) {
             const std::string name = oneLine(at.key());
             if (name != at.key()) fail(where, fmt::format("{} is no name of an attribute", name));
+            if (at.value().is_null()) {
+                note(where, name + " is null: taken as absent");
+                at = value.erase(at);
+                continue;
+            }
             index(at.value(), name, p.of, where);
+            ++at;
         }
     }
 

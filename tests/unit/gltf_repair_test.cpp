@@ -212,12 +212,14 @@ TEST(GltfRepair, NullIsAbsent) {
     f.json["extensionsRequired"] = nullptr;
     f.json["nodes"][0]["children"] = nullptr;
     f.primitive()["indices"] = nullptr;
+    f.primitive()["attributes"]["NORMAL"] = nullptr;
     f.primitive()["extensions"]["KHR_draco_mesh_compression"] = nullptr;
     f.json["extras"] = nullptr;  // says nothing
     const Scene scene = f.load();
     EXPECT_EQ(f.only(scene).positions, corners);
     EXPECT_EQ(scene.notes,
               (Lines{"animations is null: taken as absent", "extensionsRequired is null: taken as absent",
+                     "mesh 0, primitive 0: attributes: NORMAL is null: taken as absent",
                      "mesh 0, primitive 0: KHR_draco_mesh_compression is null: taken as absent",
                      "mesh 0, primitive 0: indices is null: taken as absent",
                      "node 0: children is null: taken as absent"}));
