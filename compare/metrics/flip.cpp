@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "compare/metrics/flip.h"
+
+#include "compare/metrics/flip_tiles.h"
+#include "compare/metrics/order.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+constexpr float absent = -1;       // in a list of errors: none to measure
+constexpr double mostStops = 126;  // 2^126 is a float
+
+bool finite(const float* p) {
+    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+// Two NaNs are the same, and so are two equal infinities.
+bool same(const float* a, const float* b) {
+    for (int c = 0; c < 3; ++c)
+        if (a[c] != b[c] && !(std::isnan(a[c]) && std::isnan(b[c]))) return false;
+    return true;
+}
+bool within(const float* p, float least, float most) {
+    return std::min({p[0], p[1], p[2]}) >= least && std::max({p[0], p[1], p[2]}) <= most;
+}
+
+void check(const Image& reference, const Image& test, const FlipOptions& options) {
+    if (reference.components != 3 || test.components != 3 || reference.width != test.width ||
+        reference.height != test.height || reference.empty())
+        throw std::runtime_error(
+            fmt::format("FLIP compares two colour pictures of one size, not {}x{} of {} components and {}x{} "
+                        "of {}; crop or "
+                        "resize one",
+                        reference.width, reference.height, reference.components, test.width, test.height,
+                        test.components));
+    if (!options.covered.empty() && options.covered.size() != reference.pixels())
+        throw std::runtime_error(
+            fmt::format("FLIP of {}x{} pixels has coverage of {}; give one value a pixel", reference.width,
+                        reference.height, options.covered.size()));
+    if (!(options.pixels_per_degree >= 1 && options.pixels_per_degree <= 1000))
+        throw std::runtime_error(fmt::format("FLIP of {} pixels per degree: no viewer's; give 1 to 1000",
+                                             options.pixels_per_degree));
+}
+
+// Counts and holes; finite values outside [least, most] are counted as limited.
+FlipPair inspect(const Image& reference, const Image& test, float least, float most, FlipResult& result) {
+    FlipPair pair{&reference, &test, {}};
+    std::mutex lock;
+    const auto width = static_cast<std::size_t>(reference.width);
+    const auto look = [&](const tbb::blocked_range<std::size_t>& rows) {
+        FlipResult found;
+        for (std::size_t i = rows.begin() * width; i < rows.end() * width; ++i) {
+            const float *r = reference.pixel(i), *t = test.pixel(i);
+            const bool showsR = within(r, least, most), showsT = within(t, least, most);
+            if (showsR && showsT && finite(r) && finite(t)) continue;
+            found.nonfinite_reference += !finite(r);
+            found.nonfinite_test += !finite(t);
+            found.limited_reference += finite(r) && !showsR;
+            found.limited_test += finite(t) && !showsT;
+            found.nonfinite_different += !(finite(r) && finite(t)) && !same(r, t);
+        }
+        const std::lock_guard hold(lock);
+        result.nonfinite_reference += found.nonfinite_reference;
+        result.nonfinite_test += found.nonfinite_test;
+        result.limited_reference += found.limited_reference;
+        result.limited_test += found.limited_test;
+        result.nonfinite_different += found.nonfinite_different;
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, static_cast<std::size_t>(reference.height), 32),
+                      look);
+    if (result.nonfinite_reference + result.nonfinite_test == 0) return pair;
+    pair.holes.resize(reference.pixels());
+    for (std::size_t i = 0; i < reference.pixels(); ++i) {
+        const float *r = reference.pixel(i), *t = test.pixel(i);
+        if (!finite(r) || !finite(t)) pair.holes[i] = same(r, t) ? Hole::same : Hole::different;
+    }
+    return pair;
+}
+
+void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResult& result) {
+    std::vector<float> counted;
+    std::span<const float> errors = result.error.data;
+    if (!covered.empty() || !pair.holes.empty()) {
+        counted = result.error.data;
+        for (std::size_t i = 0; i < counted.size(); ++i)
+            if ((!covered.empty() && !covered[i]) || (!pair.holes.empty() && pair.holes[i] == Hole::same))
+                counted[i] = absent;
+        errors = counted;
+    }
+    const Order order(errors);
+    result.pixels = order.size();
+    result.mean = order.mean();
+    result.min = order.nearestRank(0);
+    result.max = order.nearestRank(1);
+    result.weighted_first_quartile = order.weightedQuantile(0.25);
+    result.weighted_median = order.weightedQuantile(0.5);
+    result.weighted_third_quartile = order.weightedQuantile(0.75);
+}
+
+double checkedExposure(double stops) {
+    if (!(std::abs(stops) <= mostStops))
+        throw std::runtime_error(fmt::format("exposure {}: a float holds 2^{} to 2^{}; give stops in between",
+                                             stops, -mostStops, mostStops));
+    return stops;
+}
+
+void chooseExposures(const Image& reference, const HdrFlipOptions& options, HdrFlipResult& result) {
+    ExposureRange range;
+    if (!options.start_exposure || !options.stop_exposure)
+        range = exposureRange(reference, options.tone_mapper);
+    result.start_exposure = checkedExposure(options.start_exposure.value_or(range.start));
+    result.stop_exposure = checkedExposure(options.stop_exposure.value_or(range.stop));
+    const double stops = result.stop_exposure - result.start_exposure;
+    if (stops < 0)
+        throw std::runtime_error(fmt::format("exposures from {} to {}: the first is the darkest; swap them",
+                                             result.start_exposure, result.stop_exposure));
+    result.exposures = options.exposures.value_or(std::max(2, static_cast<int>(std::ceil(stops))));
+    if (result.exposures < 1)
+        throw std::runtime_error(fmt::format("{} exposures show nothing; give 1 or more", result.exposures));
+}
+
+// Linear luminance (Rec.709) of a finite pixel, negative components as 0; otherwise absent.
+float luminance(const float* p) {
+    if (!finite(p)) return absent;
+    return 0.2126f * std::max(p[0], 0.0f) + 0.7152f * std::max(p[1], 0.0f) + 0.0722f * std::max(p[2], 0.0f);
+}
+
+}  // namespace
+
+double pixelsPerDegree(double distance, double width, int pixels) {
+    return distance * (pixels / width) * (std::numbers::pi / 180);
+}
+
+ExposureRange exposureRange(const Image& reference, ToneMapper mapper) {
+    std::vector<float> values(reference.pixels());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 16), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) values[i] = luminance(reference.pixel(i));
+    });
+    Order order(values);
+    const float most = order.nearestRank(1);
+    if (!(most > 0)) return {};
+    float median = order.nearestRank(0.5);
+    if (!(median > 0)) {
+        std::ranges::replace(values, 0.0f, absent);
+        median = Order(values).nearestRank(0.5);
+    }
+    const double bright = whereCurveReaches(mapper, 0.85);
+    return {std::clamp(std::log2(bright / most), -mostStops, mostStops),
+            std::clamp(std::log2(bright / median), -mostStops, mostStops)};
+}
+
+FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions& options) {
+    check(reference, test, options);
+    FlipResult result;
+    const FlipPair pair = inspect(reference, test, 0, 1, result);
+    flipErrorMap(pair, FlipFilters(options.pixels_per_degree), {}, result.error, nullptr);
+    pool(pair, options.covered, result);
+    return result;
+}
+
+HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options) {
+    check(reference, test, options);
+    HdrFlipResult result;
+    chooseExposures(reference, options, result);
+    const FlipPair pair = inspect(reference, test, 0, std::numeric_limits<float>::max(), result);
+    std::vector<FlipLook> looks;
+    const double step =
+        result.exposures > 1 ? (result.stop_exposure - result.start_exposure) / (result.exposures - 1) : 0;
+    for (int i = 0; i < result.exposures; ++i)
+        looks.push_back(
+            {static_cast<float>(std::exp2(result.start_exposure + i * step)), options.tone_mapper});
+    flipErrorMap(pair, FlipFilters(options.pixels_per_degree), looks, result.error, &result.exposure_map);
+    pool(pair, options.covered, result);
+    return result;
+}
+
+}  // namespace diptych

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include "compare/metrics/flip_tiles.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace diptych {
+namespace {
+
+// Wide and high enough that the border, 10 pixels for a usual viewer, costs little; rows that fit in a cache.
+constexpr int tileWidth = 256, tileHeight = 128;
+
+struct Tile {
+    int x0, y0, x1, y1;
+    int width() const { return x1 - x0; }
+};
+
+std::size_t size(int n) {
+    return static_cast<std::size_t>(n);
+}
+int radiusOf(const HalfKernel& kernel) {
+    return static_cast<int>(kernel.size()) - 1;
+}
+
+std::vector<Tile> tilesOf(const Image& image) {
+    const int across = (image.width + tileWidth - 1) / tileWidth;
+    const int down = (image.height + tileHeight - 1) / tileHeight;
+    const auto part = [](int whole, int i, int parts) {
+        return static_cast<int>(std::int64_t{whole} * i / parts);
+    };
+    std::vector<Tile> tiles;
+    for (int j = 0; j < down; ++j)
+        for (int i = 0; i < across; ++i)
+            tiles.push_back({part(image.width, i, across), part(image.height, j, down),
+                             part(image.width, i + 1, across), part(image.height, j + 1, down)});
+    return tiles;
+}
+
+// The buffers of one thread. Rows of a tile enter one by one, with `radius_` columns and rows around it where
+// the picture's border is repeated; once enough are there, a row of errors can be made.
+class TileRows {
+public:
+    TileRows(const FlipPair& pair, const FlipFilters& filters)
+        : pair_(pair),
+          filters_(filters),
+          radius_(filters.radius()),
+          stride_(tileWidth + 2 * radius_),
+          kept_(static_cast<int>(std::bit_ceil(size(2 * radius_ + 1)))),
+          rgb_(size(3 * stride_)),
+          upright_(size(stride_)),
+          second_(size(tileWidth)),
+          taps_(size(2 * radius_ + 1)) {
+        for (Picture& picture : pictures_) {
+            picture.ring.resize(size(3 * kept_) * size(stride_));
+            picture.filtered.resize(size(7 * tileWidth));
+        }
+    }
+
+    // Whether no filter of the tile's pixels sees a difference; then every error is 0.
+    bool isSame(const Tile& tile) const;
+    // Calls use(y, errors) with the tile's rows from the top; tile.width() errors each.
+    template <class Use>
+    void errors(const Tile& tile, const FlipLook* look, const Use& use) {
+        tile_ = tile;
+        holes_ = hasHoles();
+        for (int y = tile.y0 - radius_; y < tile.y1 + radius_; ++y) {
+            enter(y, look);
+            if (y - radius_ < tile.y0) continue;
+            makeErrors(y - radius_);
+            use(y - radius_, second_.data());
+        }
+    }
+
+private:
+    // Reference, test, and, where there are holes, 1 for each pixel that is none.
+    struct Picture {
+        std::vector<float> ring;      // kept_ rows x 3 planes
+        std::vector<float> filtered;  // 7 rows
+    };
+    enum { reference, test, weight };
+
+    int paddedWidth() const { return tile_.width() + 2 * radius_; }
+    float* row(Picture& picture, int y, int plane) const {
+        const int slot = (y - tile_.y0 + radius_) & (kept_ - 1);
+        return picture.ring.data() + size(3 * slot + plane) * size(stride_);
+    }
+    OpponentRow opponents(Picture& p, int y) const { return {row(p, y, 0), row(p, y, 1), row(p, y, 2)}; }
+    static FilteredRow filtered(Picture& p) {
+        const auto at = [&](int i) { return p.filtered.data() + i * tileWidth; };
+        return {at(0), at(1), at(2), at(3), at(4), at(5), at(6)};
+    }
+
+    bool hasHoles() const;
+    void enter(int y, const FlipLook* look);
+    void gather(const Image& image, int y);
+    void enterWeights(int y);
+
+    using Convolve = void(float*, const float* const*, const float*, int, int);
+    const float* const* middle() const { return taps_.data() + radius_; }
+    // From a plane's rows around y into upright_.
+    void down(Convolve convolve, const HalfKernel& kernel, Picture& picture, int y, int plane);
+    // From upright_ into a row of the tile's width.
+    void along(Convolve convolve, const HalfKernel& kernel, float* out);
+
+    void filter(Picture& picture, int y);
+    void makeErrors(int y);
+    void withoutHoles(const FilteredRow& row, const FilteredRow& weights) const;
+
+    const FlipPair& pair_;
+    const FlipFilters& filters_;
+    int radius_, stride_, kept_;
+    Tile tile_{};
+    bool holes_ = false;
+    Picture pictures_[3];
+    std::vector<float> rgb_, upright_, second_;
+    std::vector<const float*> taps_;
+};
+
+bool TileRows::isSame(const Tile& tile) const {
+    const Image &a = *pair_.reference, &b = *pair_.test;
+    const int left = std::max(tile.x0 - radius_, 0), right = std::min(tile.x1 + radius_, a.width);
+    for (int y = std::max(tile.y0 - radius_, 0); y < std::min(tile.y1 + radius_, a.height); ++y)
+        if (std::memcmp(a.data.data() + a.offset(left, y), b.data.data() + b.offset(left, y),
+                        size(3 * (right - left)) * sizeof(float)) != 0)
+            return false;
+    return true;
+}
+
+bool TileRows::hasHoles() const {
+    if (pair_.holes.empty()) return false;
+    const Image& image = *pair_.reference;
+    const int left = std::max(tile_.x0 - radius_, 0), right = std::min(tile_.x1 + radius_, image.width);
+    for (int y = std::max(tile_.y0 - radius_, 0); y < std::min(tile_.y1 + radius_, image.height); ++y) {
+        const Hole* row = pair_.holes.data() + size(y) * size(image.width);
+        if (std::any_of(row + left, row + right, [](Hole h) { return h != Hole::none; })) return true;
+    }
+    return false;
+}
+
+// Row y of the tile's columns and those around them into rgb_; black, which is 0 in every plane, at holes.
+void TileRows::gather(const Image& image, int y) {
+    const int line = std::clamp(y, 0, image.height - 1);
+    const int first = tile_.x0 - radius_, last = first + paddedWidth();
+    const int left = std::max(first, 0), right = std::min(last, image.width);
+    std::memcpy(rgb_.data() + 3 * (left - first), image.data.data() + image.offset(left, line),
+                size(3 * (right - left)) * sizeof(float));
+    const auto repeat = [&](int from, int to, int column) {
+        for (int x = from; x < to; ++x)
+            std::copy_n(image.data.data() + image.offset(column, line), 3, rgb_.data() + 3 * (x - first));
+    };
+    repeat(first, left, 0);
+    repeat(right, last, image.width - 1);
+    if (!holes_) return;
+    const Hole* holes = pair_.holes.data() + size(line) * size(image.width);
+    for (int x = first; x < last; ++x)
+        if (holes[std::clamp(x, 0, image.width - 1)] != Hole::none)
+            std::fill_n(rgb_.data() + 3 * (x - first), 3, 0.0f);
+}
+
+void TileRows::enterWeights(int y) {
+    const Image& image = *pair_.reference;
+    const Hole* holes = pair_.holes.data() + size(std::clamp(y, 0, image.height - 1)) * size(image.width);
+    const OpponentRow out = opponents(pictures_[weight], y);
+    for (int i = 0; i < paddedWidth(); ++i) {
+        const int x = std::clamp(tile_.x0 - radius_ + i, 0, image.width - 1);
+        out.y[i] = out.cx[i] = out.cz[i] = holes[x] == Hole::none ? 1.0f : 0.0f;
+    }
+}
+
+void TileRows::enter(int y, const FlipLook* look) {
+    for (const auto& [image, which] : {std::pair{pair_.reference, reference}, {pair_.test, test}}) {
+        gather(*image, y);
+        const OpponentRow out = opponents(pictures_[which], y);
+        if (look)
+            opponentsFromLinear(out, rgb_.data(), paddedWidth(), look->scale, look->mapper);
+        else
+            opponentsFromSrgb(out, rgb_.data(), paddedWidth());
+    }
+    if (holes_) enterWeights(y);
+}
+
+void TileRows::down(Convolve convolve, const HalfKernel& kernel, Picture& picture, int y, int plane) {
+    const int radius = radiusOf(kernel);
+    for (int k = -radius; k <= radius; ++k) taps_[size(radius_ + k)] = row(picture, y + k, plane);
+    convolve(upright_.data(), middle(), kernel.data(), radius, paddedWidth());
+}
+
+void TileRows::along(Convolve convolve, const HalfKernel& kernel, float* out) {
+    const int radius = radiusOf(kernel);
+    for (int k = -radius; k <= radius; ++k) taps_[size(radius_ + k)] = upright_.data() + radius_ + k;
+    convolve(out, middle(), kernel.data(), radius, tile_.width());
+}
+
+void TileRows::filter(Picture& picture, int y) {
+    const FilteredRow out = filtered(picture);
+    const FlipFilters& f = filters_;
+    down(convolveEven, f.y, picture, y, 0);
+    along(convolveEven, f.y, out.y);
+    down(convolveEven, f.cx, picture, y, 1);
+    along(convolveEven, f.cx, out.cx);
+    down(convolveEven, f.cz[0], picture, y, 2);
+    along(convolveEven, f.cz[0], out.cz);
+    down(convolveEven, f.cz[1], picture, y, 2);
+    along(convolveEven, f.cz[1], second_.data());
+    for (int i = 0; i < tile_.width(); ++i)
+        out.cz[i] = f.cz_share[0] * out.cz[i] + f.cz_share[1] * second_[size(i)];
+
+    down(convolveEven, f.smooth, picture, y, 0);
+    along(convolveOdd, f.edge, out.edge_x);
+    along(convolveEven, f.point, out.point_x);
+    down(convolveOdd, f.edge, picture, y, 0);
+    along(convolveEven, f.smooth, out.edge_y);
+    down(convolveEven, f.point, picture, y, 0);
+    along(convolveEven, f.smooth, out.point_y);
+}
+
+// What the filters give when the weights of holes, whose values went in as 0, are spread over the other
+// pixels. The detectors, whose weights add up to 0, see at a hole the filtered luminance of the pixel that
+// they are for.
+void TileRows::withoutHoles(const FilteredRow& row, const FilteredRow& weights) const {
+    constexpr float least = 1e-30f;  // at a hole among holes, whose error comes from elsewhere
+    for (int i = 0; i < tile_.width(); ++i) {
+        row.y[i] /= std::max(weights.y[i], least);
+        row.cx[i] /= std::max(weights.cx[i], least);
+        row.cz[i] /= std::max(weights.cz[i], least);
+        row.edge_x[i] -= row.y[i] * weights.edge_x[i];
+        row.edge_y[i] -= row.y[i] * weights.edge_y[i];
+        row.point_x[i] -= row.y[i] * weights.point_x[i];
+        row.point_y[i] -= row.y[i] * weights.point_y[i];
+    }
+}
+
+void TileRows::makeErrors(int y) {
+    filter(pictures_[reference], y);
+    filter(pictures_[test], y);
+    const FilteredRow r = filtered(pictures_[reference]), t = filtered(pictures_[test]);
+    if (holes_) {
+        filter(pictures_[weight], y);
+        withoutHoles(r, filtered(pictures_[weight]));
+        withoutHoles(t, filtered(pictures_[weight]));
+    }
+    flipErrors(second_.data(), r, t, tile_.width());
+    if (!holes_) return;
+    const Hole* holes = pair_.holes.data() + size(y) * size(pair_.reference->width) + tile_.x0;
+    for (int i = 0; i < tile_.width(); ++i)
+        if (holes[i] != Hole::none) second_[size(i)] = holes[i] == Hole::different ? 1.0f : 0.0f;
+}
+
+// Where `next` is above `most`, it and its number take their place.
+void keepLargest(const float* next, float number, float* most, float* which, int n) {
+    for (int i = 0; i < n; ++i) {
+        which[i] = next[i] > most[i] ? number : which[i];
+        most[i] = next[i] > most[i] ? next[i] : most[i];
+    }
+}
+
+void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& looks, Image& errors,
+                Image* which) {
+    if (rows.isSame(tile)) return;
+    if (looks.empty())
+        rows.errors(tile, nullptr,
+                    [&](int y, const float* row) { std::copy_n(row, tile.width(), &errors.at(tile.x0, y)); });
+    for (std::size_t i = 0; i < looks.size(); ++i)
+        rows.errors(tile, &looks[i], [&](int y, const float* row) {
+            keepLargest(row, static_cast<float>(i), &errors.at(tile.x0, y), &which->at(tile.x0, y),
+                        tile.width());
+        });
+}
+
+}  // namespace
+
+void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
+                  Image& errors, Image* which) {
+    errors = Image(pair.reference->width, pair.reference->height, 1);
+    if (which) *which = errors;
+    const std::vector<Tile> tiles = tilesOf(errors);
+    tbb::enumerable_thread_specific<TileRows> rows([&] { return TileRows(pair, filters); });
+    tbb::parallel_for(std::size_t{0}, tiles.size(),
+                      [&](std::size_t i) { tileErrors(rows.local(), tiles[i], looks, errors, which); });
+}
+
+}  // namespace diptych

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// FLIP's errors of two pictures, tile by tile: what is held beside them is a few dozen rows of one tile for
+// each thread.
+#pragma once
+
+#include "compare/metrics/flip_filters.h"
+#include "compare/metrics/flip_rows.h"
+#include "shared/image/image.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace diptych {
+
+// What a pixel is outside the filters for: NaN or infinity in a component.
+enum class Hole : std::uint8_t { none, same, different };
+
+struct FlipPair {
+    const Image *reference, *test;  // W x H x 3, alike
+    std::vector<Hole> holes;        // W x H; empty: none
+};
+
+// One look at the pair, whose linear values are multiplied by `scale` and tone mapped.
+struct FlipLook {
+    float scale;
+    ToneMapper mapper;
+};
+
+// Errors of a pair of sRGB pictures (no looks), or the largest over the looks at a linear pair; then `which`
+// gets the first look that has it. At a hole the error is 0 (same) or 1 (different), at look 0.
+void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
+                  Image& errors, Image* which);
+
+}  // namespace diptych
