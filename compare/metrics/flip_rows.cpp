@@ -91,9 +91,15 @@ inline Triple huntLab(const Triple& xyz) {
     return {lightness, 0.01f * lightness * 500 * (fx - fy), 0.01f * lightness * 200 * (fy - fz)};
 }
 
-inline Triple filteredLab(const FilteredRow& row, int i) {
-    const Triple rgb = times(rgbFromXyz, {row.cx[i] + row.y[i], row.y[i], row.y[i] - row.cz[i]});
-    return huntLab(times(xyzFromRgb, {unit(rgb.a), unit(rgb.b), unit(rgb.c)}));
+// Rows y, cx, cz to lightness and chroma, in place.
+DIPTYCH_WIDE_LANES void labInPlace(float* __restrict y, float* __restrict cx, float* __restrict cz, int n) {
+    for (int i = 0; i < n; ++i) {
+        const Triple rgb = times(rgbFromXyz, {cx[i] + y[i], y[i], y[i] - cz[i]});
+        const Triple lab = huntLab(times(xyzFromRgb, {unit(rgb.a), unit(rgb.b), unit(rgb.c)}));
+        y[i] = lab.a;
+        cx[i] = lab.b;
+        cz[i] = lab.c;
+    }
 }
 
 inline float magnitude(float a, float b) {
@@ -124,11 +130,22 @@ inline float colorError(float distance, float largest) {
     return unit(d < knee ? low : high);
 }
 
-inline float featureError(const FilteredRow& r, const FilteredRow& t, int i) {
+// |length(ax, ay) - length(bx, by)|
+inline float lengthsApart(float ax, float ay, float bx, float by) {
+    return apart(magnitude(ax, ay), magnitude(bx, by));
+}
+
+// Of rows that hold lightness and chroma where they held y, cx and cz.
+DIPTYCH_WIDE_LANES void errorsOfLab(float* __restrict out, const FilteredRow r, const FilteredRow t, int n,
+                                    float largest) {
     static_assert(qf == 0.5f, "the power is a square root");
-    const float edge = apart(magnitude(r.edge_x[i], r.edge_y[i]), magnitude(t.edge_x[i], t.edge_y[i]));
-    const float point = apart(magnitude(r.point_x[i], r.point_y[i]), magnitude(t.point_x[i], t.point_y[i]));
-    return std::sqrt((edge < point ? point : edge) * 0.707106781f);
+    for (int i = 0; i < n; ++i) {
+        const float distance = hyab({r.y[i], r.cx[i], r.cz[i]}, {t.y[i], t.cx[i], t.cz[i]});
+        const float edge = lengthsApart(r.edge_x[i], r.edge_y[i], t.edge_x[i], t.edge_y[i]);
+        const float point = lengthsApart(r.point_x[i], r.point_y[i], t.point_x[i], t.point_y[i]);
+        const float feature = std::sqrt((edge < point ? point : edge) * 0.707106781f);
+        out[i] = unit(fast::pow(colorError(distance, largest), 1 - unit(feature)));
+    }
 }
 
 // x in [0, `most`], above which every curve is past 1 anyway and squares might overflow.
@@ -240,14 +257,10 @@ DIPTYCH_WIDE_LANES void convolveOdd(float* __restrict out, const float* const* t
     }
 }
 
-DIPTYCH_WIDE_LANES void flipErrors(float* __restrict out, const FilteredRow& reference,
-                                   const FilteredRow& test, int n) {
-    const FilteredRow r = reference, t = test;
-    const float largest = largestColorDistance();
-    for (int i = 0; i < n; ++i) {
-        const float color = colorError(hyab(filteredLab(r, i), filteredLab(t, i)), largest);
-        out[i] = unit(fast::pow(color, 1 - unit(featureError(r, t, i))));
-    }
+void flipErrors(float* out, const FilteredRow& reference, const FilteredRow& test, int n) {
+    labInPlace(reference.y, reference.cx, reference.cz, n);
+    labInPlace(test.y, test.cx, test.cz, n);
+    errorsOfLab(out, reference, test, n, largestColorDistance());
 }
 
 }  // namespace diptych

@@ -43,7 +43,8 @@ void convolveEven(float* out, const float* const* taps, const float* w, int radi
 // out[i] = sum over k of w[k] (taps[k][i] - taps[-k][i]).
 void convolveOdd(float* out, const float* const* taps, const float* w, int radius, int n);
 
-// FLIP's error of n pixels whose rows have been filtered, in [0, 1]; exactly 0 where they are the same.
+// FLIP's error of n pixels whose rows have been filtered, in [0, 1]; exactly 0 where they are the same. The
+// rows' colours are used up.
 void flipErrors(float* out, const FilteredRow& reference, const FilteredRow& test, int n);
 
 }  // namespace diptych
