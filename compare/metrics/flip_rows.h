@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What FLIP does to rows of pixels; planes apart, so that a row is worked on in vector lanes. The sums of
-// SSIM's windows are the same kind of work.
+// What FLIP does to rows of pixels; planes apart, so that a row is worked on in vector lanes.
 #pragma once
 
 namespace diptych {
@@ -36,12 +35,6 @@ double whereCurveReaches(ToneMapper mapper, double value);
 // tone mapper, negative ones as 0.
 void opponentsFromSrgb(const OpponentRow& out, const float* rgb, int n);
 void opponentsFromLinear(const OpponentRow& out, const float* rgb, int n, float scale, ToneMapper mapper);
-
-// out[i] = w[0] taps[0][i] + sum over k of w[k] (taps[k][i] + taps[-k][i]), k = 1 .. radius; n values.
-// `taps` points at the middle one of 2 radius + 1 rows.
-void convolveEven(float* out, const float* const* taps, const float* w, int radius, int n);
-// out[i] = sum over k of w[k] (taps[k][i] - taps[-k][i]).
-void convolveOdd(float* out, const float* const* taps, const float* w, int radius, int n);
 
 // FLIP's error of n pixels whose rows have been filtered, in [0, 1]; exactly 0 where they are the same. The
 // rows' colours are used up.

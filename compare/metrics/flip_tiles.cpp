@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/metrics/flip_tiles.h"
 
+#include "compare/metrics/convolve.h"
+
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// How far apart two pixels are. Two NaNs are the same, and so are two equal infinities; any other nonfinite
+// component is infinitely far from what stands against it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace diptych {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+inline bool finite(const float* p, int components) {
+    return std::all_of(p, p + components, [](float v) { return std::isfinite(v); });
+}
+inline bool same(float a, float b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+// |a-b| of two components; of two pixels, the largest of their components.
+inline double distance(float a, float b) {
+    if (same(a, b)) return 0;
+    if (!std::isfinite(a) || !std::isfinite(b)) return infinity;
+    return std::abs(double{a} - double{b});
+}
+inline double distance(const float* a, const float* b, int components) {
+    double largest = 0;
+    for (int c = 0; c < components; ++c) largest = std::max(largest, distance(a[c], b[c]));
+    return largest;
+}
+
+inline double largestFinite(const float* p, int components) {
+    double largest = 0;
+    for (int c = 0; c < components; ++c)
+        if (std::isfinite(p[c])) largest = std::max(largest, std::abs(double{p[c]}));
+    return largest;
+}
+
+// Degrees between two vectors of three finite components; 0 between two zero vectors, 180 where one of them
+// is. In double, by atan2: acos of a dot product loses half the digits near 0 (Kahan 2006, "How Futile are
+// Mindless Assessments of Roundoff", section 12).
+inline double angle(const float* a, const float* b) {
+    const double ax = a[0], ay = a[1], az = a[2], bx = b[0], by = b[1], bz = b[2];
+    const bool aIsZero = ax == 0 && ay == 0 && az == 0, bIsZero = bx == 0 && by == 0 && bz == 0;
+    if (aIsZero || bIsZero) return aIsZero == bIsZero ? 0 : 180;
+    const double cross = std::hypot(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx);
+    return std::atan2(cross, ax * bx + ay * by + az * bz) * 180 / std::numbers::pi;
+}
+
+}  // namespace diptych

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "compare/metrics/ssim.h"
+
+#include "compare/metrics/convolve.h"
+#include "compare/metrics/fast_math.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+constexpr int radius = 5, bandHeight = 16;
+constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;  // (K L)^2
+
+std::array<float, radius + 1> window() {
+    std::array<double, radius + 1> w{};
+    double sum = 0;
+    for (unsigned k = 0; k <= radius; ++k) {
+        w[k] = std::exp(-0.5 * (k / 1.5) * (k / 1.5));
+        sum += (k ? 2 : 1) * w[k];
+    }
+    std::array<float, radius + 1> normalised{};
+    std::ranges::transform(w, normalised.begin(), [&](double v) { return static_cast<float>(v / sum); });
+    return normalised;
+}
+
+std::size_t size(int n) {
+    return static_cast<std::size_t>(n);
+}
+
+// Sum and difference of the two pictures and their squares: with these the variances and the covariance take
+// four filters instead of five.
+struct Moments {
+    float *sum, *difference, *sum2, *difference2;
+};
+
+DIPTYCH_WIDE_LANES void momentsOf(const float* __restrict a, const float* __restrict b, float* __restrict sum,
+                                  float* __restrict difference, float* __restrict sum2,
+                                  float* __restrict difference2, int n) {
+    for (int i = 0; i < n; ++i) {
+        const float s = a[i] + b[i], d = a[i] - b[i];
+        sum[i] = s;
+        difference[i] = d;
+        sum2[i] = s * s;
+        difference2[i] = d * d;
+    }
+}
+
+// With s = a + b and d = a - b: 2 mean a mean b = (s^2 - d^2) / 2, mean a^2 + mean b^2 = (s^2 + d^2) / 2, and
+// the same of variances. Two equal pictures have exactly 1.
+DIPTYCH_WIDE_LANES void similarities(float* __restrict out, const Moments m, int n) {
+    for (int i = 0; i < n; ++i) {
+        const float s2 = m.sum[i] * m.sum[i], d2 = m.difference[i] * m.difference[i];
+        const float vs = m.sum2[i] - s2, vd = m.difference2[i] - d2;
+        out[i] = (0.5f * (s2 - d2) + c1) * (0.5f * (vs - vd) + c2) /
+                 ((0.5f * (s2 + d2) + c1) * (0.5f * (vs + vd) + c2));
+    }
+}
+
+struct Sum {
+    double value = 0;
+    std::uint64_t count = 0;
+};
+
+// Windows whose middles are in rows [from, to).
+class Band {
+public:
+    Band(const Image& reference, const Image& test, int from, int to)
+        : width_(reference.width),
+          from_(from),
+          rows_(to - from + 2 * radius),
+          planes_(size(4 * rows_) * size(width_)),
+          upright_(size(width_)),
+          filtered_(size(4 * width_)) {
+        for (int y = 0; y < rows_; ++y) {
+            const std::size_t at = reference.offset(0, from - radius + y);
+            momentsOf(reference.data.data() + at, test.data.data() + at, row(y, 0), row(y, 1), row(y, 2),
+                      row(y, 3), width_);
+        }
+    }
+
+    Sum sum(int y, std::span<const std::uint8_t> covered) {
+        const int n = width_ - 2 * radius;
+        for (int plane = 0; plane < 4; ++plane) filter(y, plane, filtered_.data() + plane * width_);
+        float* out = upright_.data();
+        similarities(out,
+                     {filtered_.data(), filtered_.data() + width_, filtered_.data() + 2 * width_,
+                      filtered_.data() + 3 * width_},
+                     n);
+        const std::uint8_t* counts = covered.data() + size(y) * size(width_) + radius;
+        Sum total;
+        for (int i = 0; i < n; ++i)
+            if (counts[i] && !std::isnan(out[i])) {
+                total.value += double{out[i]};
+                ++total.count;
+            }
+        return total;
+    }
+
+private:
+    float* row(int y, int plane) { return planes_.data() + size(4 * y + plane) * size(width_); }
+
+    void filter(int y, int plane, float* out) {
+        static const std::array<float, radius + 1> weights = window();
+        const float* taps[2 * radius + 1];
+        for (int k = 0; k <= 2 * radius; ++k) taps[k] = row(y - from_ + k, plane);
+        convolveEven(upright_.data(), taps + radius, weights.data(), radius, width_);
+        for (int k = 0; k <= 2 * radius; ++k) taps[k] = upright_.data() + k;
+        convolveEven(out, taps + radius, weights.data(), radius, width_ - 2 * radius);
+    }
+
+    int width_, from_, rows_;
+    std::vector<float> planes_, upright_, filtered_;
+};
+
+}  // namespace
+
+std::optional<double> ssim(const Image& reference, const Image& test, std::span<const std::uint8_t> covered) {
+    if (reference.width != test.width || reference.height != test.height ||
+        reference.pixels() != covered.size() || reference.components != 1 || test.components != 1)
+        throw std::runtime_error(fmt::format("SSIM of {}x{}x{} and {}x{}x{}: give two planes of one size",
+                                             reference.width, reference.height, reference.components,
+                                             test.width, test.height, test.components));
+    const int first = radius, last = reference.height - radius;  // rows of middles
+    if (first >= last || reference.width <= 2 * radius) return {};
+    std::vector<Sum> bands(size((last - first + bandHeight - 1) / bandHeight));
+    tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
+        const int from = first + static_cast<int>(i) * bandHeight, to = std::min(from + bandHeight, last);
+        Band band(reference, test, from, to);
+        for (int y = from; y < to; ++y) {
+            const Sum row = band.sum(y, covered);
+            bands[i].value += row.value;
+            bands[i].count += row.count;
+        }
+    });
+    Sum total;
+    for (const Sum& band : bands) {
+        total.value += band.value;
+        total.count += band.count;
+    }
+    if (total.count == 0) return {};
+    return total.value / static_cast<double>(total.count);
+}
+
+}  // namespace diptych
