@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Small pictures to compare.
+#pragma once
+
+#include "shared/image/image.h"
+
+#include <cstddef>
+#include <limits>
+#include <random>
+
+namespace diptych {
+
+inline constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
+                       inf = std::numeric_limits<float>::infinity();
+
+inline Image flat(int width, int height, float r, float g, float b) {
+    Image image(width, height, 3);
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        image.pixel(i)[0] = r;
+        image.pixel(i)[1] = g;
+        image.pixel(i)[2] = b;
+    }
+    return image;
+}
+// 40x30.
+inline Image grey(float v) {
+    return flat(40, 30, v, v, v);
+}
+inline void set(Image& image, int x, int y, float v) {
+    for (int c = 0; c < 3; ++c) image.at(x, y, c) = v;
+}
+
+// Every component of every pixel on its own, in [low, high].
+inline Image noise(int width, int height, unsigned seed, float low = 0, float high = 1) {
+    Image image(width, height, 3);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> value(low, high);
+    for (float& v : image.data) v = value(random);
+    return image;
+}
+
+}  // namespace diptych
