@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/marks.h"
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "compare/tolerance.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/frame.h"

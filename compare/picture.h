@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/command_line.h"
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/frame.h"
 #include "shared/image/png.h"

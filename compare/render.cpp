@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render.h"
 
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "compare/tolerance.h"
 #include "deferred/deferred.h"
 #include "forward_plus/forward_plus.h"

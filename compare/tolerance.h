@@ -2,7 +2,7 @@
 // How far apart two paths may be, and why: derived from what the G-buffer's encoding loses.
 #pragma once
 
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/requirements.h"

@@ -3,7 +3,7 @@
 // SSIM's).
 #pragma once
 
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "shared/image/image.h"
 
 #include <cstdint>

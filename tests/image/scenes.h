@@ -2,7 +2,7 @@
 // What the picture tests draw, and on what.
 #pragma once
 
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "compare/render.h"
 #include "compare/tolerance.h"
 #include "shared/frame/debug_modes.h"

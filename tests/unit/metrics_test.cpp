@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Statistics of two images against numbers worked out by hand.
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 
 #include "compare/metrics/pixel.h"
 #include "shared/contract/debug_mode.h"
