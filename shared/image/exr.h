@@ -3,24 +3,19 @@
 
 #include "shared/image/image.h"
 #include "shared/image/limits.h"
+#include "shared/image/picture_file.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace diptych {
 
-// One layer of an EXR file: `image` component i is the channel `channels[i]`, e.g. "albedo.R" or "Z".
-struct ExrLayer {
-    std::string name;                   // "" for the unnamed layer (R, G, B, Z)
-    std::vector<std::string> channels;  // full channel names, one per component of the image
-    Image image;
-};
-
-// The same without owning the pixels, for writing.
+// A layer to write: component i of `image` is the channel `channels[i]`, e.g. "albedo.R" or "Z".
 struct ExrLayerView {
     std::vector<std::string> channels;
     const Image* image;
@@ -35,12 +30,12 @@ struct ExrAttribute {
 void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>& layers,
               const std::vector<ExrAttribute>& attributes = {});
 
-// Reads every layer of the first part as it fills the display window (0 where no pixel is stored); half,
-// float and uint channels become float32, components in the order R G B A X Y Z. Deep and subsampled pixels
-// are refused, and what needs more than `most` bytes decoded. Throws std::runtime_error, one line naming file
-// and fault.
-std::vector<ExrLayer> readExr(const std::filesystem::path& file);
-std::vector<ExrLayer> readExr(std::span<const std::byte> bytes, const std::string& name,
-                              std::uint64_t most = limits::imageBytes());
+// Every layer of every part, or of the one named `part`, as it fills the display window (0 where no pixel is
+// stored). Tiles and lines, all compressions; of mip-mapped tiles the largest level. Deep and subsampled
+// pixels are refused, parts of different display windows, and what needs more than `most` bytes decoded.
+// Throws std::runtime_error, one line naming file, part and fault.
+PictureFile readExr(const std::filesystem::path& file);
+PictureFile readExr(std::span<const std::byte> bytes, const std::string& name,
+                    std::uint64_t most = limits::imageBytes(), std::string_view part = {});
 
 }  // namespace diptych

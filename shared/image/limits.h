@@ -18,6 +18,9 @@ inline constexpr std::int64_t texture_side = 16384;
 // Channels of an EXR file: ours have some 50, light groups and ids of film renderers some 300.
 inline constexpr std::int64_t image_channels = 1024;
 
+// Parts of an EXR file, one a pass or light group and eye; and the string attributes of each.
+inline constexpr std::int64_t image_parts = 1024, image_attributes = 65536;
+
 // Bytes of one decoded file: a 7680 x 4320 frame of 64 float32 channels. Where the machine has less than
 // twice that, half its memory.
 std::uint64_t imageBytes();

@@ -2,15 +2,11 @@
 #include "shared/image/png.h"
 
 #include "shared/image/atomic_file.h"
-#include "shared/image/file_bytes.h"
-#include "shared/text/named.h"
 
 #include <fmt/format.h>
 #include <png.h>
 
-#include <array>
 #include <csetjmp>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -58,24 +54,6 @@ bool encode(png_structp png, png_infop info, std::FILE* stream, const Image8& im
     return true;
 }
 
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
-
-// Bits of a stored pixel. libpng has found the first chunk, IHDR, to be whole and of a known kind.
-std::int64_t pixelBits(std::span<const std::byte> bytes) {
-    constexpr std::size_t depth = 24, color = 25;  // offsets in the file
-    constexpr std::array<std::int64_t, 7> components{1, 0, 3, 1, 2, 0, 4};
-    return std::to_integer<std::int64_t>(bytes[depth]) *
-           components.at(std::to_integer<std::size_t>(bytes[color]));
-}
-
-// Filtered rows are deflated: a byte for the filter and whole bytes of pixels each.
-void checkDeflated(std::int64_t width, std::int64_t height, std::int64_t bits, std::size_t size) {
-    const auto rows = static_cast<double>(height * (1 + (width * bits + 7) / 8));
-    if (rows > limits::deflate_ratio * static_cast<double>(size)) failToHold(width, height, size);
-}
-
 }  // namespace
 
 void writePng(const std::filesystem::path& file, const Image8& image) {
@@ -93,28 +71,6 @@ void writePng(const std::filesystem::path& file, const Image8& image) {
     png_destroy_write_struct(&png, &info);
     if (!written) throw std::runtime_error(fmt::format("{}: {}", file.string(), failure.message));
     out.commit();
-}
-
-Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    // The simplified interface: palettes, grey, 16 bits, gamma and interlacing all end as sRGB in 8 bits.
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    const std::unique_ptr<png_image, void (*)(png_imagep)> freed(&png, png_image_free);
-    return named(name, [&] {
-        if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) fail(png.message);
-        checkImageSize(png.width, png.height, 4, most);
-        checkDeflated(png.width, png.height, pixelBits(bytes), bytes.size());
-        png.format = PNG_FORMAT_RGBA;
-        png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-        Image8 image{static_cast<int>(png.width), static_cast<int>(png.height), 4, {}};
-        image.data.resize(static_cast<std::size_t>(png.width) * png.height * 4);
-        if (!png_image_finish_read(&png, nullptr, image.data.data(), 0, nullptr)) fail(png.message);
-        return image;
-    });
-}
-
-Image8 readPng(const std::filesystem::path& file) {
-    return readPng(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
 }
 
 }  // namespace diptych

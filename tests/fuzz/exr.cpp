@@ -12,25 +12,38 @@ std::size_t compressionOf(std::string_view file) {
     return at == file.npos ? 0 : static_cast<unsigned char>(file.substr(at + attribute.size())[0]);
 }
 
+// Layers of one size whose channels have a number in every pixel.
+void requirePicture(const PictureFile& file) {
+    fuzz::require(!file.layers.empty(), "a file has a layer");
+    for (const PictureLayer& layer : file.layers) {
+        const Image& image = layer.image;
+        fuzz::require(image.width > 0 && image.height > 0, "a layer has pixels");
+        fuzz::require(image.width == file.width && image.height == file.height, "layers are of one size");
+        fuzz::require(image.components == static_cast<int>(layer.channels.size()),
+                      "a component for every channel");
+        fuzz::require(image.data.size() == image.pixels() * layer.channels.size(),
+                      "a number for every component");
+        fuzz::require(layer.exact.empty() || layer.exact.size() == layer.channels.size(),
+                      "exact numbers by channel");
+        for (const std::vector<std::uint32_t>& exact : layer.exact)
+            fuzz::require(exact.empty() || exact.size() == image.pixels(), "an exact number for every pixel");
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    fuzz::readOrSayWhy(
-        [&] {
-            const std::vector<ExrLayer> layers =
-                readExr(fuzz::bytesAt(data, size), "fuzz.exr", fuzz::most_bytes);
-            fuzz::require(!layers.empty(), "a file has a layer");
-            for (const auto& [name, channels, image] : layers) {
-                fuzz::require(image.width > 0 && image.height > 0, "a layer has pixels");
-                fuzz::require(image.components == static_cast<int>(channels.size()),
-                              "a component for every channel");
-                fuzz::require(image.data.size() == image.pixels() * channels.size(),
-                              "a number for every component");
-                fuzz::require(image.pixels() == layers[0].image.pixels(), "layers are of one size");
-            }
-            const std::size_t tiled = data[5] & 2u;
-            fuzz::observe(16 * tiled + compressionOf(fuzz::textAt(data, size)));
-        },
-        fuzz::Behind::a_library);
+    const auto read = [&](std::string_view part) {
+        fuzz::readOrSayWhy(
+            [&] {
+                requirePicture(readExr(fuzz::bytesAt(data, size), "fuzz.exr", fuzz::most_bytes, part));
+                const std::size_t tiled = data[5] & 2u, several = data[5] & 16u;
+                fuzz::observe(64 * several + 16 * tiled + compressionOf(fuzz::textAt(data, size)));
+            },
+            fuzz::Behind::a_library);
+    };
+    read("");
+    const bool several = size > 5 && (data[5] & 16u) != 0;
+    if (several) read("b");
     return 0;
 }

@@ -7,12 +7,15 @@ using namespace diptych;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy(
         [&] {
-            const Image8 image = readPng(fuzz::bytesAt(data, size), "fuzz.png", fuzz::most_bytes);
-            fuzz::require(image.width > 0 && image.height > 0 && image.components == 4,
-                          "a picture has RGBA pixels");
-            fuzz::require(image.data.size() == 4 * static_cast<std::size_t>(image.width) *
-                                                   static_cast<std::size_t>(image.height),
-                          "a byte for every component");
+            const PngPicture picture =
+                readPngPicture(fuzz::bytesAt(data, size), "fuzz.png", fuzz::most_bytes);
+            const Image& image = picture.image;
+            fuzz::require(image.width > 0 && image.height > 0, "a picture has pixels");
+            fuzz::require(image.components >= 1 && image.components <= 4, "a picture is Y, YA, RGB or RGBA");
+            fuzz::require(picture.bits == 8 || picture.bits == 16, "a component has 8 or 16 bits");
+            fuzz::require(image.data.size() == image.pixels() * static_cast<std::size_t>(image.components),
+                          "a number for every component");
+            for (const float value : image.data) fuzz::require(value >= 0 && value <= 1, "values are 0 to 1");
             // Bits, colours, interlaced or not.
             fuzz::observe(std::size_t{data[24]} * 64 + std::size_t{data[25]} * 8 + data[28]);
         },

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Small images of every kind that the readers know.
-#include "shared/image/exr.h"
-#include "shared/image/radiance.h"
 #include "tests/fuzz/seeds.h"
-
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfMultiPartOutputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfOutputPart.h>
-#include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfStdIO.h>
-#include <OpenEXR/ImfTiledOutputFile.h>
 
 #include <cstdio>  // jpeglib.h asks for its FILE
 
 #include <jpeglib.h>
 #include <png.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -31,81 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int side = 20;
-
-// R (half), G (float), B (uint), smooth and with a corner of noise.
-struct Pixels {
-    Pixels() {
-        for (int i = 0; i < side * side; ++i) {
-            const int noise = i % side < 8 ? i * 7919 % 31 : 0;
-            r.push_back(half(0.1f * static_cast<float>(i / side + noise)));
-            g.push_back(std::sin(static_cast<float>(i)));
-            b.push_back(static_cast<unsigned>(i + noise));
-        }
-        buffer.insert("R", Imf::Slice(Imf::HALF, reinterpret_cast<char*>(r.data()), 2, 2 * side));
-        buffer.insert("G", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(g.data()), 4, 4 * side));
-        buffer.insert("B", Imf::Slice(Imf::UINT, reinterpret_cast<char*>(b.data()), 4, 4 * side));
-    }
-    std::vector<half> r;
-    std::vector<float> g;
-    std::vector<unsigned> b;
-    Imf::FrameBuffer buffer;
-};
-
-Imf::Header header(int compression) {
-    Imf::Header result(side, side);
-    result.compression() = static_cast<Imf::Compression>(compression);
-    result.channels().insert("R", Imf::Channel(Imf::HALF));
-    result.channels().insert("G", Imf::Channel(Imf::FLOAT));
-    result.channels().insert("B", Imf::Channel(Imf::UINT));
-    return result;
-}
-
-void writeExrSeeds(const fs::path& out) {
-    const Pixels pixels;
-    for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression) {
-        const std::string number = std::to_string(compression);
-        Imf::StdOSStream lines, tiles;
-        {
-            Imf::OutputFile file(lines, header(compression));
-            file.setFrameBuffer(pixels.buffer);
-            file.writePixels(side);
-        }
-        {
-            Imf::Header head = header(compression);
-            head.setTileDescription(
-                Imf::TileDescription(8, 8, compression % 2 ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL));
-            Imf::TiledOutputFile file(tiles, head);
-            file.setFrameBuffer(pixels.buffer);
-            for (int level = 0; level < file.numLevels(); ++level)
-                file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
-        }
-        writeSeed(out, "exr", "lines-" + number + ".exr", lines.str());
-        writeSeed(out, "exr", "tiles-" + number + ".exr", tiles.str());
-    }
-
-    Imf::Header crop = header(Imf::ZIP_COMPRESSION);
-    crop.displayWindow() = Imath::Box2i(Imath::V2i(-3, 5), Imath::V2i(30, 12));
-    Imf::StdOSStream cropped, parts;
-    {
-        Imf::OutputFile file(cropped, crop);
-        file.setFrameBuffer(pixels.buffer);
-        file.writePixels(side);
-    }
-    Imf::Header heads[] = {header(Imf::ZIPS_COMPRESSION), header(Imf::NO_COMPRESSION)};
-    heads[0].setName("a");
-    heads[0].setType(Imf::SCANLINEIMAGE);
-    heads[1].setName("b");
-    heads[1].setType(Imf::TILEDIMAGE);
-    heads[1].setTileDescription(Imf::TileDescription(16, 16));
-    {
-        Imf::MultiPartOutputFile file(parts, heads, 2);
-        Imf::OutputPart part(file, 0);
-        part.setFrameBuffer(pixels.buffer);
-        part.writePixels(side);
-    }
-    writeSeed(out, "exr", "crop.exr", cropped.str());
-    writeSeed(out, "exr", "parts.exr", parts.str());
-}
 
 void appendTo(png_structp png, png_bytep bytes, std::size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
@@ -211,13 +123,20 @@ void writeHdrSeeds(const fs::path& out) {
                   "\x02\x02\x00\x08\x88\xc8\x08\x01\x02\x03\x04\x05\x06\x07\x08\x83\x05\x85\x06\x88\x80"s);
 }
 
+void writePfmSeeds(const fs::path& out) {
+    const std::string number("\x00\x00\x80\x3f", 4), turned(number.rbegin(), number.rend());
+    writeSeed(out, "pfm", "grey.pfm", "Pf\n2 1\n-1.0\n" + number + number);
+    writeSeed(out, "pfm", "color.pfm",
+              "PF 1 2 0.5\n" + turned + turned + turned + turned + turned + turned + "\n");
+}
+
 }  // namespace
 
 void writeImageSeeds(const fs::path& out) {
-    writeExrSeeds(out);
     writePngSeeds(out);
     writeJpegSeeds(out);
     writeHdrSeeds(out);
+    writePfmSeeds(out);
 }
 
 }  // namespace diptych::fuzz

@@ -82,6 +82,8 @@ int copySeeds(const fs::path& assets, const fs::path& out) {
             writeSeed(out, "texture", name, contentsOf(file));
         else if (ending == ".exr")
             writeSeed(out, "exr", name, contentsOf(file));
+        else if (ending == ".pfm")
+            writeSeed(out, "pfm", name, contentsOf(file));
         else if (ending == ".hdr")
             writeSeed(out, "hdr", name, contentsOf(file));
         else if (ending == ".png")
@@ -101,6 +103,7 @@ int main(int count, char** words) {
     if (count < 2) return std::fprintf(stderr, "fuzz_seeds OUT [ASSETS]\n"), 2;
     fs::remove_all(words[1]);
     writeImageSeeds(words[1]);
+    writeExrSeeds(words[1]);
     writeGltfSeeds(words[1]);
     writeTextSeeds(words[1]);
     if (count > 2 && fs::is_directory(words[2]))

@@ -13,7 +13,8 @@ inline constexpr std::size_t largest_seed = std::size_t{64} << 10;
 void writeSeed(const std::filesystem::path& out, const char* target, std::string_view name,
                std::string_view bytes);
 
-void writeImageSeeds(const std::filesystem::path& out);  // exr, hdr, png, texture
+void writeImageSeeds(const std::filesystem::path& out);  // hdr, pfm, png, texture
+void writeExrSeeds(const std::filesystem::path& out);
 void writeGltfSeeds(const std::filesystem::path& out);
 void writeTextSeeds(const std::filesystem::path& out);  // lights, settings
 // What is small among the assets, .gltf files with their buffers and images as data URIs. Returns how many.

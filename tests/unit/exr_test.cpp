@@ -106,7 +106,7 @@ TEST(ExrOfOthers, EveryCompressorInLinesAndTiles) {
                     Imf::TileDescription(64, 32 + static_cast<unsigned>(tile), Imf::MIPMAP_LEVELS));
             SCOPED_TRACE(testing::Message() << "compression " << compression << ", tiles of " << tile);
             const std::string file = written(head);
-            const std::vector<ExrLayer> layers = readExr(bytesIn(file), "a.exr");
+            const std::vector<PictureLayer> layers = readExr(bytesIn(file), "a.exr").layers;
             ASSERT_EQ(layers.size(), 1u);
             expectFull(layers[0].image, 70, 300);
         }
@@ -116,7 +116,7 @@ TEST(ExrOfOthers, ACropStandsWhereItBelongs) {
     // Data from (-1, 2) to (2, 4) on a display from (1, 1) to (4, 3): columns 1 to 2, rows 2 to 3 are seen.
     const Imath::Box2i display(Imath::V2i(1, 1), Imath::V2i(4, 3)), data(Imath::V2i(-1, 2), Imath::V2i(2, 4));
     const std::string file = written(header(display, data, Imf::ZIP_COMPRESSION));
-    const Image image = readExr(bytesIn(file), "a.exr")[0].image;
+    const Image image = readExr(bytesIn(file), "a.exr").layers[0].image;
     ASSERT_EQ(image.width, 4);
     ASSERT_EQ(image.height, 3);
     for (int y = 0; y < 3; ++y)
@@ -124,7 +124,7 @@ TEST(ExrOfOthers, ACropStandsWhereItBelongs) {
 
     const Imath::Box2i aside(Imath::V2i(500000, -7), Imath::V2i(500001, -6));
     const std::string far = written(header(display, aside, Imf::ZIP_COMPRESSION));
-    const std::vector<ExrLayer> unseen = readExr(bytesIn(far), "a.exr");
+    const std::vector<PictureLayer> unseen = readExr(bytesIn(far), "a.exr").layers;
     for (const float value : unseen[0].image.data) EXPECT_EQ(value, 0);
 }
 
@@ -145,7 +145,7 @@ TEST(ExrOfOthers, TheFirstOfSeveralPartsIsRead) {
         part.setFrameBuffer(pixels.buffer);
         part.writePixels(300);
     }
-    const std::vector<ExrLayer> layers = readExr(file);
+    const std::vector<PictureLayer> layers = readExr(file).layers;
     ASSERT_EQ(layers.size(), 1u);
     expectFull(layers[0].image, 70, 300);
 }

@@ -55,7 +55,7 @@ TEST(Exr, EveryBitComesBackByLayerAndName) {
              {{{"R", "G", "B"}, &lit}, {{"Z"}, &depth}, {{"normals.X", "normals.Y", "normals.Z"}, &normals}},
              {{"scene", "builtin:none"}});
 
-    const std::vector<ExrLayer> layers = readExr(file);
+    const std::vector<PictureLayer> layers = readExr(file).layers;
     ASSERT_EQ(layers.size(), 2u);
     EXPECT_EQ(layers[0].name, "");
     EXPECT_EQ(layers[0].channels, (std::vector<std::string>{"R", "G", "B", "Z"}));

@@ -49,9 +49,9 @@ TEST(Report, LeavesWhatTheContractNames) {
     EXPECT_EQ(namesIn(out.parent_path()), std::vector<std::string>{"report"}) << "nothing temporary stays";
     EXPECT_EQ(namesIn(out), Json::parse(json)["files"].get<std::vector<std::string>>());
 
-    const std::vector<ExrLayer> layers = readExr(out / "forward_plus.exr");
+    const std::vector<PictureLayer> layers = readExr(out / "forward_plus.exr").layers;
     std::set<std::string> channels;
-    for (const ExrLayer& layer : layers) channels.insert(layer.channels.begin(), layer.channels.end());
+    for (const PictureLayer& layer : layers) channels.insert(layer.channels.begin(), layer.channels.end());
     for (const DebugMode& mode : debugModes())
         for (const std::string& name : exrChannels(mode)) EXPECT_TRUE(channels.contains(name)) << name;
 }
@@ -328,7 +328,7 @@ TEST(Report, HelpersAreNeitherComparedNorWritten) {
     EXPECT_EQ(report.comparisons[0].channels[0].mode->name, "normals");
     EXPECT_EQ(report.comparisons[0].coverage.count, 1u)
         << "the helper material_id still tells the background";
-    const std::vector<ExrLayer> layers = readExr(out / "deferred.exr");
+    const std::vector<PictureLayer> layers = readExr(out / "deferred.exr").layers;
     ASSERT_EQ(layers.size(), 1u);
     EXPECT_EQ(layers[0].name, "normals");
 }
@@ -338,7 +338,7 @@ TEST(Report, OneFrameAsFileOrFolder) {
     const Frame frame = bothFrames()[1];
     const DebugMode& lit = debugMode(gpu::DEBUG_lit);
     writeFrame(frame, {}, {OutputKind::exr, here / "a.exr"}, lit, {}, false);
-    EXPECT_EQ(readExr(here / "a.exr")[0].image.at(1, 2, 0), 0.5f);
+    EXPECT_EQ(readExr(here / "a.exr").layers[0].image.at(1, 2, 0), 0.5f);
     writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, lit, {}, false);
     EXPECT_EQ(readPng(here / "a.png").width, 4);
     writeFrame(frame, {}, {OutputKind::folder, here / "a"}, lit, {}, false);

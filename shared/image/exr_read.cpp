@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "shared/image/exr.h"
+#include "shared/image/exr_header.h"
+#include "shared/image/exr_threads.h"
+#include "shared/image/file_bytes.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
+
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfThreading.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace diptych {
+
+void exr::useAllCores() {
+    static const bool once = [] {
+        Imf::setGlobalThreadCount(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+        return true;
+    }();
+    static_cast<void>(once);
+}
+
+namespace {
+
+// The file from memory, its beginning replaced.
+class MemoryStream : public Imf::IStream {
+public:
+    MemoryStream(std::span<const std::byte> beginning, std::span<const std::byte> file)
+        : IStream("EXR"), beginning_(beginning), file_(file) {}
+
+    // Like a file's: false where nothing comes after what was read.
+    bool read(char* to, int count) override {
+        const auto size = static_cast<std::size_t>(std::max(count, 0));
+        if (size > file_.size() - std::min(at_, file_.size())) throw std::runtime_error("is cut short");
+        const std::size_t replaced = at_ < beginning_.size() ? std::min(size, beginning_.size() - at_) : 0;
+        std::copy_n(reinterpret_cast<const char*>(beginning_.data()) + at_, replaced, to);
+        std::copy_n(reinterpret_cast<const char*>(file_.data()) + at_ + replaced, size - replaced,
+                    to + replaced);
+        at_ += size;
+        return at_ < file_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = position; }
+
+private:
+    std::span<const std::byte> beginning_, file_;
+    std::uint64_t at_ = 0;
+};
+
+// ---- layers ------------------------------------------------------------------------------------------
+
+// R, G, B, A and X, Y, Z and U, V in this order, however they are spelled; others after them.
+std::size_t componentRank(std::string component) {
+    std::ranges::transform(component, component.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    constexpr std::array<std::string_view, 4> words{"red", "green", "blue", "alpha"};
+    constexpr std::string_view letters = "rgbaxyzuv";
+    const auto word = std::ranges::find(words, component);
+    if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
+    return component.size() == 1 ? std::min(letters.find(component[0]), letters.size()) : letters.size();
+}
+
+// A layer and, channel by channel, what the file calls and holds it as.
+struct Layer {
+    PictureLayer picture;
+    std::vector<ExrChannel> stored{};
+    // The uint channels' numbers, all of them; by channel.
+    std::vector<std::vector<std::uint32_t>> numbers{};
+};
+
+// The part's name where the layer's does not begin with it.
+std::string fullName(const std::string& part, const std::string& layer) {
+    if (part.empty() || layer == part || layer.starts_with(part + ".")) return layer;
+    return layer.empty() ? part : part + "." + layer;
+}
+
+std::string sampleOf(const std::vector<ExrChannel>& channels) {
+    constexpr std::array<const char*, 3> names{"uint", "half", "float"};
+    const ExrSample first = channels[0].sample;
+    const bool mixed = std::ranges::any_of(channels, [&](const ExrChannel& c) { return c.sample != first; });
+    return mixed ? "mixed" : names.at(static_cast<std::size_t>(first));
+}
+
+// By the part of their names before the last dot, sorted, without pixels.
+std::vector<Layer> layersOf(const ExrPart& part) {
+    std::map<std::string, std::vector<ExrChannel>> byName;
+    for (const ExrChannel& channel : part.channels) {
+        const std::size_t dot = channel.name.rfind('.');
+        byName[dot == std::string::npos ? "" : channel.name.substr(0, dot)].push_back(channel);
+    }
+    std::vector<Layer> layers;
+    for (auto& [name, channels] : byName) {
+        const auto component = [](const ExrChannel& channel) {
+            return channel.name.substr(channel.name.rfind('.') + 1);
+        };
+        std::ranges::stable_sort(channels, {},
+                                 [&](const ExrChannel& c) { return componentRank(component(c)); });
+        Layer layer{{fullName(part.name, name), {}, sampleOf(channels), {}}, channels};
+        for (const ExrChannel& channel : channels)
+            layer.picture.channels.push_back(layer.picture.name.empty()
+                                                 ? component(channel)
+                                                 : layer.picture.name + "." + component(channel));
+        layers.push_back(std::move(layer));
+    }
+    return layers;
+}
+
+// ---- pixels ------------------------------------------------------------------------------------------
+
+// The part of `stored` that the display window shows, 0 where nothing is stored.
+template <class T>
+std::vector<T> displayed(const std::vector<T>& stored, std::size_t components, const ExrWindow& data,
+                         const ExrWindow& display) {
+    const auto offset = [&](const ExrWindow& in, std::int64_t x, std::int64_t y) {
+        return static_cast<std::size_t>((y - in.min_y) * in.width() + x - in.min_x) * components;
+    };
+    std::vector<T> whole(static_cast<std::size_t>(display.width() * display.height()) * components);
+    const std::int32_t left = std::max(data.min_x, display.min_x),
+                       right = std::min(data.max_x, display.max_x);
+    if (left > right) return whole;
+    for (std::int32_t y = std::max(data.min_y, display.min_y); y <= std::min(data.max_y, display.max_y); ++y)
+        std::copy_n(stored.data() + offset(data, left, y),
+                    static_cast<std::size_t>(right - left + 1) * components,
+                    whole.data() + offset(display, left, y));
+    return whole;
+}
+
+// Room for the pixels of `window`, and where in it those of the data window go.
+Imf::FrameBuffer makeRoom(std::vector<Layer>& layers, const ExrWindow& data, const ExrWindow& window) {
+    const Imath::Box2i origin(Imath::V2i(data.min_x, data.min_y), Imath::V2i(data.max_x, data.max_y));
+    const int x = data.min_x - window.min_x, y = data.min_y - window.min_y;
+    Imf::FrameBuffer buffer;
+    const auto insert = [&](const std::string& name, Imf::PixelType type, void* first,
+                            std::size_t components) {
+        constexpr std::size_t number = sizeof(float);
+        static_assert(sizeof(float) == sizeof(std::uint32_t));
+        buffer.insert(name, Imf::Slice::Make(type, first, origin, number * components,
+                                             number * components * static_cast<std::size_t>(window.width())));
+    };
+    for (Layer& layer : layers) {
+        const std::size_t components = layer.stored.size();
+        Image& image = layer.picture.image;
+        image = Image(static_cast<int>(window.width()), static_cast<int>(window.height()),
+                      static_cast<int>(components));
+        layer.numbers.resize(components);
+        for (std::size_t c = 0; c < components; ++c) {
+            const std::string& name = layer.stored[c].name;
+            if (layer.stored[c].sample == ExrSample::uint) {
+                layer.numbers[c].resize(image.pixels());
+                insert(name, Imf::UINT, layer.numbers[c].data() + image.offset(x, y) / components, 1);
+            } else {
+                insert(name, Imf::FLOAT, image.data.data() + image.offset(x, y, static_cast<int>(c)),
+                       components);
+            }
+        }
+    }
+    return buffer;
+}
+
+// The numbers as float32; they are kept where that has rounded one.
+void convertNumbers(Layer& layer) {
+    Image& image = layer.picture.image;
+    bool rounded = false;
+    for (std::size_t c = 0; c < layer.numbers.size(); ++c) {
+        std::vector<std::uint32_t>& numbers = layer.numbers[c];
+        bool exact = true;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            const auto value = static_cast<float>(numbers[i]);
+            image.pixel(i)[c] = value;
+            exact = exact && static_cast<std::uint64_t>(value) == numbers[i];
+        }
+        if (exact) std::vector<std::uint32_t>().swap(numbers);
+        rounded = rounded || !exact;
+    }
+    if (rounded) layer.picture.exact = std::move(layer.numbers);
+}
+
+void crop(Layer& layer, const ExrWindow& data, const ExrWindow& display) {
+    Image& image = layer.picture.image;
+    image.data = displayed(image.data, layer.stored.size(), data, display);
+    image.width = static_cast<int>(display.width());
+    image.height = static_cast<int>(display.height());
+    for (std::vector<std::uint32_t>& numbers : layer.numbers)
+        if (!numbers.empty()) numbers = displayed(numbers, 1, data, display);
+}
+
+std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, const ExrWindow& display) {
+    Imf::InputPart in(file, part.number);
+    const Imath::Box2i window = in.header().dataWindow();
+    if (ExrWindow{window.min.x, window.min.y, window.max.x, window.max.y} != part.data)
+        throw std::runtime_error("its data window can be read in two ways");
+    // Pixels go where they are seen; where some are not, they are read all and cut out.
+    const bool direct = display.holds(part.data);
+    std::vector<Layer> layers = layersOf(part);
+    in.setFrameBuffer(makeRoom(layers, part.data, direct ? display : part.data));
+    in.readPixels(window.min.y, window.max.y);
+    for (Layer& layer : layers) {
+        if (!direct) crop(layer, part.data, display);
+        convertNumbers(layer);
+    }
+    return layers;
+}
+
+// Two parts can spell one name in two ways.
+void checkNames(const std::vector<PictureLayer>& layers) {
+    std::set<std::string_view> names;
+    for (const PictureLayer& layer : layers)
+        for (const std::string& name : layer.channels)
+            if (!names.insert(name).second)
+                throw std::runtime_error("channel " + oneLine(name) + ": stands in two parts");
+}
+
+PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
+    ExrHeader header = readExrHeader(file, most, asked);
+    MemoryStream stream(header.bytes, file);
+    // A thread for every MiB: small pictures are done before another one has woken.
+    std::uint64_t useful = 0;
+    for (const ExrPart& part : header.parts) useful = std::max(useful, part.stored_bytes >> 20);
+    Imf::MultiPartInputFile in(
+        stream, static_cast<int>(std::min<std::uint64_t>(useful, std::thread::hardware_concurrency())));
+    PictureFile picture{static_cast<int>(header.display.width()),
+                        static_cast<int>(header.display.height()),
+                        "OpenEXR",
+                        false,
+                        {},
+                        std::move(header.attributes),
+                        std::move(header.notes)};
+    for (const ExrPart& part : header.parts) {
+        const auto read = [&] { return readPart(in, part, header.display); };
+        std::vector<Layer> layers =
+            part.name.empty() ? read() : named("part \"" + oneLine(part.name, 60) + "\"", read);
+        for (Layer& layer : layers) picture.layers.push_back(std::move(layer.picture));
+        in.flushPartCache();  // its buffers
+    }
+    checkNames(picture.layers);
+    return picture;
+}
+
+}  // namespace
+
+PictureFile readExr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+                    std::string_view part) {
+    exr::useAllCores();
+    return named(name, [&] { return readParts(bytes, most, part); });
+}
+
+PictureFile readExr(const std::filesystem::path& file) {
+    return readExr(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
+}
+
+}  // namespace diptych

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// Source: PNG specification (ISO/IEC 15948), by chapter.
+#include "shared/image/file_bytes.h"
+#include "shared/image/png.h"
+#include "shared/text/named.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <csetjmp>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+    throw std::runtime_error(what);
+}
+
+// ---- what stands before the pixels -------------------------------------------------------------------
+
+// 4.3, 11.3.3: what the values mean. Profiles are not unpacked; that one is there is told.
+struct Encoding {
+    std::uint32_t gamma = 0;  // in 1/100000, as the file has it; 0: none
+    bool srgb = false, profile = false;
+};
+
+Encoding encodingOf(std::span<const std::byte> file) {
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value;
+        std::memcpy(&value, file.data() + at, sizeof value);
+        return std::endian::native == std::endian::little ? __builtin_bswap32(value) : value;
+    };
+    constexpr std::size_t signature = 8, around = 12;  // length, name and checksum of a chunk
+    Encoding encoding;
+    for (std::size_t at = signature; file.size() - at >= around;) {
+        const std::size_t size = word(at);
+        const std::string_view name(reinterpret_cast<const char*>(file.data()) + at + 4, 4);
+        if (name == "IDAT" || size > file.size() - at - around) break;
+        if (name == "gAMA" && size == 4) encoding.gamma = word(at + 8);
+        if (name == "sRGB") encoding.srgb = true;
+        if (name == "iCCP" || name == "cICP") encoding.profile = true;
+        at += around + size;
+    }
+    return encoding;
+}
+
+// sRGB stands above gAMA (4.3); gammas near sRGB's own, 1/2.2, are what writers of sRGB put there.
+void describe(PngPicture& picture, const Encoding& encoding) {
+    constexpr std::uint32_t linear = 100000, srgb = 45455, rounding = 100;
+    const bool stated = encoding.gamma != 0 && !encoding.srgb;
+    picture.linear = stated && encoding.gamma == linear;
+    if (stated && !picture.linear && (encoding.gamma + rounding < srgb || encoding.gamma > srgb + rounding))
+        picture.notes.push_back(fmt::format("its gamma of {} is not applied: its values are taken as sRGB's",
+                                            static_cast<double>(encoding.gamma) / linear));
+    if (encoding.profile)
+        picture.notes.push_back(fmt::format("its colour profile is not applied: its values are taken as {}",
+                                            picture.linear ? "linear" : "sRGB's"));
+}
+
+// ---- libpng ------------------------------------------------------------------------------------------
+
+// libpng's way out of an error is a longjmp: nothing between setjmp and here may own anything.
+class Decoder {
+public:
+    explicit Decoder(std::span<const std::byte> file) : rest_(file) {
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, onError, onWarning);
+        if (png_) info_ = png_create_info_struct(png_);
+        if (!info_) {
+            png_destroy_read_struct(&png_, nullptr, nullptr);
+            throw std::bad_alloc();
+        }
+    }
+    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+
+    void readHeader() {
+        if (!tryHeader()) fail(message_.data());
+    }
+    // `rows` has room for rowsKept() of them, one after the other; `done(y)` is told of each when it is
+    // whole.
+    template <class Done>
+    void readRows(png_bytep rows, const Done& done) {
+        for (std::uint32_t y = 0; y < height() * static_cast<std::uint32_t>(passes_); ++y) {
+            const std::uint32_t line = y % height();
+            if (!tryRow(rows + (passes_ > 1 ? line * rowBytes() : 0))) fail(message_.data());
+            if (passes_ == 1) done(line, rows);
+        }
+        for (std::uint32_t y = 0; passes_ > 1 && y < height(); ++y) done(y, rows + y * rowBytes());
+    }
+    std::size_t rowsKept() const { return passes_ > 1 ? height() : 1; }
+
+    std::uint32_t width() const { return png_get_image_width(png_, info_); }
+    std::uint32_t height() const { return png_get_image_height(png_, info_); }
+    int components() const { return png_get_channels(png_, info_); }
+    int bits() const { return png_get_bit_depth(png_, info_); }
+    std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
+
+private:
+    static void onError(png_structp png, png_const_charp message) {
+        auto& self = *static_cast<Decoder*>(png_get_error_ptr(png));
+        std::strncpy(self.message_.data(), message, self.message_.size() - 1);
+        png_longjmp(png, 1);
+    }
+    static void onWarning(png_structp, png_const_charp) {}
+    static void onRead(png_structp png, png_bytep out, std::size_t count) {
+        auto& rest = static_cast<Decoder*>(png_get_io_ptr(png))->rest_;
+        if (count > rest.size()) png_error(png, "is cut short");
+        std::memcpy(out, rest.data(), count);
+        rest = rest.subspan(count);
+    }
+
+    bool tryHeader() {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_set_read_fn(png_, this, onRead);
+        // Chunks other than IHDR, PLTE, tRNS, IDAT and IEND are stepped over: no profile, no text is
+        // unpacked.
+        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+        png_read_info(png_, info_);
+        png_set_expand(png_);  // palettes, fewer than 8 bits, tRNS
+        if (std::endian::native == std::endian::little) png_set_swap(png_);
+        passes_ = png_set_interlace_handling(png_);
+        png_read_update_info(png_, info_);
+        return true;
+    }
+    bool tryRow(png_bytep row) {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_read_row(png_, row, nullptr);
+        return true;
+    }
+
+    std::span<const std::byte> rest_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    int passes_ = 1;
+    std::array<char, 200> message_{};  // of the error; what is thrown is made outside of libpng
+};
+
+// 11.2.2: depth and colour stand in IHDR, the first chunk, which libpng has found to be sound.
+std::int64_t storedBits(std::span<const std::byte> file) {
+    constexpr std::size_t depth = 24, color = 25;
+    constexpr std::array<std::int64_t, 7> components{1, 0, 3, 1, 2, 0, 4};
+    return std::to_integer<std::int64_t>(file[depth]) *
+           components.at(std::to_integer<std::size_t>(file[color]));
+}
+
+// Filtered rows are deflated: a byte for the filter and whole bytes of pixels each.
+void checkDeflated(std::int64_t width, std::int64_t height, std::int64_t bits, std::size_t size) {
+    const auto rows = static_cast<double>(height * (1 + (width * bits + 7) / 8));
+    if (rows > limits::deflate_ratio * static_cast<double>(size)) failToHold(width, height, size);
+}
+
+template <class T>
+void convert(png_const_bytep row, float* to, std::size_t count) {
+    constexpr float largest = std::numeric_limits<T>::max();
+    for (std::size_t i = 0; i < count; ++i) {
+        T value;
+        std::memcpy(&value, row + i * sizeof value, sizeof value);
+        to[i] = static_cast<float>(value) / largest;
+    }
+}
+
+PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most) {
+    Decoder decoder(bytes);
+    decoder.readHeader();
+    const std::int64_t width = decoder.width(), height = decoder.height();
+    const int components = decoder.components(), bits = decoder.bits();
+    checkImageSize(width, height, std::int64_t{sizeof(float)} * components, most);
+    checkDeflated(width, height, storedBits(bytes), bytes.size());
+    PngPicture picture{Image(static_cast<int>(width), static_cast<int>(height), components), bits};
+    describe(picture, encodingOf(bytes));
+    const std::size_t row = static_cast<std::size_t>(width) * static_cast<std::size_t>(components);
+    if (decoder.rowBytes() != row * static_cast<std::size_t>(bits / 8)) fail("its header changes");
+    const auto rows = std::make_unique_for_overwrite<png_byte[]>(decoder.rowBytes() * decoder.rowsKept());
+    decoder.readRows(rows.get(), [&](std::uint32_t y, png_const_bytep from) {
+        float* to = picture.image.data.data() + row * y;
+        bits == 16 ? convert<std::uint16_t>(from, to, row) : convert<std::uint8_t>(from, to, row);
+    });
+    return picture;
+}
+
+std::uint8_t byteOf(float value) {
+    return static_cast<std::uint8_t>(std::lround(255 * value));
+}
+
+}  // namespace
+
+PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+    return named(name, [&] { return decode(bytes, most); });
+}
+
+Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+    const Image image = readPngPicture(bytes, name, most).image;
+    Image8 rgba{image.width, image.height, 4, std::vector<std::uint8_t>(4 * image.pixels())};
+    const int colors = image.components > 2 ? 3 : 1;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* from = image.pixel(i);
+        for (int c = 0; c < 3; ++c)
+            rgba.data[4 * i + static_cast<std::size_t>(c)] = byteOf(from[std::min(c, colors - 1)]);
+        rgba.data[4 * i + 3] = image.components > colors ? byteOf(from[colors]) : std::uint8_t{255};
+    }
+    return rgba;
+}
+
+Image8 readPng(const std::filesystem::path& file) {
+    return readPng(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
+}
+
+}  // namespace diptych
