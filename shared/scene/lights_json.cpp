@@ -2,7 +2,7 @@
 #include "shared/scene/lights_json.h"
 
 #include "shared/image/file_bytes.h"
-#include "shared/text/json_shape.h"
+#include "shared/text/json.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -143,16 +143,6 @@ Light readLight(const Json& object, const std::string& who) {
     return light;
 }
 
-Json parse(std::string_view text) {
-    if (jsonShape(text).depth > json_depth)
-        throw std::runtime_error(fmt::format("nests deeper than {}", json_depth));
-    try {
-        return Json::parse(text);
-    } catch (const Json::exception& e) {
-        throw std::runtime_error(fmt::format("is not JSON: {}", oneLine(e.what())));
-    }
-}
-
 std::vector<Light> readDocument(const Json& document) {
     if (!document.is_object() || !document.contains("lights") || !document["lights"].is_array())
         throw std::runtime_error("is not { \"lights\": [ ... ] }");
@@ -165,7 +155,7 @@ std::vector<Light> readDocument(const Json& document) {
 }  // namespace
 
 std::vector<Light> lightsFromJson(std::string_view text, const std::string& name) {
-    return named(name, [&] { return readDocument(parse(text)); });
+    return named(name, [&] { return readDocument(parseJson(text)); });
 }
 
 std::vector<Light> readLights(const std::filesystem::path& file) {
