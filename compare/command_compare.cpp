@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/baseline.h"
 #include "compare/commands.h"
 #include "compare/report/report.h"
 #include "shared/contract/debug_mode.h"
@@ -22,44 +23,100 @@ std::filesystem::path reportFolder(const Options& options) {
     return output.path;
 }
 
+CompareOptions compareOptions(const Options& options) {
+    CompareOptions compare{options.baseline, {}, options.selection, options.allow_noise};
+    if (!options.tolerances.empty()) compare.rules = readRules(options.tolerances);
+    return compare;
+}
+
+// What both paths drew, of every scene and camera.
+struct Drawn {
+    std::vector<Frame> frames;  // two by two
+    std::vector<Requirements> needs;
+    std::vector<std::vector<FeatureMarks>> marks;  // per pair
+};
+
+Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device) {
+    RenderOptions render = renderOptions(options);
+    render.through_gbuffer = true;
+    render.twice = true;
+    // Which tells the background, and that is outside every mean.
+    constexpr auto background = static_cast<int>(gpu::DEBUG_material_id);
+    if (std::ranges::count(render.channels, background) == 0) render.channels.push_back(background);
+
+    Drawn drawn;
+    for (const std::string& name : options.scenes) {
+        say(options, name);
+        const Scene scene = loadShown(options, name);
+        drawn.needs.insert(drawn.needs.end(), settings.size(), needsOf(scene, options.settings));
+        std::vector<Frame> frames = renderAll(device, scene, settings, render);
+        for (std::size_t i = 0; i < frames.size(); i += 2) drawn.marks.push_back(marksOf(scene, frames[i]));
+        std::ranges::move(frames, std::back_inserter(drawn.frames));
+    }
+    checkValidation(device);
+    return drawn;
+}
+
+// The one scene and camera that a picture can be of.
+void checkOnePicture(const Options& options, const std::vector<Settings>& settings) {
+    if (options.scenes.size() != 1 || settings.size() != 2)
+        throw std::runtime_error(
+            fmt::format("--baseline {}: is one picture, so give one scene and one camera",
+                        options.baseline_file.string()));
+}
+
+// Which of the Frames drawn becomes the baseline: as the file says, or --path.
+const Frame& renewing(const Options& options, const Frame* old, const std::vector<Frame>& frames) {
+    const Path path = old && !options.path_given && old->settings.path != Path::reference
+                          ? old->settings.path
+                          : options.settings.path;
+    for (const Frame& frame : frames)
+        if (frame.settings.path == path) return frame;
+    throw std::runtime_error(fmt::format("--path {}: compare draws deferred and forward_plus", nameOf(path)));
+}
+
+Report againstFile(const Options& options, Drawn& drawn, std::optional<Frame> baseline,
+                   const ReportDevice& device) {
+    const CompareOptions compare = compareOptions(options);
+    if (!baseline)
+        return makeReport(std::move(drawn.frames), drawn.needs, device, compare, std::move(drawn.marks));
+    return makeBaselineReport(std::move(*baseline), std::move(drawn.frames), drawn.needs.front(), device,
+                              compare, baselineMismatches(*baseline, drawn.frames.front(), device));
+}
+
 }  // namespace
 
 int runCompare(const Options& options) {
     const std::vector<Settings> settings = plan(options, {Path::deferred, Path::forward_plus});
     const std::filesystem::path folder = reportFolder(options);
-    if (options.path_given) note(options, "--path is not used: compare draws both");
+    if (options.path_given && !options.update_baseline)
+        note(options, "--path is not used: compare draws both");
     if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
-    RenderOptions render = renderOptions(options);
-    render.through_gbuffer = true;
-
-    // which tells the background, and that is outside every mean
-    constexpr auto background = static_cast<int>(gpu::DEBUG_material_id);
-    if (std::ranges::count(render.channels, background) == 0) render.channels.push_back(background);
+    std::optional<Frame> baseline;
+    if (!options.baseline_file.empty()) {
+        checkOnePicture(options, settings);
+        if (!options.update_baseline || std::filesystem::exists(options.baseline_file))
+            baseline = frameFromExr(options.baseline_file);
+    }
 
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
-    std::vector<Frame> frames;
-    std::vector<Requirements> needs;
-    std::vector<std::vector<FeatureMarks>> marks;  // per pair of frames
-    for (const std::string& name : options.scenes) {
-        say(options, name);
-        const Scene scene = loadShown(options, name);
-        needs.insert(needs.end(), settings.size(), needsOf(scene, options.settings));
-        std::vector<Frame> drawn = renderAll(device, scene, settings, render);
-        for (std::size_t i = 0; i < drawn.size(); i += 2) marks.push_back(marksOf(scene, drawn[i]));
-        std::ranges::move(drawn, std::back_inserter(frames));
-    }
-    checkValidation(device);
-
-    const Report report =
-        makeReport(std::move(frames), needs, reportDevice(device), options.baseline, std::move(marks));
+    Drawn drawn = draw(options, settings, device);
+    const ReportDevice here = reportDevice(device);
+    std::string updated;
+    if (options.update_baseline)
+        updated = updateBaseline(options.baseline_file,
+                                 renewing(options, baseline ? &*baseline : nullptr, drawn.frames), here);
+    const Report report = againstFile(options, drawn, std::move(baseline), here);
     const std::string json =
         writeReport(report, folder, {options.picture, options.single_file, options.force});
     if (options.json)
         fmt::print("{}", json);
     else if (!options.quiet)
         fmt::print("{}report: {}\n", reportTable(report), (folder / "index.html").string());
-    return report.passed() ? 0 : 1;
+    if (!updated.empty()) note(options, updated);
+    // The old baseline's verdict is no longer the question.
+    return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;
 }
 
 }  // namespace diptych

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/command_line.h"
 
+#include "compare/version.h"
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -8,6 +10,8 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -26,8 +30,8 @@ const Command commands[] = {
      "diptych compare helmet.glb --lights point:32 -o helmet-report", true},
     {"render", "Draws one Frame: an EXR with every channel, and a PNG",
      "diptych render helmet.glb --path deferred --debug normals -o normals.png", true},
-    {"diff", "Compares any two EXR, PNG or HDR images", "diptych diff reference.exr test.exr --metric flip",
-     false},
+    {"diff", "Compares any two EXR, PNG, HDR or PFM images, whoever rendered them",
+     "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference", true},
     {"tradeoff", "Time against error over many Settings", "diptych tradeoff helmet.glb", false},
     {"choose", "The path and Settings for an error budget or a time budget",
      "diptych choose helmet.glb --max-ms 8", false},
@@ -46,7 +50,8 @@ struct Said {
     std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
     std::vector<std::string> cameras;
     std::string settings_file, channels, debug;
-    std::string baseline = "deferred";
+    std::string baseline = "deferred", crop, metric = "flip";
+    std::optional<double> tolerance;
     std::vector<std::string> not_built;  // options that parse but cannot be done
     int frames = 1;
     double fps = 30;
@@ -55,6 +60,7 @@ struct Said {
 const char* const pixel_group = "What may change a pixel (a value that is not built yet is refused by name)";
 const char* const picture_group = "Channels and pictures";
 const char* const output_group = "Output";
+const char* const selection_group = "What counts";
 const char* const device_group = "Device and timing";
 const char* const later_group = "Not built yet";
 
@@ -129,6 +135,65 @@ void addFiles(CLI::App& app, Options& options, const std::string& usual) {
     app.add_flag("--force", options.force, "replace what diptych did not write, too");
 }
 
+// Which pixels count.
+void addSelection(CLI::App& app, SelectionOptions& selection, Said& said) {
+    app.option_defaults()->group(selection_group);
+    app.add_option("--mask", selection.mask, "compare only where this picture is at least half white")
+        ->type_name("FILE");
+    app.add_option("--ids", selection.ids, "compare only these materials of the reference")
+        ->type_name("ID,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--ignore-edges", selection.ignore_edges,
+                   "leave out what is within N pixels of another object")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000));
+    app.add_option("--crop", said.crop, "compare only this rectangle, from the top left")
+        ->type_name("X,Y,WxH");
+}
+
+void addTolerances(CLI::App& app, Options& options) {
+    app.option_defaults()->group(selection_group);
+    app.add_option("--tolerances", options.tolerances,
+                   "rules of what may differ, see compare/tolerances.schema.json")
+        ->type_name("FILE.json");
+}
+
+void addDiff(CLI::App& app, PictureDiffOptions& diff, Said& said) {
+    app.option_defaults()->group(selection_group);
+    app.add_option("--metric", said.metric,
+                   "the figure that decides: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)")
+        ->type_name("NAME");
+    app.add_option("--tolerance", said.tolerance, "the most that passes; psnr and ssim: the least (identity)")
+        ->type_name("T");
+    app.add_option("--warn", diff.warn, "what is beyond it is warned of")->type_name("T");
+    app.add_option("--failing", diff.failing,
+                   "instead of --metric: this share of pixels may have errors above the tolerance")
+        ->type_name("SHARE")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--channels", diff.channels, "names of what is compared, * and ? allowed (all)")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--map", diff.names, "what another renderer's channels are called here; repeatable")
+        ->type_name("NAME=CHANNEL,...")
+        ->allow_extra_args(false);
+    app.add_option("--blur", diff.blur, "blur both first, standard deviation in pixels (0)")
+        ->type_name("PIXELS")
+        ->check(CLI::Range(0.0, 100.0));
+    app.add_option("--shift", diff.shift, "forgive what moved by up to so many pixels (0)")
+        ->type_name("PIXELS")
+        ->check(CLI::Range(0, 16));
+    app.add_option("--ppd", diff.flip.pixels_per_degree, "FLIP: pixels per degree of the view (67.0206)")
+        ->type_name("F");
+    app.add_option("--start-exposure", diff.flip.start_exposure,
+                   "HDR-FLIP: the darkest exposure, stops (from the reference)")
+        ->type_name("STOPS");
+    app.add_option("--stop-exposure", diff.flip.stop_exposure, "HDR-FLIP: the brightest exposure, stops")
+        ->type_name("STOPS");
+    app.add_option("--exposures", diff.flip.exposures, "HDR-FLIP: how many between them")->type_name("N");
+}
+
 void addDevice(CLI::App& app, Options& options) {
     app.option_defaults()->group(device_group);
     app.add_option("--device", options.device, "index or part of a name, see diptych devices (a GPU first)")
@@ -162,11 +227,13 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
             ->type_name("A B")
             ->expected(2)
             ->required();
-        addLater(app, said, "--metric", "NAME", "flip, rmse, relative, max, ...");
-        addLater(app, said, "--tolerance", "T", "largest error that passes");
-        addLater(app, said, "--ppd", "F", "pixels per degree of FLIP");
-        app.add_option("--channels", said.channels, "the layers to compare")->type_name("NAME,...");
-        addFiles(app, options, "folder for pictures; without it nothing is written");
+        addDiff(app, options.diff, said);
+        addSelection(app, options.diff.selection, said);
+        addTolerances(app, options);
+        addFiles(
+            app, options,
+            "X.exr: errors of every channel; X.png: of the one that decides; else a folder for a report; "
+            "without it nothing is written");
         return addOutput(app, options);
     }
 
@@ -179,11 +246,17 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
 
     if (command == "compare") {
         addFiles(app, options, "folder of the report (diptych-report)");
-        app.add_option("--baseline", said.baseline, "the left panel: deferred or forward_plus (deferred)")
+        app.add_option(
+               "--baseline", said.baseline,
+               "the left panel: deferred, forward_plus, or an EXR, with which both are compared (deferred)")
             ->type_name("PATH|FILE.exr");
         app.add_flag("--single-file", options.single_file, "embed the pictures in index.html at half size");
-        addLaterFlag(app, said, "--update-baseline", "write the baseline anew");
-        addLater(app, said, "--mask", "FILE", "compare only where this picture is white");
+        app.add_flag("--update-baseline", options.update_baseline,
+                     "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
+        addSelection(app, options.selection, said);
+        addTolerances(app, options);
+        app.add_flag("--allow-noise", options.allow_noise,
+                     "GPU: grant what two runs of one path differ by on top of a tolerance");
         addLater(app, said, "--pixel", "X,Y", "one pixel's whole story");
     } else if (command == "render") {
         addFiles(app, options,
@@ -245,6 +318,34 @@ Settings settingsOf(const Said& said) {
     return settings;
 }
 
+void resolveBaseline(Options& options, const Said& said) {
+    if (said.baseline == "reference")
+        throw std::runtime_error(
+            "--baseline reference is not built yet; use deferred, forward_plus or a file");
+    const bool path = said.baseline == "deferred" || said.baseline == "forward_plus";
+    if (path) options.baseline = said.baseline == "deferred" ? Path::deferred : Path::forward_plus;
+    if (!path && !said.baseline.ends_with(".exr"))
+        throw std::runtime_error(fmt::format(
+            "--baseline {}: is neither deferred nor forward_plus nor an .exr file", said.baseline));
+    if (!path) options.baseline_file = said.baseline;
+    if (options.update_baseline && path)
+        throw std::runtime_error("--update-baseline: --baseline FILE.exr says which file");
+}
+
+void resolveWhatCounts(Options& options, const Said& said) {
+    PictureDiffOptions& diff = options.diff;
+    if (!said.crop.empty()) options.selection.crop = diff.selection.crop = cropOf(said.crop);
+    diff.metric = figureOfMetric(said.metric);
+    const Figure& figure = *findFigure(diff.metric);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
+    diff.tolerance = said.tolerance.value_or(identity);
+    if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !figure.more_is_better))
+        throw std::runtime_error(fmt::format("--tolerance {}: 0 or more", diff.tolerance));
+    if (diff.failing && !said.tolerance)
+        throw std::runtime_error("--failing: --tolerance says above which error a pixel fails");
+}
+
 // What each word means together with the others.
 void resolve(Options& options, const Said& said) {
     options.settings = settingsOf(said);
@@ -269,10 +370,8 @@ void resolve(Options& options, const Said& said) {
     if (said.frames != 1)
         throw std::runtime_error(fmt::format("--frames {} is not built yet; use 1", said.frames));
     if (!said.not_built.empty()) throw std::runtime_error(said.not_built.front() + " is not built yet");
-    if (said.baseline != "deferred" && said.baseline != "forward_plus")
-        throw std::runtime_error(
-            fmt::format("--baseline {} is not built yet; use deferred or forward_plus", said.baseline));
-    options.baseline = said.baseline == "deferred" ? Path::deferred : Path::forward_plus;
+    resolveBaseline(options, said);
+    resolveWhatCounts(options, said);
 }
 
 // CLI11 calls an option that was given too often "--size: At Most 1 required but received 3".
@@ -295,7 +394,7 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         "Draws one glTF scene through a deferred and a forward+ path and says where the two differ,\n"
         "by how much, why, and what each costs.",
         "diptych");
-    app.set_version_flag("--version", "diptych " DIPTYCH_VERSION);
+    app.set_version_flag("--version", std::string("diptych ") + versionName());
     app.require_subcommand(1);
     app.get_formatter()->column_width(44);
     app.footer(

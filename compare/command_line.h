@@ -2,6 +2,8 @@
 // From the words of the command line to what is asked for.
 #pragma once
 
+#include "compare/picture_diff.h"
+#include "compare/selection.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/settings.h"
 
@@ -37,6 +39,12 @@ struct Options {
     std::filesystem::path out;  // empty: the command's own default
     bool force = false, json = false, quiet = false, verbose = false;
     bool single_file = false, list_scenes = false;
+    SelectionOptions selection;           // compare: pixels
+    bool allow_noise = false;             // compare
+    std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
+    bool update_baseline = false;
+    std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
+    PictureDiffOptions diff;           // diff; without rules
 };
 
 // `words` as the shell gives them, without the program's name. Every option of the tool's contract parses;

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "compare/diff.h"
 
+#include "compare/measurement.h"
+#include "shared/contract/debug_mode.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 
 namespace diptych {
@@ -26,16 +32,65 @@ std::string faultOf(const ChannelDiff& channel) {
     return {};
 }
 
-ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair) {
+// What two runs of either path differ by.
+double noiseOf(const FramePair& pair, int mode) {
+    double sum = 0;
+    for (const Frame* frame : {&pair.baseline, &pair.test})
+        if (const auto noise = frame->noise.find(mode); noise != frame->noise.end()) sum += noise->second.max;
+    return sum;
+}
+
+// The derived tolerance decides.
+void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
+    const DebugMode& mode = *channel.mode;
+    channel.tolerance = tolerance(mode, pair);
+    if (const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0; noise > 0) {
+        channel.tolerance.max += noise;
+        channel.tolerance.because += fmt::format("; and {:.3g} that two runs of one path differ by", noise);
+    }
+    channel.unexplained_pixels = unexplainedPixels(mode, pair);
+    channel.reason = faultOf(channel);
+}
+
+// A rule of the user's decides.
+void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measurement) {
+    const Decision decision = decide(rule, measurement.asked());
+    channel.tolerance = {boundOn(rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
+                         rule.because};
+    channel.rule = fmt::format("{}: {}", rule.origin, wordsOf(rule.fail));
+    (decision.level == Level::warn ? channel.warning : channel.reason) = decision.reason;
+}
+
+ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, const CompareOptions& options) {
     ChannelDiff channel;
     channel.mode = &mode;
     channel.stats = channelStats(mode.metric, mode.kind, pair.baseline.channels.at(mode.number),
                                  pair.test.channels.at(mode.number), pair.coverage);
-    channel.tolerance = tolerance(mode, pair);
-    channel.unexplained_pixels = unexplainedPixels(mode, pair);
-    channel.reason = faultOf(channel);
+    const Measurement measurement({mode.metric, mode.kind, false, &pair.baseline.channels.at(mode.number),
+                                   &pair.test.channels.at(mode.number), &pair.coverage, &channel.stats});
+    if (mode.kind == ChannelKind::color)
+        channel.flip = channel.stats.different > 0 ? measurement({"flip", 0}) : 0;
+    if (const Rule* rule = ruleFor(options.rules, mode.name))
+        judge(channel, *rule, measurement);
+    else
+        judge(channel, pair, options.allow_noise);
     channel.verdict = channel.reason.empty() ? Verdict::pass : Verdict::fail;
     return channel;
+}
+
+// What tells objects apart in two Frames.
+ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
+    ObjectPlanes objects;
+    const auto find = [](const Frame& frame, gpu::uint mode) {
+        const auto found = frame.channels.find(static_cast<int>(mode));
+        return found == frame.channels.end() ? nullptr : &found->second;
+    };
+    for (const int side : {0, 1}) {
+        const Frame& frame = side == 0 ? reference : test;
+        objects.ids[side] = find(frame, gpu::DEBUG_material_id);
+        objects.depth[side] = find(frame, gpu::DEBUG_depth);
+    }
+    return objects;
 }
 
 // What a Frame says about itself that no channel shows.
@@ -52,6 +107,20 @@ void readCounters(const Frame& frame, Comparison& comparison) {
     if (counters.nonfinite_pixels > 0)
         comparison.failures.push_back(
             fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));
+}
+
+// Two runs of one path that differ: on a CPU device a race, on a GPU what its scheduling leaves open.
+void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& comparison) {
+    for (const auto& [mode, noise] : frame.noise) {
+        if (noise.pixels == 0) continue;
+        const std::string line = fmt::format("{}: two runs differ in {} at {} pixel(s), by up to {:.3g}",
+                                             frame.name, debugMode(mode).name, noise.pixels, noise.max);
+        if (cpu)
+            comparison.failures.push_back(line + ": a race");
+        else
+            comparison.notes.push_back(line + (allowed ? ", which is added to the tolerance"
+                                                       : "; --allow-noise adds that to the tolerance"));
+    }
 }
 
 }  // namespace
@@ -78,7 +147,7 @@ bool Report::passed() const {
 }
 
 Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,
-                         const Requirements& needs) {
+                         const Requirements& needs, const CompareOptions& options) {
     Comparison comparison;
     comparison.baseline = baseline;
     comparison.test = test;
@@ -88,8 +157,16 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             fmt::format("{} is {}x{} and {} is {}x{}: only pictures of one size are compared", left.name,
                         left.settings.size.width, left.settings.size.height, right.name,
                         right.settings.size.width, right.settings.size.height));
+    // A picture of another device was rounded in another way.
+    const bool here = std::ranges::all_of(std::array{&left, &right}, [&](const Frame* frame) {
+        return frame->origin.file.empty() ||
+               (frame->origin.device == report.device.name && frame->origin.driver == report.device.driver);
+    });
+    const bool cpu = report.device.type == "cpu" && here;
     comparison.coverage = coverage(left, right);
-    const FramePair pair{left, right, needs, comparison.coverage, report.device.type == "cpu"};
+    select(comparison.coverage, left.settings.size.width, left.settings.size.height, options.selection,
+           objectsOf(left, right), comparison.notes);
+    const FramePair pair{left, right, needs, comparison.coverage, cpu};
 
     bool shared = false;
     for (const DebugMode& mode : debugModes()) {
@@ -97,20 +174,18 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                    onRight = right.channels.contains(mode.number) && right.isAsked(mode.number);
         if (onLeft && onRight) {
             shared = true;
-            comparison.channels.push_back({&mode, {}, {}, {}, Verdict::pass, {}});
+            comparison.channels.emplace_back().mode = &mode;
         } else if (onLeft || onRight) {
             const std::string& one = onLeft ? left.name : right.name;
-            if (mode.maker == MadeBy::forward_only)
-                comparison.channels.push_back(
-                    {&mode,
-                     {},
-                     {0, "the G-buffer does not carry it, so only forward+ shows it"},
-                     {},
-                     Verdict::forward_only,
-                     {}});
-            else
+            if (mode.maker == MadeBy::forward_only) {
+                ChannelDiff& channel = comparison.channels.emplace_back();
+                channel.mode = &mode;
+                channel.tolerance = {0, "the G-buffer does not carry it, so only forward+ shows it"};
+                channel.verdict = Verdict::forward_only;
+            } else {
                 comparison.notes.push_back(
                     fmt::format("{} is in {} alone and was not compared", mode.name, one));
+            }
         }
     }
     if (!shared)
@@ -119,11 +194,13 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                         left.name, right.name));
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];
-        if (channel.verdict != Verdict::forward_only) channel = diffChannel(*channel.mode, pair);
+        if (channel.verdict != Verdict::forward_only) channel = diffChannel(*channel.mode, pair, options);
     });
 
-    readCounters(left, comparison);
-    readCounters(right, comparison);
+    for (const Frame* frame : {&left, &right}) {
+        readCounters(*frame, comparison);
+        readNoise(*frame, cpu, options.allow_noise, comparison);
+    }
     if (!comparison.coverage.known)
         comparison.notes.push_back(
             "neither material_id nor depth is there: background pixels count in every mean");
@@ -133,16 +210,39 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
 }
 
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
-                  Path baseline, std::vector<std::vector<FeatureMarks>> marks) {
+                  const CompareOptions& options, std::vector<std::vector<FeatureMarks>> marks) {
     const auto start = std::chrono::steady_clock::now();
     Report report;
     report.device = std::move(device);
     report.frames = std::move(frames);
     for (std::size_t i = 0; i + 1 < report.frames.size(); i += 2) {
-        const bool swapped = report.frames[i + 1].settings.path == baseline;
-        report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i)));
+        const bool swapped = report.frames[i + 1].settings.path == options.baseline;
+        report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), options));
         if (!marks.empty()) report.comparisons.back().marks = std::move(marks.at(i / 2));
     }
+    report.diff_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
+                          ReportDevice device, const CompareOptions& options,
+                          const std::vector<std::string>& mismatches) {
+    const auto start = std::chrono::steady_clock::now();
+    Report report;
+    report.device = std::move(device);
+    report.frames.push_back(std::move(baseline));
+    std::ranges::move(frames, std::back_inserter(report.frames));
+    // What forward+ makes of the encoding now stands for what it made of it then; whether it still draws the
+    // same is another row of the report.
+    for (const Frame& frame : report.frames)
+        if (frame.settings.path == Path::forward_plus && report.frames[0].settings.path == Path::forward_plus)
+            report.frames[0].through_gbuffer = frame.through_gbuffer;
+    for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
+        report.comparisons.push_back(compareFrames(report, left, right, needs, options));
+    for (const std::size_t i : {0u, 1u})
+        report.comparisons[i].notes.insert(report.comparisons[i].notes.begin(), mismatches.begin(),
+                                           mismatches.end());
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return report;

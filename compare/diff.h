@@ -4,6 +4,8 @@
 
 #include "compare/marks.h"
 #include "compare/metrics/channel.h"
+#include "compare/rules.h"
+#include "compare/selection.h"
 #include "compare/tolerance.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/frame.h"
@@ -22,11 +24,14 @@ std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only"
 
 struct ChannelDiff {
     const DebugMode* mode = nullptr;
-    ChannelStats stats;  // meaningless where forward-only
+    ChannelStats stats;          // meaningless where forward-only
+    std::optional<double> flip;  // mean; of colours
     Tolerance tolerance;
     std::optional<std::uint64_t> unexplained_pixels;  // lit channels: what the encoding does not explain
     Verdict verdict = Verdict::pass;
-    std::string reason;  // why it failed; empty otherwise
+    std::string reason;   // why it failed; empty otherwise
+    std::string warning;  // what a rule warns of; empty otherwise
+    std::string rule;     // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
 };
 
 struct Comparison {
@@ -55,15 +60,29 @@ struct Report {
     const Frame& test(const Comparison& comparison) const { return frames[comparison.test]; }
 };
 
+struct CompareOptions {
+    Path baseline = Path::deferred;  // the left panel
+    std::vector<Rule> rules;         // in place of the derived tolerances, where one names the channel
+    SelectionOptions selection;      // pixels
+    bool allow_noise = false;        // on a GPU: what two runs of a path differ by is granted on top
+};
+
 // frames[test] against frames[baseline] of the report, over their common channels that were asked for; what
 // only one of them has and only forward+ can make is listed as forward-only and never counts. Throws
 // std::runtime_error where the two differ in size or share no channel.
 Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,
-                         const Requirements& needs);
+                         const Requirements& needs, const CompareOptions& options = {});
 
 // The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
-// drawn by `baseline` becomes the left panel. `needs`: one entry per frame; `marks`: one per pair, or none.
+// drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `marks`: one per pair, or
+// none.
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
-                  Path baseline = Path::deferred, std::vector<std::vector<FeatureMarks>> marks = {});
+                  const CompareOptions& options = {}, std::vector<std::vector<FeatureMarks>> marks = {});
+
+// A Frame of earlier as the left panel: both paths against it, then against each other. `mismatches` are said
+// first.
+Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
+                          ReportDevice device, const CompareOptions& options,
+                          const std::vector<std::string>& mismatches);
 
 }  // namespace diptych

@@ -172,7 +172,9 @@ public:
         PassList passes(device_, static_cast<std::uint32_t>(settings_.size.width),
                         static_cast<std::uint32_t>(settings_.size.height));
         const FrameImages images = path_.add(passes, shot_.inputs);
-        drawTimed(passes, images);
+        drawTimed(passes);
+        lit_ = readLit(passes, images);
+        frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
         capture(passes, images);
         frame_.asked = options_.asked;
         frame_.made_in_ms =
@@ -189,7 +191,7 @@ private:
     }
 
     // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
-    void drawTimed(PassList& passes, const FrameImages& images) {
+    void drawTimed(PassList& passes) {
         say("draw");
         passes.run();
         std::vector<double> ms;
@@ -198,8 +200,6 @@ private:
         if (options_.runs > 0)
             for (const PassMs& pass : passes.profile(0, passes.size()))
                 frame_.passes.push_back({pass.name, pass.ms});
-        lit_ = std::move(readImages(passes, {{images.lit, 3}}).front());
-        frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
         frame_.bytes.images = passes.imageBytes() + shared_.materials.imageBytes();
         frame_.bytes.buffers =
             shared_.geometry.bytes() + shared_.materials.bufferBytes() + shot_.buffers.bytes();
@@ -220,23 +220,49 @@ private:
         return request;
     }
 
+    Image readLit(PassList& passes, const FrameImages& images) const {
+        return std::move(readImages(passes, {{images.lit, 3}}).front());
+    }
+
     // Every channel, over what the timed frame left; lit itself stays the timed pipeline's.
     void capture(PassList& passes, const FrameImages& images) {
         say("capture");
         const std::size_t first = passes.size();
         const std::vector<CapturedImage> captured =
             path_.capture(passes, shot_.inputs, images, captureRequest());
-        passes.run(first, passes.size());
         std::vector<PassList::ReadBack> requests;
         for (const CapturedImage& c : captured) requests.push_back({c.image, debugMode(c.mode).width});
-        std::vector<Image> read = readImages(passes, requests);
+        const auto read = [&] {
+            passes.run(first, passes.size());
+            return readImages(passes, requests);
+        };
+        std::vector<Image> channels = read();
         for (std::size_t i = 0; i < captured.size(); ++i)
             (captured[i].through_gbuffer ? frame_.through_gbuffer : frame_.channels)[captured[i].mode] =
-                std::move(read[i]);
+                std::move(channels[i]);
         frame_.counters.unreproduced_pixels =
             unequalPixels(frame_.channels[lit], lit_, device_.info().isCpu() ? 0 : gpuUlps);
         frame_.channels[lit] = std::move(lit_);
+        if (options_.twice) {
+            say("once more");
+            passes.run(0, first);
+            addNoise(lit, readLit(passes, images));
+            channels = read();
+            for (std::size_t i = 0; i < captured.size(); ++i)
+                if (!captured[i].through_gbuffer && captured[i].mode != lit)
+                    addNoise(captured[i].mode, channels[i]);
+        }
         if (!asked(lit)) frame_.channels.erase(lit);
+    }
+
+    // The second run of a channel against the first.
+    void addNoise(int number, const Image& again) {
+        const Image& first = frame_.channels.at(number);
+        ChannelNoise noise{unequalPixels(first, again, 0), 0};
+        const DebugMode& mode = debugMode(number);
+        if (noise.pixels > 0)
+            noise.max = channelStats(mode.metric, mode.kind, first, again, everyPixel(first.pixels())).max;
+        frame_.noise[number] = noise;
     }
 
     static constexpr int lit = static_cast<int>(gpu::DEBUG_lit);

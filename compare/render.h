@@ -19,6 +19,7 @@ struct RenderOptions {
     std::vector<int> asked;        // of these, Frame::asked; empty: all
     int runs = 5;                  // timed frames; 0: no times, no profile
     bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding
+    bool twice = false;            // every channel once more, for Frame::noise
     // Called before each step with a word on it, for a progress line.
     std::function<void(const std::string&)> progress;
 };

@@ -5,6 +5,7 @@
 #include "compare/report/json.h"
 #include "compare/report/report.h"
 #include "compare/report/report_folder.h"
+#include "compare/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
@@ -23,6 +24,7 @@ void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const 
         if (frame.isAsked(mode)) layers.push_back({exrChannels(debugMode(mode)), &image});
     writeExr(file, layers,
              {{"camera", jsonOf(frame)["camera"].dump()},
+              {"commit", commitName()},
               {"device", device.name},
               {"driver", device.driver},
               {"scene", frame.scene},

@@ -42,11 +42,13 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     const std::pair<const char*, double> statistics[] = {
         {"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p999", s.p999}};
     for (const auto& [name, value] : statistics) json[name] = compared ? finiteOrNull(value) : Json(nullptr);
-    json["flip"] = nullptr;
+    json["flip"] = channel.flip ? finiteOrNull(*channel.flip) : Json(nullptr);
     json["worst_pixel"] = anywhere ? Json{s.worst_x, s.worst_y} : Json(nullptr);
-    json["tolerance"] = compared ? Json(channel.tolerance.max) : Json(nullptr);
+    json["tolerance"] = compared ? finiteOrNull(channel.tolerance.max) : Json(nullptr);
     json["because"] = channel.tolerance.because;
     json["verdict"] = nameOf(channel.verdict);
+    if (!channel.rule.empty()) json["rule"] = channel.rule;
+    if (!channel.warning.empty()) json["warning"] = channel.warning;
     if (!compared) return json;
     if (!channel.reason.empty()) json["reason"] = channel.reason;
     json["different_pixels"] = s.different;
@@ -97,6 +99,9 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
 Json jsonOf(const Frame& frame) {
     Json passes = Json::array();
     for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    Json noise = Json::object();
+    for (const auto& [mode, of] : frame.noise)
+        noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
     const FrameTime& time = frame.time;
     const FrameCounters& counters = frame.counters;
     return {{"name", frame.name},
@@ -117,6 +122,12 @@ Json jsonOf(const Frame& frame) {
               {"overflowed_lists", counters.overflowed_lists},
               {"lights", counters.lights},
               {"unreproduced_pixels", counters.unreproduced_pixels}}},
+            {"noise", noise},
+            {"origin",
+             {{"file", frame.origin.file},
+              {"device", frame.origin.device},
+              {"driver", frame.origin.driver},
+              {"commit", frame.origin.commit}}},
             {"notes", frame.notes}};
 }
 

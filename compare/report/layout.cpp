@@ -30,7 +30,7 @@ std::string slug(const std::string& text) {
 // out. Otherwise the largest finite error.
 double errorTop(const ChannelDiff& channel, const Image& baseline, const Image& test,
                 const Coverage& coverage) {
-    if (channel.tolerance.max > 0) return channel.tolerance.max;
+    if (channel.tolerance.max > 0 && std::isfinite(channel.tolerance.max)) return channel.tolerance.max;
     if (std::isfinite(channel.stats.max)) return channel.stats.max;
     float largest = 0;
     for (const float e : errorImage(channel.mode->metric, channel.mode->kind, baseline, test, coverage).data)
@@ -94,7 +94,8 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice) {
             prefix = fmt::format("{}-{}{}.", i + 1, scene, camera);
         }
         for (const std::size_t frame : {comparison.baseline, comparison.test})
-            layout.exr[frame] = prefix + report.frames[frame].name + ".exr";
+            if (report.frames[frame].origin.file.empty())
+                layout.exr[frame] = prefix + report.frames[frame].name + ".exr";
         const auto lit = left.channels.find(gpu::DEBUG_lit);
         const Exposure exposure =
             exposureFor(choice, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);

@@ -33,32 +33,47 @@ struct FrameBytes {
 struct FrameCounters {
     std::uint64_t nonfinite_pixels = 0;  // in lit
     std::uint64_t overflowed_lists = 0;
-    std::uint64_t lights = 0;            // every light, the sun too
+    std::uint64_t lights = 0;               // every light, the sun too
     std::uint64_t unreproduced_pixels = 0;  // where the capture's lit is not the timed pipeline's
+};
+
+// What two runs of one path differ by: nothing on a CPU device, or it is a race.
+struct ChannelNoise {
+    std::uint64_t pixels = 0;  // not the same, bit for bit
+    double max = 0;            // in the channel's metric, the background counted
+};
+
+// Where a Frame comes from that was not drawn now; what is not known is empty.
+struct FrameOrigin {
+    std::string file;  // empty: drawn now
+    std::string device, driver, commit;
 };
 
 // Where the picture was taken from, world, metres; for the report and for another renderer.
 struct FrameCamera {
     std::string name;
     double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1}, up[3] = {0, 1, 0};
-    double fov_degrees = 0;  // vertical; 0: orthographic
-    double ymag = 0;         // orthographic: half the height, m
+    double fov_degrees = 0;    // vertical; 0: orthographic
+    double ymag = 0;           // orthographic: half the height, m
     double near = 0, far = 0;  // far: infinity where there is none
 };
 
 struct Frame {
     std::string name;   // "deferred"
     std::string scene;  // as the user wrote it
+    FrameOrigin origin;
     Settings settings;
     FrameCamera camera;
     std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
-    // What of it was asked for and is compared and written; the rest helps (exposure, background). Empty: all.
+    // What of it was asked for and is compared and written; the rest helps (exposure, background). Empty:
+    // all.
     std::vector<int> asked;
     bool isAsked(int mode) const { return asked.empty() || std::ranges::count(asked, mode) > 0; }
     // Forward+: lit, lit_diffuse and lit_specular of a surface that went through the encoding of
     // settings.gbuffer and back: what the deferred path must show. It explains a difference of lit.
     std::map<int, Image> through_gbuffer;
     std::array<float, 3> background{};  // what pictures show there, W/(sr m^2)
+    std::map<int, ChannelNoise> noise;  // of every channel, where the frame was drawn twice
     FrameTime time;
     std::vector<PassTime> passes;
     double made_in_ms = 0;  // wall clock of all drawing, timing, capturing and reading back for this Frame

@@ -3,7 +3,7 @@
 #include "compare/metrics/flip.h"
 
 #include "compare/metrics/fast_math.h"
-#include "shared/image/exr.h"
+#include "shared/image/picture_file.h"
 #include "shared/image/png.h"
 #include "tests/unit/test_pictures.h"
 
@@ -80,8 +80,8 @@ TEST(Flip, TreeIsAsTheAuthorsProgramHasIt) {
 TEST(Flip, CityIsAsTheAuthorsProgramHasIt) {
     if (!fs::exists(published))
         GTEST_SKIP() << "NO PICTURES at " << published << ": the authors' figures are not tried";
-    const Image reference = readExr(published / "city-ref.exr").at(0).image,
-                test = readExr(published / "city-test.exr").at(0).image;
+    const Image reference = readPicture(published / "city-ref.exr").layers.at(0).image,
+                test = readPicture(published / "city-test.exr").layers.at(0).image;
     const HdrFlipResult r = hdrFlip(reference, test);
     EXPECT_NEAR(r.start_exposure, -12.8397, 5e-5) << "of four digits";
     EXPECT_NEAR(r.stop_exposure, 2.0798, 5e-5);

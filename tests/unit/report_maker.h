@@ -68,7 +68,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
 
 inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureMarks>> marks = {}) {
     const std::vector<Requirements> needs(frames.size());
-    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, Path::deferred, std::move(marks));
+    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, std::move(marks));
 }
 // Elements that HTML closes by itself.
 inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br"};

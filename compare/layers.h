@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What two picture files have in common: their layers, matched by name.
+#pragma once
+
+#include "shared/frame/debug_modes.h"
+#include "shared/image/picture_file.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// One channel of a picture file as it is compared. R, G, B without a layer's name are "lit", Z is "depth",
+// layers that are called like a debug mode and are as wide are that mode; alpha and whatever else a layer
+// holds stands alone: "albedo.A", "A".
+struct PictureChannel {
+    std::string name;
+    std::vector<std::string> channels;  // in the file: "albedo.R", ...
+    std::string type;                   // "half", "8 bit", ...
+    ChannelKind kind = ChannelKind::scalar;
+    Image image;
+    std::vector<std::uint32_t> exact{};  // of a single channel: what float32 has rounded; else empty
+};
+
+// `names`: what another renderer's channels are called here, "albedo=diffuse.R,diffuse.G,diffuse.B". Used
+// channels are taken out of the layers they were in. Throws std::runtime_error where such words are wrong.
+std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names);
+
+struct MatchedChannel {
+    std::string name;
+    ChannelKind kind = ChannelKind::scalar;
+    Metric metric = Metric::absolute;  // of the debug mode of that name where it is angular or exact
+    std::string reference_type, test_type;
+    std::vector<std::string> channels;  // in the reference
+    Image reference, test;
+};
+
+struct MatchedChannels {
+    std::vector<MatchedChannel> channels;  // in the reference's order
+    std::vector<std::string> notes;        // what is in one file alone, or of two types
+};
+
+// `wanted`: patterns of names (* and ?), empty: all. Throws std::runtime_error where a pattern names nothing
+// that both have, where one name is of different widths, or where nothing is in both.
+MatchedChannels match(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
+                      const std::vector<std::string>& wanted);
+
+}  // namespace diptych

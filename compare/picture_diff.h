@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Two picture files from anybody's renderer, channel by channel: figures and a verdict.
+#pragma once
+
+#include "compare/layers.h"
+#include "compare/measurement.h"
+#include "compare/rules.h"
+#include "compare/selection.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+struct PictureDiffOptions {
+    std::string metric = "flip";        // the figure that decides where no rule does, figureOfMetric()
+    double tolerance = 0;               // the most that passes; of psnr and ssim the least
+    std::optional<double> warn;         // what is beyond it is warned of
+    std::optional<double> failing;      // instead: `tolerance` may be exceeded by this share of the pixels
+    std::vector<Rule> rules;            // a rule that names the channel decides instead
+    std::vector<std::string> channels;  // patterns of names; empty: all
+    std::vector<std::string> names;     // --map
+    SelectionOptions selection;
+    double blur = 0;  // standard deviation, pixels
+    int shift = 0;    // pixels
+    HdrFlipOptions flip;
+};
+
+// One channel of both pictures with all that is known of it.
+struct PictureChannelDiff {
+    MatchedChannel pair;
+    std::unique_ptr<Measurement> measurement;  // looks into `pair`
+    bool display = false;
+    Rule rule;  // what decided
+    Decision decision;
+};
+
+struct PictureDiff {
+    std::string reference, test;  // file names as they were given
+    std::string reference_format, test_format;
+    int width = 0, height = 0;
+    bool display = false;                // both hold display colours
+    std::unique_ptr<Coverage> coverage;  // where the measurements find it
+    std::vector<std::unique_ptr<PictureChannelDiff>> channels;
+    std::vector<std::string> notes;
+
+    bool passed() const;
+};
+
+// Throws std::runtime_error, one line, where a file cannot be read, sizes differ, or nothing is shared.
+PictureDiff diffPictures(const std::string& reference, const std::string& test,
+                         const PictureDiffOptions& options);
+
+// The figure that --metric NAME stands for: figures() and "relative" (relative_max), "angular" (angle_max),
+// "ulp" (ulp_max). Throws std::runtime_error naming all.
+std::string figureOfMetric(const std::string& name);
+
+}  // namespace diptych

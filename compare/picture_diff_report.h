@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compare/output.h"
+#include "compare/picture_diff.h"
+#include "compare/report/report.h"
+
+namespace diptych {
+
+// An EXR of every channel's errors (FLIP's for colours that FLIP judges, else of the channel's metric), a
+// picture of the channel's errors that decides, or a folder with the same report as of two paths. Throws
+// std::runtime_error naming the file.
+void writePictureDiff(const PictureDiff& diff, const Output& output, const ReportOptions& options);
+
+}  // namespace diptych

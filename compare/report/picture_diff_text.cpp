@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// What diff prints: for people and for scripts.
+#include "compare/report/picture_diff_text.h"
+
+#include "compare/output.h"
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Row = std::array<std::string, 7>;
+
+Json finiteOrNull(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+// JSON has no infinity: an identical pair's PSNR, an error against a NaN.
+Json numberOrWord(double value) {
+    if (std::isfinite(value)) return value;
+    return std::isnan(value) ? "nan" : value > 0 ? "infinity" : "-infinity";
+}
+
+std::vector<const PictureChannelDiff*> failuresFirst(const PictureDiff& diff) {
+    std::vector<const PictureChannelDiff*> channels;
+    for (const auto& channel : diff.channels) channels.push_back(channel.get());
+    std::ranges::stable_sort(channels, std::greater(), [](const auto* c) { return c->decision.level; });
+    return channels;
+}
+
+// The bound that decides, where there is a single one.
+const Condition* singleBound(const PictureChannelDiff& channel) {
+    return channel.rule.fail.kind == Condition::Kind::bound ? &channel.rule.fail : nullptr;
+}
+
+std::string wordOf(Level level) {
+    return level == Level::fail ? "FAIL" : std::string(nameOf(level));
+}
+
+Row rowOf(const PictureChannelDiff& channel) {
+    const Measurement& m = *channel.measurement;
+    const Condition* bound = singleBound(channel);
+    const auto shown = [&](const char* figure) {
+        const std::optional<double> value = m({figure, 0});
+        return value ? number(*value) : std::string("-");
+    };
+    const std::string judged = bound ? bound->quantity.figure : "rule";
+    const std::optional<double> value = bound ? m(bound->quantity) : std::nullopt;
+    return {
+        channel.pair.name, judged,        value ? number(*value) : "-",  bound ? number(bound->limit) : "-",
+        shown("max"),      shown("rmse"), wordOf(channel.decision.level)};
+}
+
+Json flipJson(const HdrFlipResult& flip, bool display) {
+    Json json{{"mean", flip.mean},
+              {"weighted_median", flip.weighted_median},
+              {"weighted_first_quartile", flip.weighted_first_quartile},
+              {"weighted_third_quartile", flip.weighted_third_quartile},
+              {"min", flip.min},
+              {"max", flip.max},
+              {"kind", display ? "LDR" : "HDR"}};
+    if (!display) {
+        json["start_exposure"] = flip.start_exposure;
+        json["stop_exposure"] = flip.stop_exposure;
+        json["exposures"] = flip.exposures;
+    }
+    return json;
+}
+
+Json metricsJson(const PictureChannelDiff& channel) {
+    Json json = Json::object();
+    for (const auto& [name, value] : channel.measurement->all()) json[name] = numberOrWord(value);
+    return json;
+}
+
+Json channelJson(const PictureChannelDiff& channel) {
+    const Measurement& m = *channel.measurement;
+    const ChannelStats& s = m.stats();
+    Json json{{"name", channel.pair.name},
+              {"channels", channel.pair.channels},
+              {"reference_type", channel.pair.reference_type},
+              {"test_type", channel.pair.test_type},
+              {"metric", nameOf(channel.pair.metric)}};
+    const std::pair<const char*, double> statistics[] = {
+        {"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p999", s.p999}};
+    for (const auto& [name, value] : statistics) json[name] = finiteOrNull(value);
+    const HdrFlipResult* flip = m.flip();
+    json["flip"] = flip ? Json(flip->mean) : Json(nullptr);
+    json["worst_pixel"] = s.worst_x >= 0 ? Json{s.worst_x, s.worst_y} : Json(nullptr);
+    const Condition* bound = singleBound(channel);
+    json["tolerance"] = bound ? numberOrWord(bound->limit) : Json(nullptr);
+    json["rule"] = fmt::format("{}: {}", channel.rule.origin, wordsOf(channel.rule.fail));
+    json["because"] = channel.rule.because;
+    json["verdict"] = channel.decision.level == Level::fail ? "fail" : "pass";
+    if (channel.decision.level == Level::warn) json["warning"] = channel.decision.reason;
+    if (channel.decision.level == Level::fail) json["reason"] = channel.decision.reason;
+    json["different_pixels"] = s.different;
+    json["infinite_pixels"] = s.infinite;
+    json["nonfinite_pixels"] = {{"reference", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
+    json["metrics"] = metricsJson(channel);
+    if (flip) json["flip_pooled"] = flipJson(*flip, channel.display);
+    return json;
+}
+
+}  // namespace
+
+std::string pictureDiffTable(const PictureDiff& diff) {
+    std::string out =
+        fmt::format("{} against {}, {}x{}\n", diff.test, diff.reference, diff.width, diff.height);
+    std::vector<Row> rows{{"channel", "figure", "value", "tolerance", "max", "rmse", "verdict"}};
+    for (const PictureChannelDiff* channel : failuresFirst(diff)) rows.push_back(rowOf(*channel));
+    std::array<std::size_t, 7> widths{};
+    for (const Row& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (const Row& row : rows) {
+        out += fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
+        for (std::size_t i = 2; i < 6; ++i) out += fmt::format("  {:>{}}", row[i], widths[i]);
+        out += "  " + row[6] + "\n";
+    }
+    std::string failed;
+    for (const PictureChannelDiff* channel : failuresFirst(diff)) {
+        if (channel->decision.level == Level::pass) continue;
+        out += fmt::format("  {} {}: {}", wordOf(channel->decision.level), channel->pair.name,
+                           channel->decision.reason);
+        if (const ChannelStats& s = channel->measurement->stats(); s.worst_x >= 0)
+            out += fmt::format(", worst at {},{}", s.worst_x, s.worst_y);
+        out += fmt::format(" ({}{}{})\n", channel->rule.origin, channel->rule.because.empty() ? "" : ": ",
+                           channel->rule.because);
+        if (channel->decision.level == Level::fail)
+            failed += (failed.empty() ? "" : ", ") + channel->pair.name;
+    }
+    for (const std::string& note : diff.notes) out += "  note: " + note + "\n";
+    if (!failed.empty()) return out + "FAIL: " + failed + "\n";
+    return out + fmt::format("pass: {} channel{} within tolerance\n", diff.channels.size(),
+                             diff.channels.size() == 1 ? "" : "s");
+}
+
+std::string pictureDiffJson(const PictureDiff& diff) {
+    const PictureChannelDiff& first = *failuresFirst(diff).front();
+    Json json{{"schema", 1},
+              {"software", softwareName},
+              {"verdict", diff.passed() ? "pass" : "fail"},
+              {"reference", diff.reference},
+              {"test", diff.test},
+              {"reference_format", diff.reference_format},
+              {"test_format", diff.test_format},
+              {"size", {diff.width, diff.height}},
+              {"pixels", diff.coverage->count},
+              {"metrics", metricsJson(first)},
+              {"notes", diff.notes}};
+    Json channels = Json::array();
+    for (const PictureChannelDiff* channel : failuresFirst(diff)) channels.push_back(channelJson(*channel));
+    json["channels"] = std::move(channels);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace diptych
