@@ -94,7 +94,7 @@ std::vector<ExrChannel> channelsOf(const Attributes& part, bool wanted) {
 
 struct Tiles {
     std::int64_t width = 0, height = 0;  // 0: scan lines
-    bool levels = false;                 // smaller copies of the picture follow
+    int levels = 0;  // smaller copies follow: 1 of both sides at once, 2 of each by itself
 };
 
 Tiles tilesOf(const Attributes& part, bool tiled) {
@@ -104,7 +104,9 @@ Tiles tilesOf(const Attributes& part, bool tiled) {
     if (width < 1 || height < 1 || width > limits::image_side || height > limits::image_side)
         fail(fmt::format("tiles of {} x {} pixels: 1 to {} a side are read", width, height,
                          limits::image_side));
-    return {width, height, (in.number<std::uint8_t>() & 0x0f) != 0};
+    const int levels = in.number<std::uint8_t>() & 0x0f;
+    if (levels > 2) fail(fmt::format("tiles in levels of the unknown kind {}", levels));
+    return {width, height, levels};
 }
 
 // Every chunk of a part has eight bytes in a table, which OpenEXR makes before it looks whether they are
@@ -217,11 +219,11 @@ void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles
             "{}: one of them at a time can be read",
             display.width(), display.height(), display.min_x, display.min_y, header.display.width(),
             header.display.height(), header.display.min_x, header.display.min_y));
-    if (tiles.levels)
+    if (tiles.levels > 0)
         header.notes.push_back(
-            part.name.empty()
-                ? "is mip-mapped: its largest level is read"
-                : fmt::format("part \"{}\" is mip-mapped: its largest level is read", oneLine(part.name)));
+            fmt::format("{}is {}-mapped: its largest level is read",
+                        part.name.empty() ? "" : fmt::format("part \"{}\" ", oneLine(part.name, 60)),
+                        tiles.levels == 1 ? "mip" : "rip"));
     for (const auto& [name, value] : attributes.strings) header.attributes.emplace(name, std::string(value));
     header.parts.push_back(std::move(part));
 }

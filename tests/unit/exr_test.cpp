@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR files of others: every compressor, tiles, crops, parts; and files whose headers lie.
+// EXR files of others: every compressor, tiles, crops, numbers; and files whose headers lie.
 #include "shared/image/exr.h"
 #include "shared/image/exr_header.h"
 #include "tests/unit/files.h"
@@ -7,11 +7,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfOutputPart.h>
-#include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfStringVectorAttribute.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
@@ -39,13 +35,13 @@ std::string faultOf(const std::string& file, std::uint64_t most = limits::imageB
     return "reads";
 }
 
-// Channels a (half), b (float), c (uint) of 0.5, 0.25 and 3 in every pixel, from the top left of the window.
+// Channels i (half), j (float), k (uint) of 0.5, 0.25 and 3 in every pixel, from the top left of the window.
 struct Pixels {
     explicit Pixels(const Imath::Box2i& window)
         : a(area(window), half(0.5f)), b(area(window), 0.25f), c(area(window), 3u) {
-        buffer.insert("a", Imf::Slice::Make(Imf::HALF, a.data(), window));
-        buffer.insert("b", Imf::Slice::Make(Imf::FLOAT, b.data(), window));
-        buffer.insert("c", Imf::Slice::Make(Imf::UINT, c.data(), window));
+        buffer.insert("i", Imf::Slice::Make(Imf::HALF, a.data(), window));
+        buffer.insert("j", Imf::Slice::Make(Imf::FLOAT, b.data(), window));
+        buffer.insert("k", Imf::Slice::Make(Imf::UINT, c.data(), window));
     }
     static std::size_t area(const Imath::Box2i& window) {
         return static_cast<std::size_t>((window.size().x + 1) * (window.size().y + 1));
@@ -58,9 +54,9 @@ struct Pixels {
 
 Imf::Header header(const Imath::Box2i& display, const Imath::Box2i& data, Imf::Compression compression) {
     Imf::Header result(display, data, 1, Imath::V2f(0, 0), 1, Imf::INCREASING_Y, compression);
-    result.channels().insert("a", Imf::Channel(Imf::HALF));
-    result.channels().insert("b", Imf::Channel(Imf::FLOAT));
-    result.channels().insert("c", Imf::Channel(Imf::UINT));
+    result.channels().insert("i", Imf::Channel(Imf::HALF));
+    result.channels().insert("j", Imf::Channel(Imf::FLOAT));
+    result.channels().insert("k", Imf::Channel(Imf::UINT));
     return result;
 }
 
@@ -128,26 +124,64 @@ TEST(ExrOfOthers, ACropStandsWhereItBelongs) {
     for (const float value : unseen[0].image.data) EXPECT_EQ(value, 0);
 }
 
-TEST(ExrOfOthers, TheFirstOfSeveralPartsIsRead) {
-    const std::filesystem::path file = folder() / "parts.exr";
-    Imf::Header first = header(whole, whole, Imf::PIZ_COMPRESSION), second = first;
-    first.setName("first");
-    first.setType(Imf::SCANLINEIMAGE);
-    first.insert("comment", Imf::StringAttribute(std::string(300, 'x')));
-    second.setName("second");
-    second.setType(Imf::TILEDIMAGE);
-    second.setTileDescription(Imf::TileDescription(16, 16));
-    {
-        const Imf::Header heads[] = {first, second};
-        Imf::MultiPartOutputFile out(file.c_str(), heads, 2);
-        Imf::OutputPart part(out, 0);
-        const Pixels pixels(whole);
-        part.setFrameBuffer(pixels.buffer);
-        part.writePixels(300);
+// float32 holds integers up to 2^24, and of the larger ones some.
+TEST(ExrOfOthers, NumbersThatFloat32WouldRoundAreKept) {
+    const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(2, 0));
+    const auto fileOf = [&](const std::vector<unsigned>& ids) {
+        Imf::Header head(window, window);
+        head.channels().insert("id", Imf::Channel(Imf::UINT));
+        head.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+        Imf::FrameBuffer buffer;
+        const std::vector<float> depths{1, 2, 3};
+        buffer.insert("id", Imf::Slice::Make(Imf::UINT, ids.data(), window));
+        buffer.insert("Z", Imf::Slice::Make(Imf::FLOAT, depths.data(), window));
+        const std::filesystem::path path = folder() / "a.exr";
+        {
+            Imf::OutputFile out(path.c_str(), head);
+            out.setFrameBuffer(buffer);
+            out.writePixels(1);
+        }
+        return readExr(path).layers.at(0);
+    };
+    const PictureLayer small = fileOf({0, 16777216, 0x80000000}), large = fileOf({7, 16777217, 4294967295});
+    ASSERT_EQ(large.channels, (std::vector<std::string>{"Z", "id"}));
+    EXPECT_EQ(large.sample, "mixed");
+    EXPECT_TRUE(small.exact.empty()) << "nothing is rounded";
+    EXPECT_EQ(small.image.data, (std::vector<float>{1, 0, 2, 16777216, 3, 2147483648}));
+    ASSERT_EQ(large.exact.size(), 2u);
+    EXPECT_TRUE(large.exact[0].empty());
+    EXPECT_EQ(large.exact[1], (std::vector<std::uint32_t>{7, 16777217, 4294967295}));
+    EXPECT_EQ(large.image.pixel(1)[1], small.image.pixel(1)[1]) << "float32 cannot tell them apart";
+    EXPECT_NE(large.value(1, 1), small.value(1, 1)) << "the file can";
+    EXPECT_EQ(large.value(2, 1), 4294967295.0);
+    EXPECT_EQ(large.value(2, 0), 3.0);
+}
+
+TEST(ExrOfOthers, ComponentsStandInTheirOrderHoweverTheyAreSpelled) {
+    const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(0, 0));
+    Imf::Header head(window, window);
+    const std::vector<float> zero{0};
+    Imf::FrameBuffer buffer;
+    for (const char* name : {"A", "B", "G", "R", "Z", "c.blue", "c.green", "c.red", "n.x", "n.y", "n.z",
+                             "t.V", "t.U", "t.weight", "m.depth.Z"}) {
+        head.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, zero.data(), window));
     }
-    const std::vector<PictureLayer> layers = readExr(file).layers;
-    ASSERT_EQ(layers.size(), 1u);
-    expectFull(layers[0].image, 70, 300);
+    const std::filesystem::path path = folder() / "a.exr";
+    {
+        Imf::OutputFile out(path.c_str(), head);
+        out.setFrameBuffer(buffer);
+        out.writePixels(1);
+    }
+    std::vector<std::string> names;
+    for (const PictureLayer& layer : readExr(path).layers) {
+        names.push_back(layer.name + ":");
+        names.insert(names.end(), layer.channels.begin(), layer.channels.end());
+    }
+    EXPECT_EQ(names,
+              (std::vector<std::string>{
+                  ":",        "R",         "G",  "B",   "A",   "Z",   "c:", "c.red", "c.green", "c.blue",
+                  "m.depth:", "m.depth.Z", "n:", "n.x", "n.y", "n.z", "t:", "t.U",   "t.V",     "t.weight"}));
 }
 
 // The library is handed no attribute but the pixels' own; what claims a length of its own inside is not among
@@ -197,10 +231,10 @@ TEST(ExrOfOthers, FaultsAreNamed) {
     EXPECT_EQ(faultOf(with(file, "dataWindow", "box2i", 2, -5)), "a.exr: has no pixels");
     EXPECT_EQ(
         faultOf(with(with(file, "displayWindow", "box2i", 2, 65535), "displayWindow", "box2i", 3, 65535)),
-        "a.exr: claims 65536 x 65536 pixels of 12 bytes: 1024 MiB are read at most")
+        "a.exr: claims 65536 x 65536 pixels of 16 bytes: 1024 MiB are read at most")
         << "zeros around a crop";
-    EXPECT_EQ(faultOf(file, 70 * 300 * 12 - 1),
-              "a.exr: claims 70 x 300 pixels of 12 bytes: 0 MiB are read at most");
+    EXPECT_EQ(faultOf(file, 70 * 300 * 16 - 1),
+              "a.exr: claims 70 x 300 pixels of 16 bytes: 0 MiB are read at most");
 
     std::string longer = file;
     longer.replace(longer.find("dataWindow") + 10 + 1 + 6, 4, "\x0f\x00\x00\x00"s);
@@ -216,9 +250,9 @@ TEST(ExrOfOthers, FaultsAreNamed) {
 
     Imf::Header half = header(whole, whole, Imf::ZIP_COMPRESSION);
     std::string sampled = file;
-    const std::size_t channel = sampled.find("chlist\0"s) + 7 + 4;  // "a", type, four bytes, x and y sampling
+    const std::size_t channel = sampled.find("chlist\0"s) + 7 + 4;  // "i", type, four bytes, x and y sampling
     sampled[channel + 2 + 4 + 4] = 2;
-    EXPECT_EQ(faultOf(sampled), "a.exr: channel a is subsampled, which is not read");
+    EXPECT_EQ(faultOf(sampled), "a.exr: channel i is subsampled, which is not read");
     sampled[channel] = '\n';
     EXPECT_EQ(faultOf(sampled), "a.exr: channel ? is subsampled, which is not read") << "one line";
 }

@@ -173,8 +173,8 @@ TEST(Png, ClaimsAreCheckedBeforeMemoryIsTaken) {
         return faultOf([&] { readPng(std::as_bytes(std::span(png)), "a.png", most); });
     };
     EXPECT_EQ(fault(64, 64), "");
-    EXPECT_EQ(fault(64, 64, 64 * 64 * 4 - 1),
-              "a.png: claims 64 x 64 pixels of 4 bytes: 0 MiB are read at most");
+    EXPECT_EQ(fault(64, 64, 64 * 64 * 12 - 1),
+              "a.png: claims 64 x 64 pixels of 12 bytes: 0 MiB are read at most");
     EXPECT_EQ(fault(20000, 20000),
               "a.png: claims 20000 x 20000 pixels; its " + size + " bytes cannot hold them");
     EXPECT_EQ(fault(70000, 1), "a.png: claims 70000 x 1 pixels: 1 to 65536 a side are read");
