@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/diff.h"
 
+#include "compare/command_words.h"
 #include "compare/measurement.h"
 #include "shared/contract/debug_mode.h"
 
@@ -218,6 +219,10 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
     for (std::size_t i = 0; i + 1 < report.frames.size(); i += 2) {
         const bool swapped = report.frames[i + 1].settings.path == options.baseline;
         report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), options));
+        const Frame& left = report.baseline(report.comparisons.back());
+        std::vector<std::string> command = wordsOf("compare", left.scene, left.settings);
+        if (options.baseline != Path::deferred) command = with(command, "--baseline", std::string(nameOf(options.baseline)));
+        report.comparisons.back().command = std::move(command);
         if (!marks.empty()) report.comparisons.back().marks = std::move(marks.at(i / 2));
     }
     report.diff_ms =

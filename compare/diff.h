@@ -40,6 +40,7 @@ struct Comparison {
     Coverage coverage;
     std::vector<std::string> failures;  // beside the channels', e.g. a capture that is not the timed frame
     std::vector<std::string> notes;     // what a reader must know and what is no failure
+    std::vector<std::string> command;   // the words that make this comparison again; --channels may be added
     std::vector<FeatureMarks> marks;    // what no comparison shows and a person must look at
 
     bool passed() const;

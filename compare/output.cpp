@@ -40,8 +40,10 @@ nlohmann::json ourJson(const fs::path& file) {
 }
 
 bool isPlainName(const fs::path& name) {
-    constexpr const char* endings[] = {".png", ".exr", ".html", ".xml", ".json"};
-    return name.filename() == name && std::ranges::count(endings, name.extension()) > 0;
+    constexpr const char* endings[] = {".png", ".exr", ".html", ".xml", ".json", ".values.js", ".section.js"};
+    return name.filename() == name && std::ranges::any_of(endings, [&](const char* ending) {
+               return name.native().ends_with(ending) && !name.stem().empty() && name.native().front() != '.';
+           });
 }
 
 }  // namespace

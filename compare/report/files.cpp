@@ -33,23 +33,26 @@ void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const 
 }
 
 // RFC 4648, section 4.
-std::string dataUri(const std::filesystem::path& png) {
-    std::ifstream stream(png, std::ios::binary);
-    std::string in{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw std::runtime_error(png.string() + ": cannot be read back");
+std::string base64(std::string_view bytes) {
     constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t size = in.size();
-    in.resize((size + 2) / 3 * 3);
-    std::string out = "data:image/png;base64,";
-    for (std::size_t i = 0; i < in.size(); i += 3) {
-        const auto byte = [&](std::size_t k) {
-            return static_cast<unsigned>(static_cast<unsigned char>(in[i + k]));
-        };
-        const unsigned bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+    const auto byte = [&](std::size_t i) {
+        return i < bytes.size() ? static_cast<unsigned>(static_cast<unsigned char>(bytes[i])) : 0u;
+    };
+    std::string out;
+    out.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const unsigned bits = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
         for (const int shift : {18, 12, 6, 0}) out += letters[bits >> shift & 63];
     }
-    for (std::size_t i = size; i < in.size(); ++i) out[out.size() - (in.size() - i)] = '=';
+    for (std::size_t i = bytes.size(); i % 3 != 0; ++i) out[out.size() - (3 - i % 3)] = '=';
     return out;
+}
+
+std::string dataUri(const std::filesystem::path& png) {
+    std::ifstream stream(png, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream) throw std::runtime_error(png.string() + ": cannot be read back");
+    return "data:image/png;base64," + base64(bytes);
 }
 
 void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/html.h"
 
-#include "compare/report/page_style.h"
+#include "compare/report/page.h"
 #include "compare/report/text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <set>
@@ -42,52 +43,78 @@ std::string listBox(const char* style, const char* heading, const std::string& i
                                        heading, items);
 }
 
+// "builtin:gallery \u00b7 entrance: ", where there are others.
+std::string whereOf(const Report& report, const Comparison& comparison) {
+    return report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) + ": " : "";
+}
+
+// The first of `items`, and how many more there are and where.
+std::string firstOf(const std::vector<std::string>& items, const char* elsewhere) {
+    constexpr std::size_t most = 40;
+    std::string out;
+    for (std::size_t i = 0; i < std::min(items.size(), most); ++i) out += "<li>" + items[i] + "</li>";
+    if (items.size() > most)
+        out += fmt::format("<li class=\"soft\">and {} more: {}</li>", items.size() - most, elsewhere);
+    return out;
+}
+
 // Where to look first, over all comparisons.
-std::string failures(const Report& report) {
-    std::string items;
-    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+std::string failures(const Report& report, const ReportLayout& layout) {
+    std::vector<std::string> items;
+    for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
-        const std::string where =
-            report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) + ": " : "";
-        for (const std::string& failure : comparison.failures)
-            items += fmt::format("<li>{}{}</li>", where, markup(failure));
+        const std::string where = whereOf(report, comparison);
+        for (const std::string& failure : comparison.failures) items.push_back(where + markup(failure));
         for (const ChannelDiff& channel : comparison.channels)
             if (channel.verdict == Verdict::fail)
-                items += fmt::format("<li>{}<a href=\"#c{}-{}\">{}</a>: {}</li>", where, i,
-                                     channel.mode->name, channel.mode->name, markup(channel.reason));
+                items.push_back(fmt::format("{}<a href=\"#c{}-{}\">{}</a>: {}", where, i, channel.mode->name,
+                                            channel.mode->name, markup(channel.reason)));
     }
-    return listBox("failures", "Failures", items);
+    return listBox("failures", "Failures",
+                   firstOf(items, "the comparisons below begin with those that fail"));
 }
 
 // A note that several frames share is said once.
 std::string notes(const Report& report) {
     std::set<std::string> seen;
-    std::string items;
+    std::vector<std::string> items;
     const auto add = [&](const std::string& note) {
-        if (seen.insert(note).second) items += fmt::format("<li>{}</li>", markup(note));
+        if (seen.insert(note).second) items.push_back(markup(note));
     };
     for (const Comparison& comparison : report.comparisons)
         for (const std::string& note : comparison.notes) add(note);
     for (const Frame& frame : report.frames)
         for (const std::string& note : frame.notes) add(note);
-    return listBox("notes", "Notes", items);
+    return listBox("notes", "Notes", firstOf(items, "report.json has all of them"));
 }
 
 // Where to look last: what passes may still be wrong in both paths.
-std::string marksLinks(const Report& report) {
-    std::string items;
-    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+std::string marksLinks(const Report& report, const ReportLayout& layout) {
+    std::vector<std::string> items;
+    for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
         const std::string line = marksLine(comparison);
         if (line.empty()) continue;
-        const std::string where =
-            report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) + ": " : "";
         const std::size_t colon = line.find(':');
-        items += fmt::format("<li>{}<a href=\"#eye-{}\">{}</a><span class=\"soft\">{}</span></li>", where, i,
-                             markup(line.substr(0, colon)), markup(line.substr(colon)));
+        items.push_back(fmt::format("{}<a href=\"#eye-{}\">{}</a><span class=\"soft\">{}</span>",
+                                    whereOf(report, comparison), i, markup(line.substr(0, colon)),
+                                    markup(line.substr(colon))));
     }
-    return listBox("notes", "Both paths may be wrong alike", items);
+    return listBox("notes", "Both paths may be wrong alike", firstOf(items, "each comparison lists its own"));
 }
+
+// What the script understands: compare/report/page/hands.js.
+constexpr const char* legend =
+    "<details class=\"keys box\"><summary>Keys and gestures</summary><dl>"
+    "<dt><kbd>1</kbd> <kbd>2</kbd></dt><dd>left, right picture alone</dd>"
+    "<dt><kbd>w</kbd> <kbd>s</kbd> <kbd>f</kbd></dt><dd>wipe, side by side, flicker (again or Esc: stop)</dd>"
+    "<dt><kbd>+</kbd> <kbd>-</kbd> <kbd>0</kbd></dt><dd>zoom in, out, fit</dd>"
+    "<dt>arrows</dt><dd>move the wipe, or the picture where it is zoomed; with Shift further</dd>"
+    "<dt><kbd>n</kbd> <kbd>p</kbd></dt><dd>next, previous of the worst pixels</dd>"
+    "<dt>drag</dt><dd>moves the wipe, or the picture where it is zoomed</dd>"
+    "<dt>wheel, pinch</dt><dd>zoom; the wheel after a click into the picture, or with Ctrl</dd>"
+    "</dl><p class=\"soft\">They act on the card that the pointer was on last. Arrows act after a click into "
+    "the picture.</p></details>\n";
 
 std::string used(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
@@ -128,33 +155,67 @@ std::string overview(const Comparison& comparison, std::size_t index) {
 }
 
 std::string footer(const Report& report, const ReportLayout& layout) {
-    std::string links;
-    for (const std::string& file : layout.files())
-        if (!file.ends_with(".png") && file != "index.html")
-            links += fmt::format("<a href=\"{0}\">{0}</a>", file);
+    const std::string several =
+        report.comparisons.size() > 1 ? fmt::format("; {} files in all", layout.files().size()) : "";
     return fmt::format(
-        "<footer><p>{}</p><p>compared in {:.0f} ms, pictures and EXRs encoded in {:.0f} ms. Numbers are of "
-        "linear float32 channels; colour maps come after. Background pixels are outside every "
-        "statistic; percentiles are by nearest rank.</p></footer>\n",
-        links, report.diff_ms, layout.encode_ms);
+        "<footer><p><a href=\"report.json\">report.json</a><a "
+        "href=\"junit.xml\">junit.xml</a>{}</p><p>compared "
+        "in {:.0f} ms, pictures, values and EXRs encoded in {:.0f} ms. Numbers are of linear float32 "
+        "channels; "
+        "colour maps come after. Background pixels are outside every statistic; percentiles are by nearest "
+        "rank.</p></footer>\n",
+        several, report.diff_ms, layout.encode_ms);
+}
+
+std::string exrLinks(const ReportLayout& layout, const Comparison& comparison) {
+    std::string links;
+    for (const std::size_t frame : {comparison.baseline, comparison.test})
+        if (!layout.exr[frame].empty())
+            links += fmt::format(" <a href=\"{0}\">{0}</a>", markup(layout.exr[frame]));
+    return "<p class=\"soft camera\">Every channel as float32:" + links + "</p>\n";
+}
+
+std::string section(const Report& report, const ReportLayout& layout, std::size_t index) {
+    const Comparison& comparison = report.comparisons[index];
+    const bool several = report.comparisons.size() > 1;
+    return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", index,
+                       several ? markup(titleOf(report, comparison)) : "Channels") +
+           overview(comparison, index) + channelCards(report, layout, index) +
+           marksSection(report, layout, index) + "<h2>What was drawn</h2>\n" +
+           frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
+}
+
+// A single file brings its later sections as text: nothing of it is built before somebody asks.
+std::string laterSections(const Report& report, const ReportLayout& layout) {
+    std::string out;
+    if (layout.single_file)
+        for (std::size_t at = comparisonsInPage; at < layout.order.size(); ++at)
+            out += fmt::format("<script type=\"text/plain\" id=\"section-{}\">{}</script>\n",
+                               layout.order[at], section(report, layout, layout.order[at]));
+    return out;
 }
 
 }  // namespace
 
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
-    std::string body = header(report) + failures(report) + notes(report) + marksLinks(report);
-    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
-        const Comparison& comparison = report.comparisons[i];
-        body += fmt::format("<section><h2>{}</h2>\n",
-                            report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) : "Channels");
-        body += overview(comparison, i) + channelCards(report, layout, i) + marksSection(report, layout, i);
-        body += "<h2>What was drawn</h2>\n" + frameTables(report, comparison) + "</section>\n";
-    }
+    std::string body = header(report) + failures(report, layout) + notes(report) +
+                       marksLinks(report, layout) + indexTable(report, layout) + legend +
+                       "<div id=\"sections\">\n";
+    for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
+        body += section(report, layout, layout.order[at]);
+    body += "</div>\n" + laterSections(report, layout);
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: {}</title>\n<style>{}</style>"
         "</head>\n<body>\n{}{}<script>{}</script>\n</body></html>\n",
         markup(verdictLine(report)), pageStyle, body, footer(report, layout), pageScript);
+}
+
+std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index) {
+    using Json = nlohmann::json;
+    return fmt::format(
+        "diptychSection({},{});\n", index,
+        Json(section(report, layout, index)).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace diptych

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The cards of one comparison: pictures, difference, wipe, numbers, reason.
+#include "compare/command_words.h"
 #include "compare/report/html.h"
 #include "compare/report/text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace diptych {
 namespace {
@@ -20,6 +22,7 @@ public:
         : layout_(layout),
           left_(report.baseline(report.comparisons[comparison])),
           right_(report.test(report.comparisons[comparison])),
+          command_(report.comparisons[comparison].command),
           channel_(channel),
           pictures_(layout.pictures[comparison][static_cast<std::size_t>(
               &channel - report.comparisons[comparison].channels.data())]),
@@ -42,42 +45,79 @@ public:
         out += fmt::format(
             "<p class=\"because\"><b>Tolerance {}</b> <span class=\"soft\">because</span> {}</p>\n",
             number(channel_.tolerance.max), markup(channel_.tolerance.because));
-        return out + loupes() + "</div></details>\n";
+        return out + again() + loupes() + errorFigures(channel_, pictures_, id_) + "</div></details>\n";
     }
 
 private:
-    std::string image(const std::string& picture, const std::string& alt) const {
-        return fmt::format("<img loading=\"lazy\" width=\"{}\" height=\"{}\" src=\"{}\" alt=\"{}\">",
-                           left_.settings.size.width, left_.settings.size.height, layout_.source(picture),
-                           markup(alt));
+    // What moves and is zoomed; `over` lies on it and keeps its size.
+    std::string film(const std::string& picture, const std::string& alt, const std::string& over = "") const {
+        return fmt::format(
+            "<div class=\"film\" tabindex=\"-1\"><img loading=\"lazy\" width=\"{}\" height=\"{}\" src=\"{}\" "
+            "alt=\"{}\">{}</div>",
+            left_.settings.size.width, left_.settings.size.height, layout_.source(picture), markup(alt),
+            over);
     }
 
     std::string worstMark() const {
         const ChannelStats& s = channel_.stats;
         if (s.worst_x < 0) return {};
-        return fmt::format("<i class=\"worst\" style=\"left:{:.3f}%;top:{:.3f}%\"></i>",
-                           100 * (s.worst_x + 0.5) / left_.settings.size.width,
-                           100 * (s.worst_y + 0.5) / left_.settings.size.height);
+        return fmt::format("<i class=\"ring\" style=\"--u:{:.5f};--v:{:.5f}\"></i>",
+                           (s.worst_x + 0.5) / left_.settings.size.width,
+                           (s.worst_y + 0.5) / left_.settings.size.height);
+    }
+
+    static std::string zoomButtons() {
+        return "<span class=\"buttons\"><button data-do=\"out\" aria-label=\"zoom out\" "
+               "title=\"-\">\u2212</button>"
+               "<button data-do=\"fit\" title=\"0\">fit</button>"
+               "<button data-do=\"in\" aria-label=\"zoom in\" title=\"+\">+</button></span>";
+    }
+
+    // The script names its rows after the Frames that have the channel.
+    std::string readout() const {
+        if (pictures_.values.empty())
+            return "<p class=\"readout\">a single file leaves out the values under the cursor</p>";
+        nlohmann::json names = nlohmann::json::array();
+        if (!pictures_.baseline.empty()) names.push_back(left_.name);
+        if (!pictures_.test.empty()) names.push_back(right_.name);
+        return fmt::format(
+            "<p class=\"readout\" data-values=\"{}\" data-names=\"{}\" data-unit=\"{}\">point at a picture: "
+            "the "
+            "values there stand here</p>",
+            markup(pictures_.values),
+            markup(names.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
+            unitOf(*channel_.mode));
+    }
+
+    // How to make the failure again.
+    std::string again() const {
+        if (channel_.verdict != Verdict::fail || command_.empty()) return {};
+        return fmt::format(
+            "<p class=\"again\"><span class=\"soft\">again, from the same folder</span> <code>{}</code>"
+            "<button data-do=\"copy\">copy</button></p>\n",
+            markup(shellLine(with(command_, "--channels", std::string(channel_.mode->name)))));
     }
 
     std::string pair() const {
         const auto stage = [&](const char* side, const Frame& frame, const std::string& picture) {
             return fmt::format("<div class=\"stage {}\">{}<span class=\"tag\">{}</span></div>", side,
-                               image(picture, fmt::format("{} of {}", channel_.mode->name, frame.name)),
+                               film(picture, fmt::format("{} of {}", channel_.mode->name, frame.name)),
                                markup(frame.name));
         };
         return fmt::format(
-            "<figure class=\"flip\"><div class=\"pair wipe\" style=\"--w:50%\">{0}{1}"
+            "<figure><div class=\"pair wipe\" data-mode=\"wipe\" style=\"--w:50%\">{0}{1}"
             "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"wipe {2}\">"
             "<i class=\"divider\"></i></div><figcaption><span class=\"buttons\">"
-            "<button data-mode=\"wipe\" data-at=\"100\">{3}</button>"
-            "<button data-mode=\"wipe\" data-at=\"50\" class=\"on\">wipe</button>"
-            "<button data-mode=\"wipe\" data-at=\"0\">{4}</button>"
-            "<button data-mode=\"side\" data-at=\"50\">side by "
-            "side</button></span><span>{5}</span></figcaption>"
-            "</figure>\n",
+            "<button data-show=\"left\" title=\"1\">{3}</button>"
+            "<button data-show=\"wipe\" title=\"w\" class=\"on\">wipe</button>"
+            "<button data-show=\"right\" title=\"2\">{4}</button>"
+            "<button data-show=\"side\" title=\"s\">side by side</button>"
+            "<button data-show=\"flicker\" "
+            "title=\"f\">flicker</button></span>{6}<span>{5}</span></figcaption>"
+            "{7}</figure>\n",
             stage("left", left_, pictures_.baseline), stage("right", right_, pictures_.test),
-            channel_.mode->name, markup(left_.name), markup(right_.name), markup(pictures_.scale.words));
+            channel_.mode->name, markup(left_.name), markup(right_.name), markup(pictures_.scale.words),
+            zoomButtons(), readout());
     }
 
     std::string difference() const {
@@ -94,11 +134,11 @@ private:
             swatch(beyondColor, "beyond tolerance");
         if (channel_.stats.infinite > 0) swatch(nonfiniteColor, "infinite");
         return fmt::format(
-            "<figure><div class=\"stage\">{}{}</div><figcaption><div class=\"legend\"><div class=\"ramp\" "
+            "<figure><div class=\"stage\">{}</div><figcaption><div class=\"legend\"><div class=\"ramp\" "
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{}</span><span>{} "
             "({})</span></div></div><span>black: equal</span>{}</figcaption></figure>\n",
-            image(pictures_.difference, fmt::format("difference of {}", channel_.mode->name)), worstMark(),
+            film(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstMark()),
             stops, number(pictures_.error_top / 4), number(pictures_.error_top),
             toTolerance ? "tolerance" : "max", beyond);
     }
@@ -109,7 +149,7 @@ private:
         const auto row = [&](const char* name, const std::string& value) {
             out += fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
         };
-        const char* unit = channel_.mode->metric == Metric::angular ? "\u00b0" : "";
+        const char* unit = unitOf(*channel_.mode);
         for (const auto& [name, value] : {std::pair{"max", s.max},
                                           {"mean", s.mean},
                                           {"rmse", s.rmse},
@@ -159,14 +199,16 @@ private:
     std::string single() const {
         const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
         return fmt::format(
-            "<div class=\"pictures one\"><figure><div class=\"stage\">{}</div><figcaption>{}</figcaption>"
-            "</figure></div><p class=\"because\">{}</p>\n",
-            image(picture, std::string(channel_.mode->name)), markup(pictures_.scale.words),
-            markup(channel_.tolerance.because));
+            "<div class=\"pictures one\"><figure><div "
+            "class=\"stage\">{}</div><figcaption>{}<span>{}</span></figcaption>"
+            "{}</figure></div><p class=\"because\">{}</p>\n",
+            film(picture, std::string(channel_.mode->name)), zoomButtons(), markup(pictures_.scale.words),
+            readout(), markup(channel_.tolerance.because));
     }
 
     const ReportLayout& layout_;
     const Frame &left_, &right_;
+    const std::vector<std::string>& command_;
     const ChannelDiff& channel_;
     const ChannelPictures& pictures_;
     std::string id_;

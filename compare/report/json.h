@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 
 namespace diptych {
@@ -17,7 +18,10 @@ nlohmann::ordered_json jsonOf(const Frame& frame);
 // says at how many pixels; a forward-only channel's statistics are all null. `layout` may be nullptr.
 std::string reportJson(const Report& report, const ReportLayout* layout);
 
-// One test case per scene x camera x channel; one more where a comparison fails beside its channels.
-std::string reportJunit(const Report& report);
+// One test case per scene x camera x channel; one more where a comparison fails beside its channels. The
+// pictures of a failing channel are named as attachments in `folder`: CI servers look for them from where the
+// job runs, so it stays as relative as it was given.
+std::string reportJunit(const Report& report, const ReportLayout& layout,
+                        const std::filesystem::path& folder);
 
 }  // namespace diptych

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+// In the form that Jenkins, GitLab and GitHub's test reporters read: the elements and attributes of
+// junit-10.xsd of Jenkins' xUnit plugin, and no others.
+#include "compare/command_words.h"
 #include "compare/report/json.h"
 #include "compare/report/text.h"
 
@@ -9,68 +12,135 @@
 namespace diptych {
 namespace {
 
-std::string testCase(const std::string& suite, std::string_view name, const std::string& outcome) {
-    return fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", suite, markup(name),
-                       outcome.empty() ? "/>\n" : ">" + outcome + "</testcase>\n");
+std::string failure(const std::string& type, const std::string& message, const std::string& text) {
+    return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n", type, markup(message),
+                       markup(text));
 }
 
-std::string failure(const std::string& message, const std::string& text) {
-    return fmt::format("<failure message=\"{}\">{}</failure>", markup(message), markup(text));
-}
+class Suite {
+public:
+    Suite(const Report& report, const ReportLayout& layout, const std::filesystem::path& folder,
+          std::size_t index)
+        : report_(report),
+          comparison_(report.comparisons[index]),
+          pictures_(layout.pictures.at(index)),
+          folder_(folder),
+          left_(report.baseline(comparison_)),
+          right_(report.test(comparison_)),
+          name_(markup(fmt::format("{} | {} | {}", left_.scene, cameraTitle(left_),
+                                   pairTitle(report, comparison_)))) {}
 
-std::string systemOut(const std::vector<std::string>& notes) {
-    std::string lines;
-    for (const std::string& note : notes) lines += markup("note: " + note) + "\n";
-    return lines.empty() ? "" : fmt::format("    <system-out>{}</system-out>\n", lines);
-}
+    std::size_t count(Verdict verdict) const {
+        return static_cast<std::size_t>(
+            std::ranges::count(comparison_.channels, verdict, &ChannelDiff::verdict));
+    }
+    bool broken() const { return !comparison_.failures.empty(); }
+    std::size_t tests() const { return comparison_.channels.size() + broken(); }
+    std::size_t failures() const { return count(Verdict::fail) + broken(); }
+    double seconds() const { return (left_.made_in_ms + right_.made_in_ms) / 1000; }
 
-std::string outcomeOf(const ChannelDiff& channel) {
-    if (channel.verdict == Verdict::forward_only)
-        return fmt::format("<skipped message=\"forward-only: {}\"/>", markup(channel.tolerance.because));
-    if (channel.verdict == Verdict::pass) return {};
-    const ChannelStats& s = channel.stats;
-    return failure(
-        channel.reason,
-        fmt::format("max {} mean {} p99.9 {} ({}), worst at {},{}; tolerance {}: {}", number(s.max),
-                    number(s.mean), number(s.p999), nameOf(channel.mode->metric), s.worst_x, s.worst_y,
-                    number(channel.tolerance.max), channel.tolerance.because));
-}
+    std::string xml() const {
+        std::string out = fmt::format(
+            "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" "
+            "time=\"{:.3f}\">\n",
+            name_, tests(), failures(), count(Verdict::forward_only), seconds());
+        out += properties();
+        for (std::size_t i = 0; i < comparison_.channels.size(); ++i)
+            out +=
+                testCase(comparison_.channels[i].mode->name, outcome(comparison_.channels[i], pictures_[i]));
+        std::string whole;
+        for (const std::string& text : comparison_.failures) whole += text + "\n";
+        if (broken()) out += testCase("frames", failure("frames", "a Frame cannot be trusted", whole));
+        return out + notes() + "  </testsuite>\n";
+    }
+
+private:
+    // All channels come from the same two Frames: each case gets an even share of what they took.
+    std::string testCase(std::string_view name, const std::string& outcome) const {
+        const std::string open = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
+                                             name_, markup(name), seconds() / static_cast<double>(tests()));
+        return open + (outcome.empty() ? "/>\n" : ">\n" + outcome + "    </testcase>\n");
+    }
+
+    std::string properties() const {
+        std::string out = "    <properties>\n";
+        const auto add = [&](const char* name, const std::string& value) {
+            out += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, markup(value));
+        };
+        add("scene", left_.scene);
+        add("camera", cameraTitle(left_));
+        add("size", valueOf(left_.settings, "size"));
+        add("gbuffer", valueOf(left_.settings, "gbuffer"));
+        add("baseline", left_.name);
+        add("test", right_.name);
+        add("device", report_.device.name);
+        add("driver", report_.device.driver);
+        if (!comparison_.command.empty()) add("command", shellLine(comparison_.command));
+        return out + "    </properties>\n";
+    }
+
+    std::string outcome(const ChannelDiff& channel, const ChannelPictures& pictures) const {
+        if (channel.verdict == Verdict::forward_only)
+            return fmt::format("      <skipped message=\"forward-only: {}\"/>\n",
+                               markup(channel.tolerance.because));
+        if (channel.verdict == Verdict::pass) return {};
+        const ChannelStats& s = channel.stats;
+        return failure("difference", channel.reason,
+                       fmt::format("max {} mean {} p99.9 {} ({}), worst at {},{}; tolerance {}: {}",
+                                   number(s.max), number(s.mean), number(s.p999),
+                                   nameOf(channel.mode->metric), s.worst_x, s.worst_y,
+                                   number(channel.tolerance.max), channel.tolerance.because)) +
+               attachments(channel, pictures);
+    }
+
+    // One a line, as GitLab and Jenkins' attachments plugin look for them. GitLab shows the first: the
+    // difference, where there is one.
+    std::string attachments(const ChannelDiff& channel, const ChannelPictures& pictures) const {
+        std::string lines;
+        for (const std::string* picture : {&pictures.difference, &pictures.baseline, &pictures.test})
+            if (!picture->empty())
+                lines += fmt::format("[[ATTACHMENT|{}]]\n", markup((folder_ / *picture).generic_string()));
+        if (!comparison_.command.empty())
+            lines += markup("again: " + shellLine(with(comparison_.command, "--channels",
+                                                       std::string(channel.mode->name)))) +
+                     "\n";
+        return "      <system-out>" + lines + "</system-out>\n";
+    }
+
+    std::string notes() const {
+        std::string lines;
+        for (const std::string& note : notesOf(report_, comparison_)) lines += markup("note: " + note) + "\n";
+        if (const std::string line = marksLine(comparison_); !line.empty()) lines += markup(line) + "\n";
+        return lines.empty() ? "" : fmt::format("    <system-out>{}</system-out>\n", lines);
+    }
+
+    const Report& report_;
+    const Comparison& comparison_;
+    const std::vector<ChannelPictures>& pictures_;  // per channel
+    const std::filesystem::path& folder_;
+    const Frame &left_, &right_;
+    std::string name_;
+};
 
 }  // namespace
 
-std::string reportJunit(const Report& report) {
+std::string reportJunit(const Report& report, const ReportLayout& layout,
+                        const std::filesystem::path& folder) {
     std::string suites;
-    std::size_t allTests = 0, allFailures = 0, allSkipped = 0;
-    for (const Comparison& comparison : report.comparisons) {
-        const Frame& baseline = report.baseline(comparison);
-        const std::string suite = markup(fmt::format("{} | {} | {}", baseline.scene, cameraTitle(baseline),
-                                                     pairTitle(report, comparison)));
-        std::string cases;
-        for (const ChannelDiff& channel : comparison.channels)
-            cases += testCase(suite, channel.mode->name, outcomeOf(channel));
-        std::string whole;
-        for (const std::string& text : comparison.failures) whole += text + "\n";
-        if (!whole.empty()) cases += testCase(suite, "frames", failure("a Frame cannot be trusted", whole));
-
-        const auto count = [&](Verdict verdict) {
-            return static_cast<std::size_t>(
-                std::ranges::count(comparison.channels, verdict, &ChannelDiff::verdict));
-        };
-        const std::size_t tests = comparison.channels.size() + !whole.empty(),
-                          failures = count(Verdict::fail) + !whole.empty(),
-                          skipped = count(Verdict::forward_only);
-        suites += fmt::format(
-            "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}"
-            "  </testsuite>\n",
-            suite, tests, failures, skipped, cases + systemOut(notesOf(report, comparison)));
-        allTests += tests;
-        allFailures += failures;
-        allSkipped += skipped;
+    std::size_t tests = 0, failures = 0;
+    double seconds = 0;
+    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+        const Suite suite(report, layout, folder, i);
+        suites += suite.xml();
+        tests += suite.tests();
+        failures += suite.failures();
+        seconds += suite.seconds();
     }
     return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"diptych compare\" tests=\"{}\" "
-        "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}</testsuites>\n",
-        allTests, allFailures, allSkipped, suites);
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"diptych\" tests=\"{}\" "
+        "failures=\"{}\" "
+        "errors=\"0\" time=\"{:.3f}\">\n{}</testsuites>\n",
+        tests, failures, seconds, suites);
 }
 
 }  // namespace diptych

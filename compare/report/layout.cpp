@@ -51,6 +51,7 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
     };
     add(left, pictures.baseline);
     add(right, pictures.test);
+    pictures.values = fmt::format("{}{}.values.js", prefix, mode.name);
     pictures.scale = scaleFor(mode, exposure, shown);
     if (channel.verdict != Verdict::forward_only && channel.stats.different > 0) {
         pictures.difference = fmt::format("{}{}.difference.png", prefix, mode.name);
@@ -66,9 +67,12 @@ std::vector<std::string> ReportLayout::files() const {
     std::vector<std::string> all{"index.html", "junit.xml", "report.json"};
     for (const std::string& name : exr)
         if (!name.empty()) all.push_back(name);
+    for (const std::string& name : sections)
+        if (!name.empty()) all.push_back(name);
     for (const auto& channels : pictures)
         for (const ChannelPictures& channel : channels)
-            for (const std::string* name : {&channel.baseline, &channel.test, &channel.difference})
+            for (const std::string* name :
+                 {&channel.baseline, &channel.test, &channel.difference, &channel.values})
                 if (!name->empty()) all.push_back(*name);
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -80,8 +84,13 @@ const std::string& ReportLayout::source(const std::string& picture) const {
     return found == embedded.end() ? picture : found->second;
 }
 
-ReportLayout layoutOf(const Report& report, const PictureChoice& choice) {
+ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool singleFile) {
     ReportLayout layout;
+    layout.single_file = singleFile;
+    layout.order = failingFirst(report);
+    std::vector<std::size_t> places(layout.order.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[layout.order[i]] = i;
+    layout.sections.resize(report.comparisons.size());
     layout.exr.resize(report.frames.size());
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
         const Comparison& comparison = report.comparisons[i];
@@ -102,6 +111,9 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice) {
         auto& channels = layout.pictures.emplace_back();
         for (const ChannelDiff& channel : comparison.channels)
             channels.push_back(picturesOf(report, comparison, channel, prefix, exposure));
+        if (singleFile)
+            for (ChannelPictures& channel : channels) channel.values.clear();
+        if (!singleFile && places[i] >= comparisonsInPage) layout.sections[i] = prefix + "section.js";
     }
     return layout;
 }

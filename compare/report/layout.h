@@ -4,6 +4,7 @@
 
 #include "compare/diff.h"
 #include "compare/picture.h"
+#include "compare/report/error_figures.h"
 
 #include <map>
 #include <string>
@@ -11,25 +12,39 @@
 
 namespace diptych {
 
-// The pictures of one channel; a name is empty where there is no such picture.
+// The pictures of one channel and what stands with them; a name is empty where there is no such file.
 struct ChannelPictures {
     std::string baseline, test, difference;  // difference: only where there is one
+    std::string values;                      // valuesScript() of both Frames
     PictureScale scale;
     double error_top = 0;  // the error at the end of the error map
+    // Of the difference; the writer of its picture fills them in.
+    ErrorHistogram histogram;
+    std::vector<WorstPixel> worst;
 };
+inline constexpr std::size_t worstShown = 10;
+inline constexpr int worstApart = 8;  // pixels
+
+// So many comparisons stand in the page itself, failing ones first. Of the others it has a line each, and
+// what is to be said of them comes from a file, or in a single file from a text in it, once it is asked for.
+inline constexpr std::size_t comparisonsInPage = 4;
 
 struct ReportLayout {
     std::vector<std::string> exr;                        // per frame
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
+    std::vector<std::size_t> order;                      // the comparisons as the page shows them
+    std::vector<std::string> sections;                   // per comparison: its file, where it has one
     std::map<std::string, std::string> embedded;         // --single-file: picture -> data URI
-    double encode_ms = 0;                                // EXRs and pictures
+    double encode_ms = 0;                                // EXRs, pictures and values
+    bool single_file = false;
 
     std::vector<std::string> files() const;                       // all of a report, sorted
     const std::string& source(const std::string& picture) const;  // for the page: its name or data URI
 };
 
-// Names are "deferred.exr", "lit.deferred.png"; with several comparisons each one's begin with its number,
-// scene and camera: "2-spheres-top.lit.deferred.png".
-ReportLayout layoutOf(const Report& report, const PictureChoice& choice);
+// Names are "deferred.exr", "lit.deferred.png", "lit.values.js"; with several comparisons each one's begin
+// with its number, scene and camera: "2-spheres-top.lit.deferred.png", "2-spheres-top.section.js". A single
+// file has neither values nor sections beside it.
+ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool singleFile = false);
 
 }  // namespace diptych

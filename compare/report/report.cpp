@@ -7,6 +7,7 @@
 #include "compare/report/json.h"
 #include "compare/report/layout.h"
 #include "compare/report/report_folder.h"
+#include "compare/report/values.h"
 #include "shared/image/atomic_file.h"
 
 #include <tbb/parallel_for.h>
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -23,8 +25,8 @@ using Task = std::function<void()>;
 
 class Encoder {
 public:
-    Encoder(const Report& report, ReportLayout& layout, const ReportFolder& folder, bool embed)
-        : report_(report), layout_(layout), folder_(folder), embed_(embed) {}
+    Encoder(const Report& report, ReportLayout& layout, const ReportFolder& folder)
+        : report_(report), layout_(layout), folder_(folder) {}
 
     void run() {
         std::vector<Task> tasks;
@@ -42,7 +44,7 @@ public:
 
 private:
     void addPictures(std::vector<Task>& tasks, const Comparison& comparison, const ChannelDiff& channel,
-                     const ChannelPictures& pictures) {
+                     ChannelPictures& pictures) {
         const DebugMode& mode = *channel.mode;
         const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
         const auto add = [&](const Frame& frame, const std::string& name) {
@@ -50,17 +52,35 @@ private:
         };
         add(left, pictures.baseline);
         add(right, pictures.test);
-        if (!pictures.difference.empty())
-            tasks.push_back([&] {
-                const Image errors = errorImage(mode.metric, mode.kind, left.channels.at(mode.number),
-                                                right.channels.at(mode.number), comparison.coverage);
-                write(pictures.difference, errorPicture(errors, pictures.error_top));
-            });
+        if (!pictures.difference.empty() || !pictures.values.empty())
+            tasks.push_back([&] { writeErrors(comparison, channel, pictures); });
+    }
+
+    // The difference, what is told of it, and the values, which hold it too.
+    void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelPictures& pictures) {
+        const DebugMode& mode = *channel.mode;
+        const auto imageOf = [&](const Frame& frame) {
+            const auto found = frame.channels.find(mode.number);
+            return found == frame.channels.end() ? nullptr : &found->second;
+        };
+        const Image *left = imageOf(report_.baseline(comparison)), *right = imageOf(report_.test(comparison));
+        Image errors;
+        if (!pictures.difference.empty()) {
+            errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);
+            write(pictures.difference, errorPicture(errors, pictures.error_top));
+            pictures.histogram = errorHistogram(errors, comparison.coverage);
+            pictures.worst =
+                worstPixels(errors, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
+        }
+        if (pictures.values.empty()) return;
+        if (!left) std::swap(left, right);
+        writeFile(folder_ / pictures.values,
+                  valuesScript(pictures.values, {left, right, errors.empty() ? nullptr : &errors}));
     }
 
     void write(const std::string& name, const Image8& image) {
         const std::filesystem::path file = folder_ / name;
-        if (embed_) {
+        if (layout_.single_file) {
             writePng(file, halfSize(image));
             std::string uri = dataUri(file);
             const std::lock_guard lock(mutex_);
@@ -72,7 +92,6 @@ private:
     const Report& report_;
     ReportLayout& layout_;
     const ReportFolder& folder_;
-    bool embed_;
     std::mutex mutex_;
 };
 
@@ -84,14 +103,17 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
     checkReplaceable({OutputKind::folder, path}, mark, options.force);
     ReportFolder folder(path);
     const auto start = std::chrono::steady_clock::now();
-    ReportLayout layout = layoutOf(report, options.picture);
-    Encoder(report, layout, folder, options.single_file).run();
+    ReportLayout layout = layoutOf(report, options.picture, options.single_file);
+    Encoder(report, layout, folder).run();
     layout.encode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
     std::string json = reportJson(report, &layout);
     writeFile(folder / mark, json);
-    writeFile(folder / "junit.xml", reportJunit(report));
+    writeFile(folder / "junit.xml", reportJunit(report, layout, path));
+    for (std::size_t i = 0; i < layout.sections.size(); ++i)
+        if (!layout.sections[i].empty())
+            writeFile(folder / layout.sections[i], sectionScript(report, layout, i));
     writeFile(folder / "index.html", reportHtml(report, layout));
     folder.put(layout.files(), mark);
     return json;

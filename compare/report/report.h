@@ -29,8 +29,9 @@ std::string writeReport(const Report& report, const std::filesystem::path& folde
 // For a terminal: a table per comparison, failures first, then one line of verdict. Ends in a newline.
 std::string reportTable(const Report& report);
 
-// One Frame: an EXR of the channels asked for, a PNG of channel `shown`, or a folder with FRAME.exr, CHANNEL.png and
-// frame.json. Throws std::runtime_error naming the file, or the channel where the Frame does not have it.
+// One Frame: an EXR of the channels asked for, a PNG of channel `shown`, or a folder with FRAME.exr,
+// CHANNEL.png and frame.json. Throws std::runtime_error naming the file, or the channel where the Frame does
+// not have it.
 void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
                 const PictureChoice& choice, bool force);
 

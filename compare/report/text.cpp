@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace diptych {
 namespace {
@@ -71,6 +72,10 @@ std::string bytes(std::uint64_t count) {
     return fmt::format("{:.4g} {}iB", value, " KMGT"[unit]);
 }
 
+const char* unitOf(const DebugMode& mode) {
+    return mode.metric == Metric::angular ? "\u00b0" : "";
+}
+
 std::string cameraTitle(const Frame& frame) {
     if (!frame.camera.name.empty()) return frame.camera.name;
     return frame.settings.camera.empty() ? "default view" : frame.settings.camera;
@@ -78,6 +83,13 @@ std::string cameraTitle(const Frame& frame) {
 
 std::string pairTitle(const Report& report, const Comparison& comparison) {
     return fmt::format("{} against {}", report.test(comparison).name, report.baseline(comparison).name);
+}
+
+std::vector<std::size_t> failingFirst(const Report& report) {
+    std::vector<std::size_t> order(report.comparisons.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return report.comparisons[i].passed(); });
+    return order;
 }
 
 std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison) {

@@ -16,10 +16,15 @@ std::string markup(std::string_view text);
 std::string number(double value);        // three digits: "0.0123", "1.2e-07", "inf"
 std::string bytes(std::uint64_t count);  // "1.25 MiB"
 
+const char* unitOf(const DebugMode& mode);  // of its errors: a degree sign, or nothing
+
 // "default view", or the camera's name, or what was asked for.
 std::string cameraTitle(const Frame& frame);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);
+
+// The comparisons by number, those that fail first.
+std::vector<std::size_t> failingFirst(const Report& report);
 
 // The channels as people want to read them: failures, then passes, then forward-only.
 std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison);

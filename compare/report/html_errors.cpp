@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// How the errors of a channel are spread: a histogram, and links to the worst pixels.
+#include "compare/report/html.h"
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+// The bars are stretched over the figure's width; words stand beside them, at percentages of it.
+class Histogram {
+public:
+    Histogram(const ChannelDiff& channel, const ErrorHistogram& errors)
+        : mode_(*channel.mode), tolerance_(channel.tolerance.max), errors_(errors) {}
+
+    std::string html() const {
+        if (errors_.bins.empty()) return {};
+        return fmt::format(
+            "<figure class=\"histogram\"><div class=\"plot\"><svg viewBox=\"0 0 {} 100\" "
+            "preserveAspectRatio=\"none\" role=\"img\" aria-label=\"histogram of error\">{}</svg>{}</div>"
+            "<div class=\"axis\">{}</div><figcaption>{}</figcaption></figure>\n",
+            errors_.bins.size(), bars(), limit(), axis(), markup(words()));
+    }
+
+private:
+    std::string size(double error) const { return number(error) + unitOf(mode_); }
+
+    std::string bars() const {
+        const std::uint64_t most = std::ranges::max(errors_.bins);
+        std::string out;
+        for (std::size_t i = 0; i < errors_.bins.size(); ++i) {
+            const std::uint64_t count = errors_.bins[i];
+            if (count == 0) continue;
+            const double height =
+                100 * std::log1p(static_cast<double>(count)) / std::log1p(static_cast<double>(most));
+            out += fmt::format(
+                "<rect{} x=\"{}\" y=\"{:.1f}\" width=\"1\" height=\"{:.1f}\"><title>{} to {}: {} "
+                "pixels{}</title></rect>",
+                errors_.edge(i) >= tolerance_ ? " class=\"beyond\"" : "", i, 100 - height, height,
+                size(errors_.edge(i)), size(errors_.edge(i + 1)), count,
+                i == 0 && errors_.smaller > 0 ? fmt::format(", {} of them below", errors_.smaller) : "");
+        }
+        return out;
+    }
+
+    double percent(double error) const {
+        const double bin = (std::log10(error) - errors_.first_decade) * errors_.bins_per_decade;
+        return 100 * bin / static_cast<double>(errors_.bins.size());
+    }
+
+    // A tolerance outside of the plot is marked at its edge; words() says its size.
+    std::string limit() const {
+        if (!(tolerance_ > 0)) return {};
+        return fmt::format("<i class=\"limit\" style=\"left:{:.2f}%\"></i>",
+                           std::clamp(percent(tolerance_), 0.0, 100.0));
+    }
+
+    std::string axis() const {
+        const int decades = static_cast<int>(errors_.bins.size()) / errors_.bins_per_decade,
+                  step = decades > 6 ? 2 : 1;
+        std::string out;
+        for (int d = 0; d <= decades; d += step)
+            out += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100.0 * d / decades,
+                               size(std::pow(10.0, errors_.first_decade + d)));
+        return out;
+    }
+
+    std::string words() const {
+        std::uint64_t all = errors_.equal + errors_.infinite;
+        for (const std::uint64_t count : errors_.bins) all += count;
+        std::string out = fmt::format(
+            "pixels by {}, the height by the logarithm of their number; {} of {} are equal",
+            mode_.metric == Metric::angular ? "angle" : fmt::format("{} error", nameOf(mode_.metric)),
+            errors_.equal, all);
+        if (errors_.infinite > 0) out += fmt::format("; {} are infinitely far apart", errors_.infinite);
+        if (tolerance_ > 0)
+            out += fmt::format("; line: tolerance {}{}", size(tolerance_),
+                               percent(tolerance_) > 100 ? ", beyond the right edge"
+                               : percent(tolerance_) < 0 ? ", beyond the left edge"
+                                                         : "");
+        return out;
+    }
+
+    const DebugMode& mode_;
+    double tolerance_;
+    const ErrorHistogram& errors_;
+};
+
+std::string worstList(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
+    std::string items;
+    for (const WorstPixel& pixel : pictures.worst)
+        items += fmt::format(
+            "<li><a href=\"#{0}@{1},{2}\" data-pixel=\"{1},{2}\">{1}, {2}</a><span>{3}{4}</span></li>", id,
+            pixel.x, pixel.y, number(pixel.error), unitOf(*channel.mode));
+    return fmt::format(
+        "<div class=\"worst\"><h4>Worst pixels</h4><ol>{}</ol><p class=\"soft\">at least {} pixels "
+        "apart</p></div>\n",
+        items, worstApart);
+}
+
+}  // namespace
+
+std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
+    if (pictures.worst.empty()) return {};
+    const std::string histogram =
+        channel.mode->metric == Metric::exact ? "" : Histogram(channel, pictures.histogram).html();
+    return "<div class=\"spread\">" + histogram + worstList(channel, pictures, id) + "</div>\n";
+}
+
+}  // namespace diptych

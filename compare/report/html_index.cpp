@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Several comparisons: one line each, failures first.
+#include "compare/report/html.h"
+#include "compare/report/text.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace diptych {
+namespace {
+
+// How much of its tolerance a channel uses: infinity where it has none and differs.
+double used(const ChannelDiff& channel) {
+    if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
+    if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0)
+        return std::numeric_limits<double>::infinity();
+    return channel.tolerance.max > 0 ? channel.stats.max / channel.tolerance.max
+                                     : std::numeric_limits<double>::infinity();
+}
+
+// The failing channel that uses most of its tolerance; without one, of all that are not explained otherwise.
+const ChannelDiff* worstOf(const Comparison& comparison) {
+    const ChannelDiff* worst = nullptr;
+    for (const bool failing : {true, false}) {
+        for (const ChannelDiff& channel : comparison.channels) {
+            if ((channel.verdict == Verdict::fail) != failing || channel.verdict == Verdict::forward_only)
+                continue;
+            if (!failing && channel.unexplained_pixels) continue;  // max is the tolerance there
+            if (!worst || used(channel) > used(*worst)) worst = &channel;
+        }
+        if (worst) return worst;
+    }
+    return nullptr;
+}
+
+std::string worstCell(const Comparison& comparison, std::size_t index) {
+    const ChannelDiff* worst = worstOf(comparison);
+    if (!worst) return "<td></td><td class=\"n optional\" data-value=\"0\"></td>";
+    const double share = used(*worst);
+    return fmt::format(
+        "<td><a href=\"#c{}-{}\">{}</a></td><td class=\"n optional\" data-value=\"{:.6g}\">{}</td>", index,
+        worst->mode->name, worst->mode->name, share < std::numeric_limits<double>::infinity() ? share : 1e300,
+        share < std::numeric_limits<double>::infinity() ? fmt::format("{:.0f} %", 100 * share) : "beyond");
+}
+
+std::string numberCell(double value, const std::string& text) {
+    return fmt::format("<td class=\"n optional\" data-value=\"{:.6g}\">{}</td>", std::min(value, 1e300),
+                       text);
+}
+
+std::string litCell(const Comparison& comparison) {
+    for (const ChannelDiff& channel : comparison.channels)
+        if (channel.mode->name == "lit") return numberCell(channel.stats.max, number(channel.stats.max));
+    return numberCell(0, "");
+}
+
+std::string timeCell(const Frame& frame) {
+    return numberCell(frame.time.median, frame.time.runs > 0 ? fmt::format("{:.1f}", frame.time.median) : "");
+}
+
+std::string line(const Report& report, const ReportLayout& layout, std::size_t index) {
+    const Comparison& comparison = report.comparisons[index];
+    const Frame &left = report.baseline(comparison), &right = report.test(comparison);
+    const char* verdict = comparison.passed() ? "pass" : "fail";
+    const std::string& file = layout.sections[index];
+    return fmt::format(
+        "<tr data-comparison=\"{0}\"{1}><td><span class=\"verdict {2}\">{2}</span></td><td class=\"wide\"><a "
+        "href=\"#s{0}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}{8}</tr>\n",
+        index, file.empty() ? "" : fmt::format(" data-section=\"{}\"", markup(file)), verdict,
+        markup(left.scene), markup(cameraTitle(left)), worstCell(comparison, index), litCell(comparison),
+        timeCell(left), timeCell(right));
+}
+
+}  // namespace
+
+std::string indexTable(const Report& report, const ReportLayout& layout) {
+    if (report.comparisons.size() < 2) return {};
+    std::string lines;
+    for (const std::size_t i : layout.order) lines += line(report, layout, i);
+    const Comparison& first = report.comparisons[0];
+    return fmt::format(
+        "<section class=\"index\"><h2>Comparisons <span class=\"shown soft\"></span></h2>"
+        "<p><input type=\"search\" placeholder=\"filter: scene, camera, channel, fail\" "
+        "aria-label=\"filter\"></p>"
+        "<div class=\"box scroll\"><table><thead><tr><th>verdict</th><th>scene</th><th>camera</th>"
+        "<th>worst channel</th><th class=\"n optional\">of tolerance</th><th class=\"n optional\">lit "
+        "max</th>"
+        "<th class=\"n optional\">{}, ms</th><th class=\"n optional\">{}, "
+        "ms</th></tr></thead>\n<tbody>{}</tbody>"
+        "</table></div></section>\n",
+        markup(report.baseline(first).name), markup(report.test(first).name), lines);
+}
+
+}  // namespace diptych

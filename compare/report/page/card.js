@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+const flickerMs = 250;  // a side: both are seen twice a second, below the three flashes that can harm
+
+// ---- A card: both pictures and their difference under one transform.
+
+const cards = new WeakMap();
+let current = null;  // the card that keys are for: the last one that was pointed at or led to
+
+function cardOf(node) {
+  const element = node && node.closest && node.closest('.card');
+  if (!element) return null;
+  if (!cards.has(element)) cards.set(element, new Card(element));
+  return cards.get(element);
+}
+
+class Card {
+  constructor(element) {
+    this.element = element;
+    this.pair = element.querySelector('.pair');
+    this.slider = element.querySelector('.pair input');
+    this.films = [...element.querySelectorAll('.film')];
+    this.readout = element.querySelector('.readout');
+    const image = element.querySelector('.film img');
+    this.width = +image.getAttribute('width');
+    this.height = +image.getAttribute('height');
+    this.mode = 'wipe';
+    this.at = 50;          // of the wipe, percent
+    this.zoom = 1;
+    this.x = this.y = 0;   // where the picture's corner is, of its width and height; 0 or less
+    this.worst = -1;       // which of the worst pixels is shown
+    this.pixel = null;
+  }
+
+  // left, right, wipe, side or flicker
+  show(mode, at) {
+    if (!this.pair) return;
+    clearInterval(this.timer);
+    if (mode === 'flicker' && this.mode === 'flicker') mode = 'wipe';
+    this.mode = mode;
+    if (mode === 'wipe') this.at = clamp(at ?? this.at, 0, 100);
+    this.pair.className = 'pair ' + (mode === 'side' ? 'side' : 'wipe');
+    this.pair.dataset.mode = mode;
+    this.wipeTo(mode === 'right' ? 0 : mode === 'wipe' ? this.at : 100);
+    if (mode === 'flicker') {
+      let left = true;
+      this.timer = setInterval(() => this.wipeTo((left = !left) ? 100 : 0), flickerMs);
+    }
+    for (const button of this.element.querySelectorAll('[data-show]')) {
+      button.classList.toggle('on', button.dataset.show === mode);
+      button.setAttribute('aria-pressed', button.dataset.show === mode);
+    }
+  }
+  wipeTo(at) {
+    this.pair.style.setProperty('--w', at + '%');
+    this.slider.value = at;
+  }
+
+  // Zooms so that what was at (fromX, fromY) of the film comes to (fx, fy); a pixel grows to 48 of the screen's.
+  zoomTo(zoom, fx = 0.5, fy = 0.5, fromX = fx, fromY = fy) {
+    const most = Math.max(1, 48 * this.width / Math.max(this.films[0].clientWidth, 1));
+    const u = fromX / this.zoom - this.x, v = fromY / this.zoom - this.y;
+    this.zoom = clamp(zoom, 1, most);
+    this.moveTo(fx / this.zoom - u, fy / this.zoom - v);
+  }
+  moveTo(x, y) {
+    this.x = clamp(x, 1 / this.zoom - 1, 0);
+    this.y = clamp(y, 1 / this.zoom - 1, 0);
+    for (const [name, value] of [['--z', this.zoom], ['--x', this.x], ['--y', this.y]])
+      this.element.style.setProperty(name, value);
+    this.element.classList.toggle('zoomed', this.zoom > 1);
+    this.films.forEach(film => this.sharpen(film));
+  }
+  // Where a pixel is larger than one of the screen's it is shown as what it is.
+  sharpen(film) {
+    film.classList.toggle('enlarged', film.clientWidth * this.zoom > this.width);
+  }
+  // Part of a film, 0 to 1, and the pixel there.
+  place(film, event) {
+    const box = film.getBoundingClientRect();
+    return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+  }
+  point(film, event) {
+    const [fx, fy] = this.place(film, event);
+    this.pointAt(Math.floor((fx / this.zoom - this.x) * this.width), Math.floor((fy / this.zoom - this.y) * this.height));
+  }
+  pointAt(x, y) {
+    this.pixel = [clamp(x, 0, this.width - 1), clamp(y, 0, this.height - 1)];
+    if (!this.element.classList.contains('pointed')) {
+      this.element.classList.add('pointed');
+      for (const film of this.films) film.append(Object.assign(document.createElement('i'), { className: 'ring cursor' }));
+    }
+    this.element.style.setProperty('--u', (this.pixel[0] + 0.5) / this.width);
+    this.element.style.setProperty('--v', (this.pixel[1] + 0.5) / this.height);
+    this.read();
+  }
+  // 24 pixels across, with this one in the middle.
+  look(x, y) {
+    this.zoomTo(this.width / 24);
+    this.moveTo(0.5 / this.zoom - (x + 0.5) / this.width, 0.5 / this.zoom - (y + 0.5) / this.height);
+    this.pointAt(x, y);
+  }
+  step(by) {
+    const links = [...this.element.querySelectorAll('[data-pixel]')];
+    if (!links.length) return;
+    this.worst = (this.worst < 0 && by < 0 ? links.length - 1 : this.worst + by + links.length) % links.length;
+    links.forEach((link, i) => link.classList.toggle('on', i === this.worst));
+    this.look(...links[this.worst].dataset.pixel.split(',').map(Number));
+  }
+
+  // ---- The numbers under the cursor
+  say(...rows) {
+    this.readout.replaceChildren(...rows.map(([name, text]) => {
+      const row = document.createElement('span');
+      row.append(Object.assign(document.createElement('b'), { textContent: name }), ' ' + text);
+      return row;
+    }));
+  }
+  read() {
+    const name = this.readout && this.readout.dataset.values, there = `${this.pixel[0]}, ${this.pixel[1]}`;
+    if (!name) return;
+    const file = values.get(name);
+    if (file) return this.tell(file, there);
+    if (!window.DecompressionStream) return this.say([there, 'this browser cannot unpack the values']);
+    if (values.has(name)) return;
+    values.set(name, null);
+    waiting.set(name, [() => this.read()]);
+    this.say([there, 'loading the values']);
+    addScript(name, () => this.say([there, `${name} is not beside this page`]));
+  }
+  tell(file, there) {
+    const pixel = this.pixel[1] * this.width + this.pixel[0];
+    const names = JSON.parse(this.readout.dataset.names);
+    const rows = names.map((name, i) => [name, file.of(i, pixel).map(v => file.text(v)).join(' ')]);
+    if (names.length > 1) {
+      const error = file.error(pixel);
+      rows.push(['difference', error === 0 ? '0' : +error.toPrecision(4) + this.readout.dataset.unit]);
+    }
+    this.say([there, file.file.exact ? 'exact' : 'quantised: float16, 11 bits'], ...rows);
+  }
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The page's own script, in the order values, card, hands, index. It works from file://: whatever it loads is a
+// picture, or a script beside the page.
+'use strict';
+
+// ---- The values behind the pictures: compare/report/values.h says how they are stored.
+
+const values = new Map();   // file -> what it holds, or null while it is on its way
+const waiting = new Map();  // file -> what to do once it is there
+
+function half(bits) {
+  const sign = bits >> 15 ? -1 : 1, exponent = bits >> 10 & 31, fraction = bits & 1023;
+  if (exponent === 0) return sign * fraction * 2 ** -24;
+  if (exponent === 31) return fraction ? NaN : sign * Infinity;
+  return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
+}
+
+async function inflated(base64) {
+  const bytes = Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+function wordsOf(raw, plane, file) {
+  const pixels = file.width * file.height, bytes = file.bits / 8;
+  const words = file.bits === 16 ? new Uint16Array(pixels) : new Uint32Array(pixels);
+  for (let i = 0, at = plane * pixels * bytes; i < pixels; ++i) {
+    let word = 0;
+    for (let byte = 0; byte < bytes; ++byte) word |= raw[at + byte * pixels + i] << 8 * byte;
+    words[i] = word + (i % file.width ? words[i - 1] : 0);
+  }
+  return words;
+}
+
+class Values {
+  constructor(file, raw) {
+    const { components: n, images } = file, planes = n * images + (file.errors ? 1 : 0);
+    this.file = file;
+    this.planes = Array.from({ length: planes }, (_, plane) => wordsOf(raw, plane, file));
+    for (let plane = n; plane < n * images; ++plane)
+      this.planes[plane].forEach((word, i, all) => { all[i] = word + this.planes[plane - n][i]; });
+    if (file.bits === 32) this.planes = this.planes.map(words => new Float32Array(words.buffer));
+  }
+  number(plane, pixel, unit) {
+    const word = this.planes[plane][pixel];
+    return (this.file.bits === 32 ? word : half(word)) * unit;
+  }
+  of(image, pixel) {
+    const { components: n, exponent } = this.file;
+    return Array.from({ length: n }, (_, c) => this.number(image * n + c, pixel, 2 ** -exponent));
+  }
+  error(pixel) {
+    return this.file.errors ? this.number(this.planes.length - 1, pixel, this.file.errorUnit) : 0;
+  }
+  // The shortest decimal that names the number; of a rounded one no digit that is not there.
+  text(number) {
+    if (!this.file.exact || !Number.isFinite(number)) return String(+number.toPrecision(4));
+    for (let digits = 1; digits < 9; ++digits) {
+      const short = +number.toPrecision(digits);
+      if (Math.fround(short) === number) return String(short);
+    }
+    return String(+number.toPrecision(9));
+  }
+}
+
+window.diptychValues = async (name, file) => {
+  values.set(name, new Values(file, await inflated(file.data)));
+  for (const then of waiting.get(name) || []) then();
+  waiting.delete(name);
+};
+
+function addScript(name, failed) {
+  const script = document.createElement('script');
+  script.src = name;
+  script.onerror = failed;
+  document.head.append(script);
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// A page in headless Chromium, where there is one. It is no package that this project asks for: without it
+// the tests that need it are skipped, with a word.
+#pragma once
+
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace diptych {
+
+// The name of the program; empty where there is none.
+inline std::string browser() {
+    for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+        if (std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0) return name;
+    return {};
+}
+
+struct Visit {
+    nlohmann::json told;  // what the script told; null where it never did
+    std::string console;  // every message of the page
+    std::string dom;
+};
+
+// Opens a copy of `page`, beside it, that ends in `script`, and waits until the script has called
+// tell(value). In it, wait(ms) and until(condition) are promises, and $ and $$ find elements. `hash`: what
+// follows the page's name. The window is `width` pixels wide.
+inline Visit visit(const Folder& scratch, const fs::path& page, const std::string& script,
+                   const std::string& hash = "", int width = 1200, const std::string& flags = "") {
+    static const std::string tools = R"(
+const $ = s => document.querySelector(s), $$ = s => [...document.querySelectorAll(s)];
+const wait = ms => new Promise(done => setTimeout(done, ms));
+const until = async condition => { for (let i = 0; i < 200 && !condition(); ++i) await wait(20); return condition(); };
+const tell = value => { const out = document.createElement('pre'); out.id = 'told'; out.textContent = 'TOLD' + JSON.stringify(value) + 'END'; document.body.append(out); };
+const key = (name, more = {}) => (document.activeElement || document.body).dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true, cancelable: true, ...more }));
+// A pointer at a part of an element, 0 to 1 from its left and top.
+const at = (element, x, y) => { const box = element.getBoundingClientRect(); return { clientX: box.left + x * box.width, clientY: box.top + y * box.height }; };
+const pointer = (type, element, x, y, more = {}) => element.dispatchEvent(new PointerEvent(type, { bubbles: true, cancelable: true, pointerId: 1, pointerType: 'mouse', ...at(element, x, y), ...more }));
+)";
+    std::string text = contentsOf(page);
+    const std::string own =
+        "<script>(async () => {" + tools + "try {" + script +
+        "} catch (error) { console.error(error.stack); tell('threw ' + error); } })();</script>";
+    text.insert(text.rfind("</body>"), own);
+    const fs::path copy = page.parent_path() / "visited.html";
+    std::ofstream(copy, std::ios::binary) << text;
+    const Ran ran =
+        runShell(scratch,
+                 "timeout 120 " + browser() +
+                     " --headless=new --no-sandbox --disable-gpu --hide-scrollbars --no-first-run " +
+                     "--user-data-dir='" + (scratch / "profile").string() +
+                     "' --window-size=" + std::to_string(width) +
+                     ",900 --virtual-time-budget=20000 --enable-logging=stderr --v=0 " + flags +
+                     " --dump-dom 'file://" + copy.string() + hash + "'",
+                 scratch.path());
+    fs::remove(copy);
+    Visit visit;
+    visit.dom = ran.out;
+    for (std::size_t from = 0; from < ran.err.size();) {
+        const std::size_t end = std::min(ran.err.find('\n', from), ran.err.size());
+        const std::string line = ran.err.substr(from, end - from);
+        if (line.find("CONSOLE") != std::string::npos) visit.console += line + "\n";
+        from = end + 1;
+    }
+    const std::size_t start = ran.out.rfind("TOLD"), end = ran.out.rfind("END</pre>");
+    if (start != std::string::npos && end != std::string::npos) {
+        std::string json = ran.out.substr(start + 4, end - start - 4);
+        for (const auto& [code, letter] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}})
+            for (std::size_t i = json.find(code); i != std::string::npos; i = json.find(code, i + 1))
+                json.replace(i, std::string(code).size(), letter);
+        visit.told = nlohmann::json::parse(json, nullptr, false);
+    }
+    return visit;
+}
+
+}  // namespace diptych
