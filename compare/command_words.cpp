@@ -34,7 +34,7 @@ std::vector<std::string> wordsOf(const std::string& command, const std::string& 
         const std::string value = valueOf(settings, field.option);
         if (value == valueOf(usual, field.option) || (command == "compare" && field.option == "path")) return;
         const std::string option = "--" + std::string(field.option);
-        if (value.empty() || value.front() == '-') return words.push_back(option + "=" + value);
+        if (value.starts_with('-')) return words.push_back(option + "=" + value);
         words.push_back(option);
         words.push_back(value);
     });
