@@ -221,7 +221,8 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
         report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), options));
         const Frame& left = report.baseline(report.comparisons.back());
         std::vector<std::string> command = wordsOf("compare", left.scene, left.settings);
-        if (options.baseline != Path::deferred) command = with(command, "--baseline", std::string(nameOf(options.baseline)));
+        if (options.baseline != Path::deferred)
+            command = with(command, "--baseline", std::string(nameOf(options.baseline)));
         report.comparisons.back().command = std::move(command);
         if (!marks.empty()) report.comparisons.back().marks = std::move(marks.at(i / 2));
     }
