@@ -2,7 +2,7 @@
 // How the errors of a channel are spread: over their sizes, and over the picture.
 #pragma once
 
-#include "compare/metrics.h"
+#include "compare/metrics/channel.h"
 #include "shared/image/image.h"
 
 #include <cstdint>
