@@ -30,8 +30,8 @@ struct PngPicture {
     std::vector<std::string> notes{};  // gammas and colour profiles that are not applied, a line each
 };
 
-// Interlaced or not. What needs more than `most` bytes decoded is refused. Throws std::runtime_error, one
-// line naming file and fault.
+// An interlaced file's rows are in memory once more, as they are stored, until all are there. What needs more
+// than `most` bytes decoded is refused. Throws std::runtime_error, one line naming file and fault.
 PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name,
                           std::uint64_t most = limits::imageBytes());
 
