@@ -75,7 +75,7 @@ TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
     EXPECT_TRUE(runTool(folder, "render --heat").failedOver("--heat is not built yet"));
     EXPECT_TRUE(
         runTool(folder, "compare --baseline reference").failedOver("--baseline reference is not built yet"));
-    EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("diff is not built yet"));
+    EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("a.png: no such file"));
     EXPECT_TRUE(runTool(folder, "bench --paths deferred").failedOver("bench is not built yet"));
 }
 

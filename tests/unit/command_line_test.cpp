@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 namespace diptych {
@@ -119,9 +120,6 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
 
 TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
     const std::pair<std::vector<std::string>, const char*> later[] = {
-        {{"diff", "a.exr", "b.exr", "--metric", "rmse", "--tolerance", "0.1", "--ppd", "67", "--channels",
-          "lit", "-o", "d", "--json"},
-         "diff"},
         {{"tradeoff", "a.glb", "--lights", "point:9"}, "tradeoff"},
         {{"choose", "--max-error", "0.1"}, "choose"},
         {{"choose", "--max-ms", "4", "--max-bytes", "100"}, "choose"},
@@ -129,9 +127,6 @@ TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
         {{"view", "a.glb", "--size", "64x64"}, "view"},
         {{"bench", "--paths", "deferred,forward_plus", "--assign", "every,tiled", "--runs", "3"}, "bench"},
         {{"compare", "--baseline", "reference"}, "--baseline reference"},
-        {{"compare", "--baseline", "left.exr"}, "--baseline left.exr"},
-        {{"compare", "--update-baseline"}, "--update-baseline"},
-        {{"compare", "--mask", "m.png"}, "--mask m.png"},
         {{"compare", "--pixel", "3,4"}, "--pixel 3,4"},
         {{"render", "--heat"}, "--heat"},
         {{"render", "--frames", "2", "--fps", "30"}, "--frames 2"},
@@ -143,9 +138,102 @@ TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
     }
 }
 
+TEST(CommandLine, WhatDiffCompares) {
+    const Options o = parseCommandLine({"diff",
+                                        "a.exr",
+                                        "b.exr",
+                                        "--metric",
+                                        "rmse",
+                                        "--tolerance",
+                                        "0.1",
+                                        "--ppd",
+                                        "60",
+                                        "--channels",
+                                        "lit,normal*",
+                                        "--map",
+                                        "albedo=d.R,d.G,d.B",
+                                        "--map",
+                                        "ao=x.Y",
+                                        "--mask",
+                                        "m.png",
+                                        "--ids",
+                                        "3,5",
+                                        "--ignore-edges",
+                                        "2",
+                                        "--crop",
+                                        "1,2,30x40",
+                                        "--shift",
+                                        "1",
+                                        "--blur",
+                                        "0.5",
+                                        "--warn",
+                                        "0.05",
+                                        "--exposures",
+                                        "4",
+                                        "--start-exposure",
+                                        "-2",
+                                        "--stop-exposure",
+                                        "3",
+                                        "--tolerances",
+                                        "t.json",
+                                        "-o",
+                                        "d",
+                                        "--json"});
+    EXPECT_EQ(o.command, "diff");
+    EXPECT_EQ(o.scenes, (std::vector<std::string>{"a.exr", "b.exr"}));
+    EXPECT_EQ(o.diff.metric, "rmse");
+    EXPECT_EQ(o.diff.tolerance, 0.1);
+    EXPECT_EQ(o.diff.warn, 0.05);
+    EXPECT_EQ(o.diff.flip.pixels_per_degree, 60);
+    EXPECT_EQ(o.diff.flip.exposures, 4);
+    EXPECT_EQ(o.diff.flip.start_exposure, -2);
+    EXPECT_EQ(o.diff.flip.stop_exposure, 3);
+    EXPECT_EQ(o.diff.channels, (std::vector<std::string>{"lit", "normal*"}));
+    EXPECT_EQ(o.diff.names, (std::vector<std::string>{"albedo=d.R,d.G,d.B", "ao=x.Y"}));
+    EXPECT_EQ(o.diff.selection.mask, "m.png");
+    EXPECT_EQ(o.diff.selection.ids, (std::vector<int>{3, 5}));
+    EXPECT_EQ(o.diff.selection.ignore_edges, 2);
+    ASSERT_TRUE(o.diff.selection.crop);
+    EXPECT_EQ(o.diff.selection.crop->height, 40);
+    EXPECT_EQ(o.diff.shift, 1);
+    EXPECT_EQ(o.diff.blur, 0.5);
+    EXPECT_EQ(o.tolerances, "t.json");
+}
+
+// Without a tolerance only the same picture passes, whichever way the figure points.
+TEST(CommandLine, TheUsualToleranceOfDiffIsIdentity) {
+    const auto toleranceOf = [](const char* metric) {
+        return parseCommandLine({"diff", "a", "b", "--metric", metric}).diff.tolerance;
+    };
+    EXPECT_EQ(parseCommandLine({"diff", "a", "b"}).diff.metric, "flip");
+    EXPECT_EQ(toleranceOf("flip"), 0);
+    EXPECT_EQ(toleranceOf("relative"), 0);
+    EXPECT_EQ(toleranceOf("ssim"), 1);
+    EXPECT_EQ(toleranceOf("psnr"), std::numeric_limits<double>::infinity());
+}
+
+TEST(CommandLine, ABaselineIsAPathOrAFile) {
+    EXPECT_EQ(parseCommandLine({"compare", "--baseline", "forward_plus"}).baseline, Path::forward_plus);
+    const Options o =
+        parseCommandLine({"compare", "--baseline", "left.exr", "--update-baseline", "--allow-noise"});
+    EXPECT_EQ(o.baseline_file, "left.exr");
+    EXPECT_TRUE(o.update_baseline && o.allow_noise);
+    EXPECT_EQ(whatIsThrown({"compare", "--update-baseline"}),
+              "--update-baseline: --baseline FILE.exr says which file");
+    EXPECT_EQ(whatIsThrown({"compare", "--baseline", "left"}),
+              "--baseline left: is neither deferred nor forward_plus nor an .exr file");
+}
+
 TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
     const std::pair<std::vector<std::string>, const char*> wrong[] = {
         {{}, "--help"},
+        {{"diff", "a.exr"}, "images"},
+        {{"diff", "a", "b", "--metric", "flop"}, "--metric flop"},
+        {{"diff", "a", "b", "--tolerance", "-1"}, "--tolerance -1"},
+        {{"diff", "a", "b", "--failing", "0.1"}, "--tolerance"},
+        {{"diff", "a", "b", "--failing", "2", "--tolerance", "1"}, "--failing"},
+        {{"diff", "a", "b", "--crop", "1,2,3"}, "--crop 1,2,3"},
+        {{"diff", "a", "b", "--crop", "1,2,0x4"}, "--crop 1,2,0x4"},
         {{"paint"}, "paint"},
         {{"--paint"}, "--help"},
         {{"compare", "--paint"}, "--paint"},

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// What two picture files have in common: names, types, widths; which pixels count; what forgives.
+#include "compare/layers.h"
+#include "compare/prefilter.h"
+#include "compare/selection.h"
+#include "shared/image/png.h"
+#include "tests/unit/files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+// A layer of a 2 x 1 picture whose component c of pixel i is 10 c + i.
+PictureLayer layer(const std::string& name, const std::vector<std::string>& channels,
+                   const std::string& sample = "float") {
+    PictureLayer l{name, channels, sample, Image(2, 1, static_cast<int>(channels.size()))};
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            l.image.pixel(i)[c] = static_cast<float>(10 * c + i);
+    return l;
+}
+
+PictureFile file(std::vector<PictureLayer> layers) {
+    return {2, 1, "OpenEXR", false, std::move(layers)};
+}
+
+std::vector<std::string> namesOf(const std::vector<PictureChannel>& channels) {
+    std::vector<std::string> names;
+    for (const PictureChannel& c : channels) names.push_back(c.name);
+    return names;
+}
+
+template <class Run>
+std::string thrown(const Run& run) {
+    try {
+        run();
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(Layers, ChannelsWithoutALayerHaveOurNames) {
+    const auto channels = channelsOf(
+        file({layer("", {"R", "G", "B", "A", "Z"}), layer("normals", {"normals.X", "normals.Y", "normals.Z"}),
+              layer("roughness", {"roughness.Y"}), layer("id", {"id.id"}, "uint")}),
+        {});
+    EXPECT_EQ(namesOf(channels),
+              (std::vector<std::string>{"lit", "A", "depth", "normals", "roughness", "id"}));
+    EXPECT_EQ(channels[0].kind, ChannelKind::color);
+    EXPECT_EQ(channels[0].image.pixel(1)[2], 21);
+    EXPECT_EQ(channels[2].image.pixel(1)[0], 41);
+    EXPECT_EQ(channels[3].kind, ChannelKind::vector);
+    EXPECT_EQ(channels[5].kind, ChannelKind::id);
+}
+
+TEST(Layers, NamesOfOthersAreGivenOurs) {
+    const auto channels =
+        channelsOf(file({layer("diffuse", {"diffuse.R", "diffuse.G", "diffuse.B"}), layer("", {"ao"})}),
+                   {"albedo=diffuse.B,diffuse.G,diffuse.R", "occlusion=ao", "normals=N.x,N.y,N.z"});
+    EXPECT_EQ(namesOf(channels), (std::vector<std::string>{"albedo", "occlusion"}));
+    EXPECT_EQ(channels[0].image.pixel(0)[0], 20) << "in the order that was asked for";
+    for (const char* words : {"albedo", "=a", "albedo=", "albedo=a,,b"})
+        EXPECT_EQ(thrown([&] {
+                      channelsOf(file({layer("", {"R"})}), {words});
+                  }).find(std::string("--map ") + words + ": is NAME=CHANNEL"),
+                  0u);
+}
+
+TEST(Layers, WhatOnlyOneHasIsSaid) {
+    const auto matched = match(channelsOf(file({layer("a", {"a.Y"}), layer("b", {"b.Y"})}), {}),
+                               channelsOf(file({layer("b", {"b.Y"}, "half"), layer("c", {"c.Y"})}), {}), {});
+    ASSERT_EQ(matched.channels.size(), 1u);
+    EXPECT_EQ(matched.channels[0].name, "b");
+    EXPECT_EQ(matched.notes, (std::vector<std::string>{"a is in the reference alone and was not compared",
+                                                       "b: float in the reference, half in the test",
+                                                       "c is in the test alone and was not compared"}));
+}
+
+TEST(Layers, WhatIsNotInBothIsAnError) {
+    const auto a = [] { return channelsOf(file({layer("", {"R", "G", "B"})}), {}); };
+    const auto b = [] { return channelsOf(file({layer("", {"Y"})}), {}); };
+    const auto c = [] { return channelsOf(file({layer("ao", {"ao.Y"})}), {}); };
+    EXPECT_EQ(thrown([&] { match(a(), b(), {}); }),
+              "lit: R,G,B in the reference and Y in the test; --map says what belongs together");
+    EXPECT_EQ(thrown([&] { match(a(), c(), {}); }),
+              "no layer is in both: the reference has lit, the test ao; --map gives them one name");
+    EXPECT_EQ(thrown([&] { match(a(), a(), {"normals"}); }),
+              "--channels normals: not in both; the reference has lit, the test lit");
+}
+
+TEST(Layers, WholeNumbersBeyondFloat32AreToldApart) {
+    const auto ids = [](std::uint32_t value) {
+        PictureLayer l = layer("id", {"id.Y"}, "uint");
+        for (const std::size_t i : {0u, 1u}) l.image.pixel(i)[0] = 16777216.0f;
+        l.exact = {{16777216u, value}};
+        return channelsOf(file({std::move(l)}), {});
+    };
+    auto matched = match(ids(16777217u), ids(16777216u), {});
+    EXPECT_EQ(matched.channels[0].reference.data[0], matched.channels[0].test.data[0]);
+    EXPECT_NE(matched.channels[0].reference.data[1], matched.channels[0].test.data[1]);
+    matched = match(ids(16777217u), ids(16777217u), {});
+    EXPECT_EQ(matched.channels[0].reference.data[1], matched.channels[0].test.data[1]);
+}
+
+// ---- which pixels count ----
+
+std::string picked(const Coverage& coverage) {
+    std::string text;
+    for (const std::uint8_t c : coverage.covered) text += c ? 'x' : '.';
+    return text;
+}
+
+TEST(Selection, EdgesOfObjectsAreLeftOut) {
+    Image ids(6, 2, 1, 4.0f);
+    ids.at(5, 0) = ids.at(5, 1) = 7.0f;
+    std::vector<std::string> notes;
+    const auto without = [&](int edge) {
+        Coverage all = everyPixel(12);
+        SelectionOptions options;
+        options.ignore_edges = edge;
+        select(all, 6, 2, options, {{&ids, &ids}, {}}, notes);
+        return picked(all);
+    };
+    EXPECT_EQ(without(1), "xxxx..xxxx..") << "both sides of the edge";
+    EXPECT_EQ(without(2), "xxx...xxx...");
+    EXPECT_EQ(notes.back(), "6 of 12 pixels are compared, the others were left out by the command line");
+    EXPECT_EQ(thrown([&] { without(9); }), "the mask, ids, crop and edges leave no pixel to compare");
+    Coverage all = everyPixel(12);
+    SelectionOptions options;
+    options.ignore_edges = 1;
+    EXPECT_EQ(thrown([&] { select(all, 6, 2, options, {}, notes); }),
+              "--ignore-edges: neither material_id nor Z is in both pictures, and they tell objects apart");
+    Image depth(6, 2, 1, 10.0f);  // 5 % further is another object
+    depth.at(0, 0) = 10.6f;
+    depth.at(5, 1) = 10.4f;
+    select(all, 6, 2, options, {{}, {&depth, &depth}}, notes);
+    EXPECT_EQ(picked(all), "..xxxx.xxxxx");
+}
+
+TEST(Selection, MaskIdsAndCrop) {
+    const std::filesystem::path files = folder();
+    Image8 mask{3, 2, 3, std::vector<std::uint8_t>(18, 0)};
+    for (const std::size_t i : {0u, 4u}) mask.data[3 * i + 1] = 200;
+    mask.data[3 * 5] = 120;  // under one half
+    writePng(files / "mask.png", mask);
+    Image ids(3, 2, 1);
+    for (int i = 0; i < 6; ++i) ids.data[static_cast<std::size_t>(i)] = static_cast<float>(i);
+    std::vector<std::string> notes;
+    const auto by = [&](const SelectionOptions& options) {
+        Coverage all = everyPixel(6);
+        select(all, 3, 2, options, {{&ids, &ids}, {}}, notes);
+        EXPECT_EQ(all.count, static_cast<std::size_t>(std::ranges::count(all.covered, 1)));
+        return picked(all);
+    };
+    SelectionOptions options;
+    options.mask = (files / "mask.png").string();
+    EXPECT_EQ(by(options), "x...x.");
+    options = {};
+    options.ids = {1, 5, 9};
+    EXPECT_EQ(by(options), ".x...x");
+    options = {};
+    options.crop = cropOf("1,0,2x2");
+    EXPECT_EQ(by(options), ".xx.xx");
+    options.crop = cropOf("2,0,2x2");
+    EXPECT_EQ(thrown([&] { by(options); }), "--crop 2,0,2x2: is not inside a picture of 3x2");
+    Coverage four = everyPixel(4);
+    options = {};
+    options.mask = (files / "mask.png").string();
+    EXPECT_EQ(thrown([&] { select(four, 2, 2, options, {}, notes); }),
+              "--mask " + options.mask + ": is 3x2, the pictures are 2x2");
+}
+
+// ---- what forgives ----
+
+TEST(Prefilter, BlurKeepsTheSumAndLeavesNanAlone) {
+    Image point(33, 33, 1);
+    point.at(16, 16) = 1;
+    const Image soft = blurred(point, 2);
+    double sum = 0;
+    for (const float v : soft.data) sum += double{v};
+    EXPECT_NEAR(sum, 1, 1e-5) << "the Gaussian's weights add up to 1; float32";
+    EXPECT_NEAR(soft.at(18, 16) / soft.at(16, 16), std::exp(-0.5), 1e-5) << "one deviation away";
+    EXPECT_EQ(blurred(point, 0).data, point.data);
+    Image holed(5, 1, 1, 3.0f);
+    holed.at(2, 0) = std::nanf("");
+    const Image filled = blurred(holed, 1);
+    EXPECT_TRUE(std::isnan(filled.at(2, 0)));
+    EXPECT_NEAR(filled.at(1, 0), 3, 1e-5) << "the weights of the others make up for it";
+}
+
+TEST(Prefilter, ShiftForgivesOnlyWhatMoved) {
+    Image reference(5, 5, 1), test(5, 5, 1);
+    reference.at(2, 2) = 1;
+    test.at(3, 2) = 1;
+    const Image moved = shifted(reference, test, 1);
+    EXPECT_EQ(moved.at(2, 2), 1) << "the feature is found next to its place";
+    EXPECT_EQ(moved.at(3, 2), 0) << "and is not missed where it stands";
+    test.at(3, 2) = 0;
+    EXPECT_EQ(shifted(reference, test, 1).at(2, 2), 0) << "what is nowhere stays missing";
+    test.at(4, 2) = 1;
+    EXPECT_EQ(shifted(reference, test, 1).at(2, 2), 0) << "two pixels are too far";
+    EXPECT_EQ(shifted(reference, test, 2).at(2, 2), 1);
+}
+
+}  // namespace
+}  // namespace diptych
