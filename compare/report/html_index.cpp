@@ -42,7 +42,7 @@ std::string worstCell(const Comparison& comparison, std::size_t index) {
     return fmt::format(
         "<td><a href=\"#c{}-{}\">{}</a></td><td class=\"n optional\" data-value=\"{:.6g}\">{}</td>", index,
         worst->mode->name, worst->mode->name, share < std::numeric_limits<double>::infinity() ? share : 1e300,
-        share < std::numeric_limits<double>::infinity() ? fmt::format("{:.0f} %", 100 * share) : "beyond");
+        share < std::numeric_limits<double>::infinity() ? fmt::format("{:.3g} %", 100 * share) : "beyond");
 }
 
 std::string numberCell(double value, const std::string& text) {

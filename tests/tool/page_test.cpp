@@ -271,11 +271,16 @@ TEST(Page, NothingIsWiderThanAPhone) {
     const fs::path page = written(folder, reportOf(rampFrames()));
     const Visit seen = visit(folder, page, R"(
       $$('details').forEach(d => d.open = true); document.documentElement.style.width = '390px'; await wait(100);
-      const wide = $$('body *').filter(e => !e.closest('.scroll, .loupe, .film, svg, .axis') && e.getBoundingClientRect().right > 391 && getComputedStyle(e).display !== 'none');
-      tell(wide.map(e => e.tagName + '.' + e.className).slice(0, 5));)",
+      const wide = () => $$('body *').filter(e => !e.closest('.scroll, .loupe, .film, svg, .axis') && e.getBoundingClientRect().right > 391 && getComputedStyle(e).display !== 'none');
+      const cut = () => $$('.buttons, .readout, .again, dl').filter(e => e.scrollWidth > e.clientWidth + 1);
+      const found = () => [...wide(), ...cut()].map(e => e.tagName + '.' + e.className).slice(0, 5), clean = found();
+      // and what is too wide would be found
+      $('.card .body').insertAdjacentHTML('beforeend', '<p class="planted" style="width:500px">wide</p>');
+      $('.buttons').style.cssText = 'flex-wrap:nowrap;width:100px';
+      tell([clean, found()]);)",
                              "", 500);
     EXPECT_EQ(seen.console, "");
-    EXPECT_EQ(seen.told, nlohmann::json::array());
+    EXPECT_EQ(seen.told, (nlohmann::json{nlohmann::json::array(), {"P.planted", "SPAN.buttons"}}));
 }
 
 TEST(Page, ASingleFileLoadsNoOther) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The workflow files of .ci/ that users copy: their commands parse, and what they keep is what is written.
+#include "compare/command_line.h"
+#include "tests/unit/files.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace diptych {
+namespace {
+
+// Every line that calls compare, from its first word on.
+std::vector<std::vector<std::string>> callsIn(const std::string& text) {
+    std::vector<std::vector<std::string>> calls;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t at = line.find("diptych compare ");
+        if (at == std::string::npos) continue;
+        std::istringstream words(line.substr(at + 8));
+        calls.emplace_back(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>());
+    }
+    return calls;
+}
+
+TEST(Workflows, TheirCommandsParseAndTheirFilesAreTheReports) {
+    for (const char* file : {"github-workflow.yml", "gitlab.yml"}) {
+        const std::string text = contentsOf(std::filesystem::path(DIPTYCH_SOURCE_DIR) / ".ci" / file);
+        const auto calls = callsIn(text);
+        ASSERT_EQ(calls.size(), 1u) << file;
+        const Options options = parseCommandLine(calls[0]);
+        EXPECT_EQ(options.scenes, std::vector<std::string>{"scenes/*.glb"});
+        EXPECT_FALSE(options.settings.problem());
+        const std::string folder = options.out.string();
+        ASSERT_FALSE(folder.empty());
+        EXPECT_NE(text.find(": " + folder + "/junit.xml\n"), std::string::npos) << file;
+        const bool kept = text.find("path: " + folder + "\n") != std::string::npos ||
+                          text.find("paths:\n      - " + folder + "/\n") != std::string::npos;
+        EXPECT_TRUE(kept) << file;
+        EXPECT_EQ(text.find('\t'), std::string::npos) << "YAML is indented by spaces";
+    }
+}
+
+}  // namespace
+}  // namespace diptych
