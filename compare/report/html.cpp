@@ -172,6 +172,7 @@ std::string exrLinks(const ReportLayout& layout, const Comparison& comparison) {
     for (const std::size_t frame : {comparison.baseline, comparison.test})
         if (!layout.exr[frame].empty())
             links += fmt::format(" <a href=\"{0}\">{0}</a>", markup(layout.exr[frame]));
+    if (links.empty()) return {};
     return "<p class=\"soft camera\">Every channel as float32:" + links + "</p>\n";
 }
 

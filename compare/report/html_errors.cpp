@@ -15,7 +15,10 @@ namespace {
 class Histogram {
 public:
     Histogram(const ChannelDiff& channel, const ErrorHistogram& errors)
-        : mode_(*channel.mode), tolerance_(channel.tolerance.max), errors_(errors) {}
+        : mode_(*channel.mode),
+          tolerance_(channel.tolerance.max),
+          fails_(channel.stats.max > channel.tolerance.max),
+          errors_(errors) {}
 
     std::string html() const {
         if (errors_.bins.empty()) return {};
@@ -29,27 +32,39 @@ public:
 private:
     std::string size(double error) const { return number(error) + unitOf(mode_); }
 
+    // Of a bin that holds the tolerance the part right of the line is beyond it, where any error is.
     std::string bars() const {
         const std::uint64_t most = std::ranges::max(errors_.bins);
+        const double line = tolerance_ > 0 ? binAt(tolerance_) : 0;
         std::string out;
         for (std::size_t i = 0; i < errors_.bins.size(); ++i) {
             const std::uint64_t count = errors_.bins[i];
             if (count == 0) continue;
             const double height =
                 100 * std::log1p(static_cast<double>(count)) / std::log1p(static_cast<double>(most));
-            out += fmt::format(
-                "<rect{} x=\"{}\" y=\"{:.1f}\" width=\"1\" height=\"{:.1f}\"><title>{} to {}: {} "
-                "pixels{}</title></rect>",
-                errors_.edge(i) >= tolerance_ ? " class=\"beyond\"" : "", i, 100 - height, height,
-                size(errors_.edge(i)), size(errors_.edge(i + 1)), count,
+            const auto left = static_cast<double>(i),
+                       cut = fails_ ? std::clamp(line, left, left + 1) : left + 1;
+            const std::string title = fmt::format(
+                "{} to {}: {} pixels{}", size(errors_.edge(i)), size(errors_.edge(i + 1)), count,
                 i == 0 && errors_.smaller > 0 ? fmt::format(", {} of them below", errors_.smaller) : "");
+            out += bar("", left, cut, height, title) + bar(" class=\"beyond\"", cut, left + 1, height, title);
         }
         return out;
     }
 
+    static std::string bar(const char* style, double from, double to, double height,
+                           const std::string& title) {
+        if (!(from < to)) return {};
+        return fmt::format(
+            "<rect{} x=\"{:.5g}\" y=\"{:.1f}\" width=\"{:.3g}\" height=\"{:.1f}\"><title>{}</title></rect>",
+            style, from, 100 - height, to - from, height, title);
+    }
+
+    double binAt(double error) const {
+        return (std::log10(error) - errors_.first_decade) * errors_.bins_per_decade;
+    }
     double percent(double error) const {
-        const double bin = (std::log10(error) - errors_.first_decade) * errors_.bins_per_decade;
-        return 100 * bin / static_cast<double>(errors_.bins.size());
+        return 100 * binAt(error) / static_cast<double>(errors_.bins.size());
     }
 
     // A tolerance outside of the plot is marked at its edge; words() says its size.
@@ -87,6 +102,7 @@ private:
 
     const DebugMode& mode_;
     double tolerance_;
+    bool fails_;
     const ErrorHistogram& errors_;
 };
 

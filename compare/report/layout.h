@@ -30,7 +30,7 @@ inline constexpr int worstApart = 8;  // pixels
 inline constexpr std::size_t comparisonsInPage = 4;
 
 struct ReportLayout {
-    std::vector<std::string> exr;                        // per frame
+    std::vector<std::string> exr;                        // per frame; empty: it gets none
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
     std::vector<std::size_t> order;                      // the comparisons as the page shows them
     std::vector<std::string> sections;                   // per comparison: its file, where it has one

@@ -16,6 +16,8 @@ addEventListener('pointerdown', event => {
   if (!card || event.button > 0) return;
   current = card;
   pointers.set(event.pointerId, event);
+  if (event.isTrusted) film.setPointerCapture(event.pointerId);  // a drag may leave the window
+  card.point(film, event);
   (card.slider || film).focus({ preventScroll: true });
   if (pointers.size === 2) {
     drag = { card, film, kind: 'pinch', last: spread() };
@@ -113,7 +115,7 @@ const keys = {
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 addEventListener('keydown', event => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches('[type=search]')) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches?.('[type=search]')) return;
   const focused = cardOf(document.activeElement), card = focused || current;
   if (!card || !card.element.open) return;
   if (keys[event.key]) {
