@@ -76,7 +76,11 @@ private:
     // The script names its rows after the Frames that have the channel.
     std::string readout() const {
         if (pictures_.values.empty())
-            return "<p class=\"readout\">a single file leaves out the values under the cursor</p>";
+            return fmt::format(
+                "<p class=\"readout\">{}</p>",
+                layout_.single_file
+                    ? "a single file leaves out the values under the cursor"
+                    : "a picture of this size is shown without its values; the EXRs have them");
         nlohmann::json names = nlohmann::json::array();
         if (!pictures_.baseline.empty()) names.push_back(left_.name);
         if (!pictures_.test.empty()) names.push_back(right_.name);

@@ -2,6 +2,7 @@
 #include "compare/report/layout.h"
 
 #include "compare/report/text.h"
+#include "compare/report/values.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -51,7 +52,9 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
     };
     add(left, pictures.baseline);
     add(right, pictures.test);
-    pictures.values = fmt::format("{}{}.values.js", prefix, mode.name);
+    const Size size = left.settings.size;
+    if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) <= mostPixelsOfValues)
+        pictures.values = fmt::format("{}{}.values.js", prefix, mode.name);
     pictures.scale = scaleFor(mode, exposure, shown);
     if (channel.verdict != Verdict::forward_only && channel.stats.different > 0) {
         pictures.difference = fmt::format("{}{}.difference.png", prefix, mode.name);

@@ -5,6 +5,7 @@
 
 #include "shared/image/image.h"
 
+#include <cstddef>
 #include <string>
 
 namespace diptych {
@@ -15,6 +16,9 @@ struct ChannelValues {
     const Image* test;
     const Image* errors;
 };
+
+// Of larger pictures there are none: their text would come near the longest that browsers take, half a GiB.
+inline constexpr std::size_t mostPixelsOfValues = std::size_t{16} << 20;
 
 // diptychValues("NAME", {...}): width, height, components, images (1 or 2), bits, exact, exponent, errorUnit,
 // and `data`, base64 of zlib's format of these planes of W x H words of 16 or 32 bits, one after the other:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The values beside the page come back as the Frames' numbers: exactly, or as near as the file says.
+#include "compare/report/html.h"
 #include "compare/report/values.h"
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
@@ -160,6 +161,22 @@ TEST(ReportValues, OneFrameAloneHasItsOwn) {
     EXPECT_EQ(back.head["images"], 1);
     ASSERT_EQ(back.planes.size(), 2u);
     EXPECT_EQ(back.planes[1][19], double{a.data[39]});
+}
+
+// A report of no pictures at all: the layout asks for the size alone.
+TEST(ReportValues, PicturesBeyondTheLimitHaveNoneAndThePageSaysSo) {
+    for (const int width : {4096, 4097}) {
+        Report report;
+        report.frames.resize(2);
+        for (Frame& frame : report.frames) frame.settings.size = {width, 4096};
+        Comparison& one = report.comparisons.emplace_back();
+        one.test = 1;
+        one.channels.push_back({&debugMode(gpu::DEBUG_roughness), {}, {}, {}, Verdict::forward_only, {}});
+        const ReportLayout layout = layoutOf(report, {});
+        EXPECT_EQ(layout.pictures[0][0].values, width == 4096 ? "roughness.values.js" : "");
+        EXPECT_EQ(reportHtml(report, layout).find("shown without its values") != std::string::npos,
+                  width == 4097);
+    }
 }
 
 TEST(ReportValues, EachChannelHasAFileThatTheReportLists) {
