@@ -35,9 +35,11 @@ std::uint8_t srgbByte(float linear) {
 }
 
 bool isRadiance(const DebugMode& mode) {
+    if (mode.shown != Shown::usual) return mode.shown == Shown::radiance;
     return mode.kind == ChannelKind::color && mode.metric == Metric::relative;
 }
 bool isNormalised(const DebugMode& mode) {
+    if (mode.shown != Shown::usual) return mode.shown == Shown::normalised;
     return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position;
 }
 
@@ -64,6 +66,7 @@ Rgb8 pixelColor(const DebugMode& mode, const float* p, const PictureScale& scale
         return byteOf((double{v} - scale.low) / (scale.high - scale.low));
     };
     if (isRadiance(mode)) return display({p[0], p[1], p[2]}, scale.exposure);
+    if (mode.shown == Shown::display) return {byteOf(p[0]), byteOf(p[1]), byteOf(p[2])};
     switch (mode.kind) {
         case ChannelKind::color:
             return {srgbByte(p[0]), srgbByte(p[1]), srgbByte(p[2])};
@@ -155,10 +158,12 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
                     }
         }
         if (!(low <= high)) low = high = 0;
-        const std::string range = fmt::format("{:.4g} to {:.4g} m", low, high);
+        const std::string range =
+            fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::usual ? " m" : "");
         if (low == high) high = low + 1;
         return {low, high, exposure, (mode.width == 1 ? "grey, " : "x y z as red green blue, ") + range};
     }
+    if (mode.shown == Shown::display) return {0, 1, exposure, "as stored"};
     switch (mode.kind) {
         case ChannelKind::color:
             return {0, 1, exposure, "sRGB, no exposure"};

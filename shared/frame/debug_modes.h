@@ -13,6 +13,9 @@ enum class Metric { relative, absolute, angular, exact };
 enum class ChannelKind { color, vector, scalar, id };
 enum class MadeBy { both, forward_only };
 
+// How a channel becomes a picture; usual: as its kind and metric say.
+enum class Shown { usual, radiance, display, normalised };
+
 struct DebugMode {
     int number;
     std::string_view name;
@@ -21,6 +24,7 @@ struct DebugMode {
     ChannelKind kind;
     MadeBy maker;
     std::string_view shows;
+    Shown shown = Shown::usual;
 };
 
 std::span<const DebugMode> debugModes();                      // in ascending number

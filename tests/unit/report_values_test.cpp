@@ -171,7 +171,8 @@ TEST(ReportValues, PicturesBeyondTheLimitHaveNoneAndThePageSaysSo) {
         for (Frame& frame : report.frames) frame.settings.size = {width, 4096};
         Comparison& one = report.comparisons.emplace_back();
         one.test = 1;
-        one.channels.push_back({&debugMode(gpu::DEBUG_roughness), {}, {}, {}, Verdict::forward_only, {}});
+        one.channels.emplace_back().mode = &debugMode(gpu::DEBUG_roughness);
+        one.channels.back().verdict = Verdict::forward_only;
         const ReportLayout layout = layoutOf(report, {});
         EXPECT_EQ(layout.pictures[0][0].values, width == 4096 ? "roughness.values.js" : "");
         EXPECT_EQ(reportHtml(report, layout).find("shown without its values") != std::string::npos,
