@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A report of a thousand comparisons in a browser: what it builds and loads at once, and what once it is
 // asked.
-#include "compare/report/report.h"
-#include "tests/tool/browser.h"
-#include "tests/unit/report_maker.h"
+#include "tests/tool/page_maker.h"
 
 #include <fmt/format.h>
 
@@ -69,7 +67,7 @@ void expectFluent(const nlohmann::json& told, int count) {
 }
 
 TEST(PageIndex, AThousandComparisonsStayFluent) {
-    if (browser().empty()) GTEST_SKIP() << "no chromium here: the page is not looked at";
+    SKIP_WITHOUT_BROWSER();
     const Folder folder;
     writeReport(several(1000), folder / "report", {});
     const Visit seen = visit(folder, folder / "report/index.html", look);
@@ -79,7 +77,7 @@ TEST(PageIndex, AThousandComparisonsStayFluent) {
 }
 
 TEST(PageIndex, ASingleFileBringsItsComparisonsAlong) {
-    if (browser().empty()) GTEST_SKIP() << "no chromium here: the page is not looked at";
+    SKIP_WITHOUT_BROWSER();
     const Folder folder;
     ReportOptions options;
     options.single_file = true;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Whole reports as they are sent and opened: in a single file, as the tool leaves them, and made again.
+#include "tests/tool/page_maker.h"
+
+namespace diptych {
+namespace {
+
+TEST(PageReport, ASingleFileLoadsNoOther) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    ReportOptions options;
+    options.single_file = true;
+    const fs::path page = written(folder, reportOf(rampFrames()), options);
+    const fs::path alone = folder / "mail/attached.html";
+    fs::create_directories(alone.parent_path());
+    fs::copy_file(page, alone);
+    const Visit seen = visit(folder, alone, R"(
+      $$('details').forEach(d => d.open = true);
+      const images = $$('img, image'); images.forEach(i => i.loading = 'eager');
+      await until(() => $$('img').every(i => i.complete));
+      pointer('pointermove', $('#c0-roughness .film'), .5, .5); await wait(100);
+      const film = $('#c0-roughness .film img');
+      tell({ sources: images.filter(i => !(i.getAttribute('src') || i.getAttribute('href')).startsWith('data:')).length,
+             broken: $$('img').filter(i => !i.naturalWidth).length, half: [film.naturalWidth, film.naturalHeight],
+             scripts: $$('script[src], link').length, says: $('#c0-roughness .readout').textContent,
+             fetched: performance.getEntriesByType('resource').map(e => e.name).filter(n => !n.startsWith('data:')) });)");
+    EXPECT_EQ(seen.console, "");
+    ASSERT_TRUE(seen.told.is_object()) << seen.told;
+    EXPECT_EQ(seen.told["sources"], 0);
+    EXPECT_EQ(seen.told["broken"], 0);
+    EXPECT_EQ(seen.told["half"], (nlohmann::json{48, 27}));
+    EXPECT_EQ(seen.told["scripts"], 0);
+    EXPECT_EQ(seen.told["fetched"], nlohmann::json::array());
+    EXPECT_EQ(seen.told["says"], "a single file leaves out the values under the cursor");
+}
+
+// As the tool leaves it: whatever can be opened is open, and every picture is there.
+TEST(PageReport, ARealReportIsWholeAndSilent) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const Ran ran = runTool(folder, "compare builtin:gallery builtin:cutout --size 96x54 --runs 1 -o report");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Visit seen = visit(folder, folder / "report/index.html", R"(
+      $$('details').forEach(d => d.open = true);
+      $$('.comparison').forEach(s => s.style.contentVisibility = 'visible');
+      const images = $$('img'); images.forEach(image => image.loading = 'eager');
+      await until(() => images.every(image => image.complete));
+      const cards = $$('.card'), bars = $$('.bar').map(bar => bar.getBoundingClientRect().width);
+      for (const card of cards) { card.scrollIntoView(); pointer('pointermove', card.querySelector('.film'), .5, .5);
+        await until(() => card.querySelector('.readout').children.length > 1); }
+      tell({ images: images.length, broken: images.filter(image => !image.naturalWidth).map(image => image.src), cards: cards.length,
+             unread: cards.filter(card => card.querySelector('.readout').children.length < 2).map(card => card.id),
+             timed: bars.filter(width => width > 20).length, plots: $$('.plot rect').length > 50,
+             marks: $$('.marks tr').length > 5 });)");
+    EXPECT_EQ(seen.console, "");
+    ASSERT_TRUE(seen.told.is_object()) << seen.told;
+    EXPECT_GT(seen.told["images"], 60);
+    EXPECT_EQ(seen.told["broken"], nlohmann::json::array());
+    EXPECT_EQ(seen.told["cards"], 30);
+    EXPECT_EQ(seen.told["unread"], nlohmann::json::array());
+    EXPECT_GE(seen.told["timed"], 4) << "a bar for each path of each scene at least";
+    EXPECT_EQ(seen.told["plots"], true);
+    EXPECT_EQ(seen.told["marks"], true);
+}
+
+// What a failing channel's card prints makes the same comparison, of that channel alone.
+TEST(PageReport, TheCommandOfAReportMakesItAgain) {
+    const Folder folder;
+    const Ran first = runTool(folder,
+                              "compare builtin:cutout --size 96x54 --runs 0 --gbuffer compact --baseline "
+                              "forward_plus --json -o report");
+    ASSERT_EQ(first.code, 0) << first.err;
+    const std::string junit = contentsOf(folder / "report/junit.xml"),
+                      start = "name=\"command\" value=\"diptych ";
+    const std::size_t at = junit.find(start) + start.size();
+    const std::string command = junit.substr(at, junit.find('"', at) - at);
+    EXPECT_EQ(command, "compare --baseline forward_plus --gbuffer compact --size 96x54 builtin:cutout");
+    for (const std::string channel : {"lit", "normals"}) {
+        const Ran again = runTool(folder, command + " --channels " + channel + " --json --runs 0 -o again");
+        ASSERT_EQ(again.code, 0) << again.err;
+        const auto of = [&](const Ran& ran) {
+            const nlohmann::json report = nlohmann::json::parse(ran.out);
+            for (const auto& one : report["comparisons"][0]["channels"])
+                if (one["name"] == channel) return one;
+            return nlohmann::json();
+        };
+        EXPECT_EQ(of(again), of(first)) << channel;
+        EXPECT_TRUE(of(first).is_object());
+    }
+}
+
+}  // namespace
+}  // namespace diptych
