@@ -76,7 +76,7 @@ private:
 
     std::string axis() const {
         const int decades = static_cast<int>(errors_.bins.size()) / errors_.bins_per_decade,
-                  step = decades > 6 ? 2 : 1;
+                  step = (decades + 4) / 5;  // six labels at most have room on a phone
         std::string out;
         for (int d = 0; d <= decades; d += step)
             out += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100.0 * d / decades,

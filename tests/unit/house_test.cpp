@@ -180,7 +180,7 @@ TEST(House, APlantedPiIsFound) {
 Faults withoutLicence(const Files& files) {
     Faults faults;
     for (const auto& [path, text] : files) {
-        const bool wanted = isCode(path) || endsIn(path, {"CMakeLists.txt", ".cmake"}) || path == "diptych" ||
+        const bool wanted = isCode(path) || endsIn(path, {"CMakeLists.txt", ".cmake", ".css", ".js", ".yml"}) || path == "diptych" ||
                             path == ".ci/run";
         const std::size_t second = text.find('\n', text.find('\n') + 1);
         if (wanted && text.substr(0, second).find("SPDX-License-Identifier: MIT") == std::string::npos)
