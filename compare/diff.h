@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,7 +32,10 @@ struct ChannelDiff {
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; empty otherwise
     std::string warning;  // what a rule warns of; empty otherwise
-    std::string rule;     // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
+    // What the difference picture shows instead of the metric's errors, from 0 to 1, and what it is called.
+    std::shared_ptr<const Image> shown_error;
+    std::string shown_error_name;
+    std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
 };
 
 struct Comparison {

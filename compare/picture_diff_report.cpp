@@ -76,6 +76,10 @@ ChannelDiff channelOf(const PictureChannelDiff& channel, const DebugMode& mode) 
                      channel.rule.because};
     row.rule = fmt::format("{}: {}", channel.rule.origin, wordsOf(channel.rule.fail));
     (channel.decision.level == Level::warn ? row.warning : row.reason) = channel.decision.reason;
+    if (judgedByFlip(channel)) {
+        row.shown_error = std::make_shared<Image>(channel.measurement->flip()->error);
+        row.shown_error_name = "FLIP";
+    }
     row.verdict = channel.decision.level == Level::fail ? Verdict::fail : Verdict::pass;
     return row;
 }

@@ -5,6 +5,8 @@
 #include "compare/report/text.h"
 
 #include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -15,6 +17,7 @@ namespace {
 
 std::string titleOf(const Report& report, const Comparison& comparison) {
     const Frame& frame = report.baseline(comparison);
+    if (report.device.name.empty()) return frame.origin.file;  // two files
     return fmt::format("{} \u00b7 {}", frame.scene, cameraTitle(frame));
 }
 
@@ -26,11 +29,13 @@ std::string header(const Report& report) {
     std::string drawn;
     if (count == 1) {
         const Frame& frame = report.baseline(report.comparisons[0]);
-        drawn = fmt::format("{} \u00b7 {}\u00d7{} \u00b7 {} G-buffer \u00b7 ",
-                            titleOf(report, report.comparisons[0]), frame.settings.size.width,
-                            frame.settings.size.height, nameOf(frame.settings.gbuffer));
+        drawn = fmt::format("{} \u00b7 {}\u00d7{}", titleOf(report, report.comparisons[0]),
+                            frame.settings.size.width, frame.settings.size.height);
+        if (!report.device.name.empty())
+            drawn += fmt::format(" \u00b7 {} G-buffer \u00b7 ", nameOf(frame.settings.gbuffer));
     }
-    drawn += fmt::format("{} ({}), {}", report.device.name, report.device.type, report.device.driver);
+    if (!report.device.name.empty())
+        drawn += fmt::format("{} ({}), {}", report.device.name, report.device.type, report.device.driver);
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"
         "<p class=\"soft\">{2}</p></header>\n",
@@ -122,6 +127,7 @@ std::string used(const ChannelDiff& channel) {
     if (channel.unexplained_pixels)
         return fmt::format("<span class=\"soft\">explained by the encoding, {} pixels left over</span>",
                            *channel.unexplained_pixels);
+    if (!channel.rule.empty()) return fmt::format("<span class=\"soft\">{}</span>", markup(channel.rule));
     const double share =
         channel.tolerance.max > 0 ? std::min(channel.stats.max / channel.tolerance.max, 1.0) : 1.0;
     return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
@@ -147,7 +153,8 @@ std::string overview(const Comparison& comparison, std::size_t index) {
             out += fmt::format(
                 "<td class=\"n\">{}</td><td class=\"n optional\">{}</td><td class=\"n optional\">{}</td>"
                 "<td class=\"n\">{}</td><td class=\"optional\">{}</td>",
-                number(s.max), number(s.mean), number(s.p999), number(channel->tolerance.max),
+                number(s.max), number(s.mean), number(s.p999),
+                std::isfinite(channel->tolerance.max) ? number(channel->tolerance.max) : "rule",
                 used(*channel));
         out += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", nameOf(channel->verdict));
     }
@@ -182,7 +189,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
     return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", index,
                        several ? markup(titleOf(report, comparison)) : "Channels") +
            overview(comparison, index) + channelCards(report, layout, index) +
-           marksSection(report, layout, index) + "<h2>What was drawn</h2>\n" +
+           marksSection(report, layout, index) + "<h2>What was compared</h2>\n" +
            frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
 }
 

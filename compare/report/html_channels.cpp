@@ -5,6 +5,8 @@
 #include "compare/report/text.h"
 
 #include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace diptych {
@@ -42,9 +44,9 @@ public:
             out += fmt::format("<p class=\"reason\">{}</p>\n", markup(channel_.reason));
         if (!compared) return out + single() + "</div></details>\n";
         out += "<div class=\"pictures\">" + pair() + "<div>" + difference() + numbers() + "</div></div>\n";
-        out += fmt::format(
-            "<p class=\"because\"><b>Tolerance {}</b> <span class=\"soft\">because</span> {}</p>\n",
-            number(channel_.tolerance.max), markup(channel_.tolerance.because));
+        if (!channel_.warning.empty())
+            out += fmt::format("<p class=\"warning\">Warning: {}</p>\n", markup(channel_.warning));
+        out += because();
         return out + again() + loupes() + errorFigures(channel_, pictures_, id_) + "</div></details>\n";
     }
 
@@ -93,6 +95,19 @@ private:
             unitOf(*channel_.mode));
     }
 
+    // A rule need not bound the largest error.
+    bool hasTolerance() const { return std::isfinite(channel_.tolerance.max); }
+
+    std::string because() const {
+        const std::string decides = channel_.rule.empty()
+                                        ? fmt::format("Tolerance {}", number(channel_.tolerance.max))
+                                        : fmt::format("Rule of {}", markup(channel_.rule));
+        if (channel_.tolerance.because.empty())
+            return fmt::format("<p class=\"because\"><b>{}</b></p>\n", decides);
+        return fmt::format("<p class=\"because\"><b>{}</b> <span class=\"soft\">because</span> {}</p>\n",
+                           decides, markup(channel_.tolerance.because));
+    }
+
     // How to make the failure again.
     std::string again() const {
         if (channel_.verdict != Verdict::fail || command_.empty()) return {};
@@ -128,7 +143,7 @@ private:
         if (pictures_.difference.empty()) return "<p class=\"equal\">no difference at any pixel</p>\n";
         std::string stops;
         for (int i = 0; i <= 12; ++i) stops += ", " + hex(errorColor(i / 12.0));
-        const bool toTolerance = channel_.tolerance.max > 0;
+        const bool toTolerance = hasTolerance() && channel_.tolerance.max > 0 && !channel_.shown_error;
         std::string beyond;
         const auto swatch = [&](const auto& color, const char* word) {
             beyond += fmt::format("<span><i class=\"swatch\" style=\"background:{}\"></i>{}</span>",
@@ -144,7 +159,10 @@ private:
             "({})</span></div></div><span>black: equal</span>{}</figcaption></figure>\n",
             film(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstMark()),
             stops, number(pictures_.error_top / 4), number(pictures_.error_top),
-            toTolerance ? "tolerance" : "max", beyond);
+            channel_.shown_error ? markup(channel_.shown_error_name)
+            : toTolerance        ? "tolerance"
+                                 : "max",
+            beyond);
     }
 
     std::string numbers() const {
@@ -154,13 +172,11 @@ private:
             out += fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
         };
         const char* unit = unitOf(*channel_.mode);
-        for (const auto& [name, value] : {std::pair{"max", s.max},
-                                          {"mean", s.mean},
-                                          {"rmse", s.rmse},
-                                          {"p99", s.p99},
-                                          {"p99.9", s.p999},
-                                          {"tolerance", channel_.tolerance.max}})
+        for (const auto& [name, value] :
+             {std::pair{"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p99.9", s.p999}})
             row(name, number(value) + unit);
+        if (channel_.flip) row("FLIP, mean", number(*channel_.flip));
+        if (hasTolerance()) row("tolerance", number(channel_.tolerance.max) + unit);
         row("pixels that differ", fmt::format("{}", s.different));
         if (channel_.unexplained_pixels)
             row("not explained by encoding", fmt::format("{}", *channel_.unexplained_pixels));

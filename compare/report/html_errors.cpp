@@ -16,7 +16,7 @@ class Histogram {
 public:
     Histogram(const ChannelDiff& channel, const ErrorHistogram& errors)
         : mode_(*channel.mode),
-          tolerance_(channel.tolerance.max),
+          tolerance_(std::isfinite(channel.tolerance.max) ? channel.tolerance.max : 0),
           fails_(channel.stats.max > channel.tolerance.max),
           errors_(errors) {}
 

@@ -96,11 +96,30 @@ std::string camera(const Frame& frame) {
         c.near, c.far);
 }
 
+// Which file a picture that was not drawn now comes from.
+std::string origins(const Frame& a, const Frame& b) {
+    std::string rows;
+    for (const Frame* frame : {&a, &b}) {
+        const FrameOrigin& origin = frame->origin;
+        if (origin.file.empty()) continue;
+        rows += fmt::format("<tr><td>{}</td><td class=\"mono wide\">{}</td><td class=\"wide\">{}</td></tr>",
+                            markup(frame->name), markup(origin.file),
+                            markup(origin.device.empty() ? ""
+                                                         : fmt::format("{}, {}, commit {}", origin.device,
+                                                                       origin.driver, origin.commit)));
+    }
+    if (rows.empty()) return {};
+    return "<div class=\"box scroll\"><h4>Files</h4><table>" + rows + "</table></div>\n";
+}
+
 }  // namespace
 
 std::string frameTables(const Report& report, const Comparison& comparison) {
     const Frame &a = report.baseline(comparison), &b = report.test(comparison);
-    return "<div class=\"columns\">" + times(a, b) + costs(a, b) + "</div>\n" + settings(a, b) + camera(a);
+    const std::string files = origins(a, b);
+    if (!a.origin.file.empty() && !b.origin.file.empty()) return files;
+    return files + "<div class=\"columns\">" + times(a, b) + costs(a, b) + "</div>\n" + settings(a, b) +
+           camera(b);
 }
 
 }  // namespace diptych

@@ -67,7 +67,8 @@ private:
         Image errors;
         if (!pictures.difference.empty()) {
             errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);
-            write(pictures.difference, errorPicture(errors, pictures.error_top));
+            write(pictures.difference,
+                  errorPicture(channel.shown_error ? *channel.shown_error : errors, pictures.error_top));
             pictures.histogram = errorHistogram(errors, comparison.coverage);
             pictures.worst =
                 worstPixels(errors, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
