@@ -246,9 +246,7 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
             report.frames[0].through_gbuffer = frame.through_gbuffer;
     for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
         report.comparisons.push_back(compareFrames(report, left, right, needs, options));
-    for (const std::size_t i : {0u, 1u})
-        report.comparisons[i].notes.insert(report.comparisons[i].notes.begin(), mismatches.begin(),
-                                           mismatches.end());
+    report.said_first = mismatches;
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return report;

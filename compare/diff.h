@@ -58,6 +58,7 @@ struct Report {
     ReportDevice device;
     std::vector<Frame> frames;
     std::vector<Comparison> comparisons;
+    std::vector<std::string> said_first;  // what must be known before any number is read
     double diff_ms = 0;  // the comparing alone
 
     bool passed() const;

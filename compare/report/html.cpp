@@ -63,6 +63,12 @@ std::string firstOf(const std::vector<std::string>& items, const char* elsewhere
     return out;
 }
 
+std::string saidFirst(const Report& report) {
+    std::vector<std::string> items;
+    for (const std::string& line : report.said_first) items.push_back(markup(line));
+    return listBox("notes", "Before anything else", firstOf(items, "report.json has all of them"));
+}
+
 // Where to look first, over all comparisons.
 std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
@@ -77,6 +83,18 @@ std::string failures(const Report& report, const ReportLayout& layout) {
     }
     return listBox("failures", "Failures",
                    firstOf(items, "the comparisons below begin with those that fail"));
+}
+
+// What a rule warns of.
+std::string warnings(const Report& report, const ReportLayout& layout) {
+    std::vector<std::string> items;
+    for (const std::size_t i : layout.order)
+        for (const ChannelDiff& channel : report.comparisons[i].channels)
+            if (!channel.warning.empty())
+                items.push_back(fmt::format("{}<a href=\"#c{}-{}\">{}</a>: {}",
+                                            whereOf(report, report.comparisons[i]), i, channel.mode->name,
+                                            channel.mode->name, markup(channel.warning)));
+    return listBox("notes", "Warnings", firstOf(items, "report.json has all of them"));
 }
 
 // A note that several frames share is said once.
@@ -206,9 +224,9 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 }  // namespace
 
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
-    std::string body = header(report) + failures(report, layout) + notes(report) +
-                       marksLinks(report, layout) + indexTable(report, layout) + legend +
-                       "<div id=\"sections\">\n";
+    std::string body = header(report) + saidFirst(report) + failures(report, layout) +
+                       warnings(report, layout) + notes(report) + marksLinks(report, layout) +
+                       indexTable(report, layout) + legend + "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         body += section(report, layout, layout.order[at]);
     body += "</div>\n" + laterSections(report, layout);

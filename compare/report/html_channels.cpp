@@ -40,12 +40,12 @@ public:
             "\u00b7 {6}</span><span class=\"verdict {0}\">{0}</span></summary><div class=\"body\">\n",
             nameOf(channel_.verdict), id_, open ? " open" : "", mode.name, mode.number, nameOf(mode.metric),
             markup(mode.shows));
+        if (!channel_.warning.empty())
+            out += fmt::format("<p class=\"warning\">Warning: {}</p>\n", markup(channel_.warning));
         if (!channel_.reason.empty())
             out += fmt::format("<p class=\"reason\">{}</p>\n", markup(channel_.reason));
         if (!compared) return out + single() + "</div></details>\n";
         out += "<div class=\"pictures\">" + pair() + "<div>" + difference() + numbers() + "</div></div>\n";
-        if (!channel_.warning.empty())
-            out += fmt::format("<p class=\"warning\">Warning: {}</p>\n", markup(channel_.warning));
         out += because();
         return out + again() + loupes() + errorFigures(channel_, pictures_, id_) + "</div></details>\n";
     }

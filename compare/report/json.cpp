@@ -144,6 +144,7 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
         {"verdict", report.passed() ? "pass" : "fail"},
         {"device",
          {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
+        {"said_first", report.said_first},
         {"frames", frames},
         {"comparisons", comparisons},
         {"compare_ms", report.diff_ms}};

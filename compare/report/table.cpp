@@ -30,6 +30,7 @@ Row rowOf(const ChannelDiff& channel) {
 }
 
 std::string frameLine(const Frame& frame) {
+    if (!frame.origin.file.empty()) return fmt::format("  {}: {}\n", frame.name, frame.origin.file);
     std::string line = "  " + frame.name;
     if (frame.time.runs > 0)
         line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {} runs)", frame.time.median, frame.time.min,
@@ -42,6 +43,7 @@ std::string frameLine(const Frame& frame) {
 
 std::string reportTable(const Report& report) {
     std::string out;
+    for (const std::string& line : report.said_first) out += line + "\n";
     std::set<std::string> said;  // several comparisons of one scene share their notes
     for (const Comparison& comparison : report.comparisons) {
         const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
@@ -66,8 +68,13 @@ std::string reportTable(const Report& report) {
                 out += fmt::format("  FAIL {}: {}", channel.mode->name, channel.reason);
                 if (channel.stats.worst_x >= 0)
                     out += fmt::format(", worst at {},{}", channel.stats.worst_x, channel.stats.worst_y);
-                out += fmt::format(" ({})\n", channel.tolerance.because);
+                out += fmt::format(" ({}{}{})\n", channel.rule, channel.rule.empty() ? "" : ", because ",
+                                   channel.tolerance.because);
             }
+        for (const ChannelDiff& channel : comparison.channels)
+            if (!channel.warning.empty())
+                out +=
+                    fmt::format("  warning {}: {} ({})\n", channel.mode->name, channel.warning, channel.rule);
         if (const std::string marks = marksLine(comparison); !marks.empty()) out += "  " + marks + "\n";
         for (const std::string& note : notesOf(report, comparison))
             if (said.insert(note).second) out += "  note: " + note + "\n";

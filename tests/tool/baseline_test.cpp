@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// compare against a picture of earlier: what it says of itself, how it is renewed, what may go wrong.
+#include "shared/image/exr.h"
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string small = "compare builtin:gallery --size 32x18 --runs 0 --channels lit,normals -q ";
+
+Json reportIn(const Folder& folder) {
+    return Json::parse(contentsOf(folder / "diptych-report" / "report.json"));
+}
+
+TEST(Baseline, IsWrittenComparedAndRenewed) {
+    const Folder folder;
+    Ran ran =
+        runTool(folder, "compare builtin:gallery --size 32x18 --runs 0 --baseline b.exr --update-baseline");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.err.find("baseline b.exr written from forward_plus"), std::string::npos) << ran.err;
+    const std::string first = contentsOf(folder / "b.exr");
+
+    ran = runTool(folder, small + "--baseline b.exr");
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    Json report = reportIn(folder);
+    EXPECT_EQ(report["said_first"], Json::array()) << "same commit, device, driver, scene and Settings";
+    ASSERT_EQ(report["comparisons"].size(), 3u);
+    for (const Json& channel : report["comparisons"][1]["channels"])
+        EXPECT_EQ(channel["max"], 0) << channel["name"];
+    EXPECT_EQ(report["frames"][0]["name"], "baseline");
+    EXPECT_NE(report["frames"][0]["origin"]["device"], "");
+    EXPECT_NE(report["frames"][0]["origin"]["commit"], "");
+    EXPECT_EQ(contentsOf(folder / "b.exr"), first) << "comparing writes no baseline";
+
+    // Another light: the difference is one of Settings, which is said before any number.
+    ran = runTool(folder, "compare builtin:gallery --size 32x18 --runs 0 --baseline b.exr --lights point:2");
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(ran.out.find("baseline: other Settings: lights \"\" (now \"point:2\")"), 0u) << ran.out;
+
+    ran = runTool(folder, small + "--baseline b.exr --lights point:2 --update-baseline");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(contentsOf(folder / "b.exr.old"), first) << "the old one stays";
+    EXPECT_NE(contentsOf(folder / "b.exr"), first);
+    EXPECT_EQ(runTool(folder, small + "--baseline b.exr --lights point:2").code, 0);
+}
+
+TEST(Baseline, OfAnotherRendererNeedsARule) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "render builtin:gallery --size 32x18 --runs 0 -q -o mine.exr").code, 0);
+    const PictureFile mine = readExr(folder / "mine.exr");
+    const auto lit = std::ranges::find(mine.layers, "", &PictureLayer::name);
+    ASSERT_NE(lit, mine.layers.end());
+    Image rgb(32, 18, 3);
+    for (std::size_t i = 0; i < rgb.pixels(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) rgb.pixel(i)[c] = lit->image.pixel(i)[c] * 1.001f;
+    writeExr(folder / "theirs.exr", {{{"R", "G", "B"}, &rgb}});
+    Ran ran = runTool(folder, "compare builtin:gallery --size 32x18 --runs 0 --baseline theirs.exr");
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(ran.out.find("baseline: not written by diptych"), 0u) << ran.out;
+    EXPECT_NE(ran.out.find("no bound is known between these two paths"), std::string::npos) << ran.out;
+    folder.write("t.json", R"({"rules": [{"channel": "lit", "flip": 0.05, "because": "another renderer"}]})");
+    ran = runTool(folder, small + "--baseline theirs.exr --tolerances t.json");
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+}
+
+TEST(Baseline, FaultsAreOneLine) {
+    const Folder folder;
+    EXPECT_TRUE(runTool(folder, small + "--baseline none.exr").failedOver("none.exr: no such file"));
+    folder.write("text.exr", "no picture");
+    EXPECT_TRUE(runTool(folder, small + "--baseline text.exr").failedOver("text.exr: "));
+    ASSERT_EQ(runTool(folder, "render builtin:gallery --size 16x9 --runs 0 -q -o b.exr").code, 0);
+    EXPECT_TRUE(runTool(folder, small + "--baseline b.exr").failedOver("16x9"));
+    EXPECT_TRUE(runTool(folder, "compare builtin:gallery builtin:spheres --size 16x9 --baseline b.exr")
+                    .failedOver("--baseline b.exr: is one picture"));
+    const std::string before = contentsOf(folder / "b.exr");
+    EXPECT_EQ(runTool(folder,
+                      "compare builtin:gallery --size 16x9 --runs 0 -q --baseline b.exr --update-baseline "
+                      "--path reference")
+                  .code,
+              2);
+    EXPECT_EQ(contentsOf(folder / "b.exr"), before);
+}
+
+// Two runs of a path on a CPU device are the same, or it is a race: compare looks.
+TEST(Noise, EveryChannelIsDrawnTwice) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, small).code, 0);
+    for (const Json& frame : reportIn(folder)["frames"]) {
+        ASSERT_TRUE(frame["noise"].contains("lit"));
+        EXPECT_TRUE(frame["noise"].contains("normals"));
+    }
+}
+
+TEST(Selection, CompareKnowsMasksToo) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, small + "--crop 0,0,8x8").code, 0);
+    EXPECT_EQ(reportIn(folder)["comparisons"][0]["covered_pixels"], 64);
+    EXPECT_TRUE(runTool(folder, small + "--crop 30,0,8x8").failedOver("--crop 30,0,8x8: is not inside"));
+    ASSERT_EQ(runTool(folder, small + "--ignore-edges 1").code, 0);
+    EXPECT_LT(reportIn(folder)["comparisons"][0]["covered_pixels"], 32 * 18);
+}
+
+}  // namespace
+}  // namespace diptych

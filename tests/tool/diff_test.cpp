@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// diff as a user and a script run it: files of several kinds, what decides, what is written.
+#include "shared/image/exr.h"
+#include "shared/image/pfm.h"
+#include "shared/image/png.h"
+#include "shared/image/radiance.h"
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+const fs::path published = fs::path(DIPTYCH_SOURCE_DIR) / "../shared/flip";
+
+Image8 grey(std::uint8_t value, int width = 32, int height = 16) {
+    return {width, height, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), value)};
+}
+
+Image noise(unsigned seed) {
+    Image image(32, 16, 3);
+    for (float& v : image.data) {
+        seed = seed * 1664525u + 1013904223u;
+        v = static_cast<float>(seed >> 8) * 0x1p-22f;
+    }
+    return image;
+}
+
+Json jsonOf(const Ran& ran) {
+    EXPECT_TRUE(ran.err.empty()) << ran.err;
+    return Json::parse(ran.out);
+}
+
+// sRGB grey 128 against itself and a little more: the values that FLIP's authors' program gives.
+TEST(DiffCommand, FlipDecidesByItsMean) {
+    const Folder folder;
+    writePng(folder / "a.png", grey(128));
+    const std::pair<int, double> steps[] = {{0, 0}, {1, 0.02986}, {2, 0.04849}, {4, 0.0787}, {16, 0.2065}};
+    for (const auto& [step, mean] : steps) {
+        writePng(folder / "b.png", grey(static_cast<std::uint8_t>(128 + step)));
+        const Json json = jsonOf(runTool(folder, "diff a.png b.png --json"));
+        EXPECT_NEAR(json["metrics"]["flip"].get<double>(), mean, 1e-4) << step;
+        EXPECT_EQ(json["verdict"], step == 0 ? "pass" : "fail");
+        EXPECT_EQ(runTool(folder, "diff a.png b.png -q").code, step == 0 ? 0 : 1);
+        EXPECT_EQ(runTool(folder, "diff a.png b.png -q --tolerance " + std::to_string(mean + 1e-4)).code, 0);
+    }
+    EXPECT_FALSE(fs::exists(folder / "diptych-report")) << "nothing is written without -o";
+}
+
+TEST(DiffCommand, TheAuthorsPairs) {
+    if (!fs::exists(published))
+        GTEST_SKIP() << "NO PICTURES at " << published << ": the pairs are not compared";
+    const Folder folder;
+    const auto diff = [&](const std::string& a, const std::string& b) {
+        return jsonOf(runTool(folder, "diff '" + (published / a).string() + "' '" + (published / b).string() +
+                                          "' --json"))["channels"][0]["flip_pooled"];
+    };
+    const Json tree = diff("tree-ref.png", "tree-test.png"), city = diff("city-ref.exr", "city-test.exr");
+    EXPECT_EQ(tree["kind"], "LDR");
+    EXPECT_NEAR(tree["mean"].get<double>(), 0.133276, 1e-4);
+    EXPECT_EQ(city["kind"], "HDR");
+    EXPECT_NEAR(city["mean"].get<double>(), 0.109993, 1e-4);
+    EXPECT_NEAR(city["start_exposure"].get<double>(), -12.8397, 5e-5);
+    EXPECT_EQ(city["exposures"], 15);
+}
+
+// One picture in four formats: the same but for what RGBE and 8 bits round.
+TEST(DiffCommand, FormatsMeet) {
+    const Folder folder;
+    const Image image = noise(7);
+    writeExr(folder / "a.exr", {{{"R", "G", "B"}, &image}});
+    writePfm(folder / "a.pfm", image);
+    writeHdr(folder / "a.hdr", image);
+    EXPECT_EQ(runTool(folder, "diff a.exr a.pfm --metric max -q").code, 0);
+    EXPECT_EQ(runTool(folder, "diff a.pfm a.hdr --metric max -q").code, 1);
+    EXPECT_EQ(runTool(folder, "diff a.pfm a.hdr --metric max --tolerance 0.016 -q").code, 0)
+        << "half a step of 8 bits under 4";
+    writePng(folder / "a.png", grey(188));
+    Image half(32, 16, 3, 0.5f);
+    writePfm(folder / "half.pfm", half);
+    const Ran ran = runTool(folder, "diff half.pfm a.png --metric max --tolerance 0.005");
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    EXPECT_NE(ran.out.find("a.png is PNG and was made linear, by the sRGB curve"), std::string::npos)
+        << ran.out;
+}
+
+TEST(DiffCommand, NanAgainstANumberIsADifference) {
+    const Folder folder;
+    Image a = noise(3), b = a;
+    b.data[17] = std::nanf("");
+    writePfm(folder / "a.pfm", a);
+    writePfm(folder / "b.pfm", b);
+    for (const char* metric : {"flip", "max", "rmse", "relative", "ulp", "ssim", "psnr", "p999"}) {
+        EXPECT_EQ(runTool(folder, std::string("diff b.pfm b.pfm -q --metric ") + metric).code, 0) << metric;
+        // p999 of 512 pixels is the worst one.
+        EXPECT_EQ(runTool(folder, std::string("diff a.pfm b.pfm -q --metric ") + metric).code, 1) << metric;
+    }
+    EXPECT_EQ(runTool(folder, "diff a.pfm b.pfm -q --metric max --tolerance 1e30").code, 1);
+}
+
+TEST(DiffCommand, ChannelsAreMatchedByName) {
+    const Folder folder;
+    const Image color = noise(1), other = noise(2);
+    writeExr(folder / "a.exr", {{{"R", "G", "B"}, &color}, {{"albedo.R", "albedo.G", "albedo.B"}, &other}});
+    writeExr(folder / "b.exr",
+             {{{"R", "G", "B"}, &color}, {{"diffuse.R", "diffuse.G", "diffuse.B"}, &other}});
+    Ran ran = runTool(folder, "diff a.exr b.exr");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_NE(ran.out.find("albedo is in the reference alone and was not compared"), std::string::npos)
+        << ran.out;
+    EXPECT_TRUE(
+        runTool(folder, "diff a.exr b.exr --channels albedo").failedOver("--channels albedo: not in both"));
+    ran = runTool(folder,
+                  "diff a.exr b.exr --channels albedo --map albedo=diffuse.R,diffuse.G,diffuse.B --json");
+    EXPECT_EQ(jsonOf(ran)["channels"][0]["name"], "albedo");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(
+        runTool(folder, "diff a.exr b.exr --map lit=diffuse.R,diffuse.G,diffuse.B --channels lit -q").code,
+        1);
+}
+
+TEST(DiffCommand, SizesMustAgree) {
+    const Folder folder;
+    writePng(folder / "a.png", grey(1));
+    writePng(folder / "b.png", grey(1, 16, 32));
+    EXPECT_TRUE(runTool(folder, "diff a.png b.png")
+                    .failedOver("a.png is 32x16 and b.png is 16x32: only pictures of one size are compared"));
+    EXPECT_TRUE(runTool(folder, "diff a.png none.png").failedOver("none.png: no such file"));
+    folder.write("text.png", "no picture");
+    EXPECT_TRUE(runTool(folder, "diff a.png text.png").failedOver("text.png: "));
+}
+
+TEST(DiffCommand, ARuleOfAFileDecides) {
+    const Folder folder;
+    writePng(folder / "a.png", grey(100));
+    writePng(folder / "b.png", grey(102));
+    folder.write("t.json", R"({"rules": [
+        {"channel": "*", "max": 0.008, "warn": {"max": 0.001}, "because": "two codes of 255"}]})");
+    Ran ran = runTool(folder, "diff a.png b.png --tolerances t.json");
+    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    EXPECT_NE(ran.out.find("warn lit: max 0.007843 exceeds 0.001"), std::string::npos) << ran.out;
+    folder.write("t.json", R"({"rules": [{"channel": "lit", "max": 0.007, "because": "less"}]})");
+    ran = runTool(folder, "diff a.png b.png --tolerances t.json");
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_NE(ran.out.find("(t.json, rule 1: less)"), std::string::npos) << ran.out;
+    folder.write("t.json", "{}");
+    EXPECT_TRUE(runTool(folder, "diff a.png b.png --tolerances t.json").failedOver("t.json: has no rules"));
+}
+
+TEST(DiffCommand, SomePixelsMayFail) {
+    const Folder folder;
+    Image8 a = grey(100), b = a;
+    for (int i = 0; i < 5 * 3; ++i) b.data[static_cast<std::size_t>(i)] = 200;  // 5 of 512 pixels
+    writePng(folder / "a.png", a);
+    writePng(folder / "b.png", b);
+    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --tolerance 0.01 --failing 0.0097").code, 1);
+    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --tolerance 0.01 --failing 0.0098").code, 0) << "5 / 512";
+    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --crop 5,0,27x16").code, 0);
+    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --crop 4,0,28x16").code, 1);
+}
+
+TEST(DiffCommand, WritesErrorsPicturesAndReports) {
+    const Folder folder;
+    writePng(folder / "a.png", grey(100));
+    writePng(folder / "b.png", grey(120));
+    EXPECT_EQ(runTool(folder, "diff a.png b.png -q -o error.exr").code, 1);
+    const PictureFile errors = readExr(folder / "error.exr");
+    ASSERT_EQ(errors.layers.size(), 1u);
+    EXPECT_EQ(errors.layers[0].channels, std::vector<std::string>{"lit.Y"});
+    EXPECT_EQ(runTool(folder, "diff a.png b.png -q -o error.png").code, 1);
+    EXPECT_TRUE(fs::exists(folder / "error.png"));
+    EXPECT_EQ(runTool(folder, "diff a.png b.png -q -o report").code, 1);
+    for (const char* name :
+         {"index.html", "report.json", "junit.xml", "lit.reference.png", "lit.difference.png"})
+        EXPECT_TRUE(fs::exists(folder / "report" / name)) << name;
+    const Json report = Json::parse(contentsOf(folder / "report" / "report.json"));
+    EXPECT_EQ(report["verdict"], "fail");
+    EXPECT_EQ(report["comparisons"][0]["channels"][0]["rule"], "command line: flip <= 0");
+    folder.write("mine/keep.txt", "x");
+    EXPECT_TRUE(runTool(folder, "diff a.png b.png -o mine").failedOver("--force replaces it"));
+}
+
+}  // namespace
+}  // namespace diptych
