@@ -80,6 +80,7 @@ Report againstFile(const Options& options, Drawn& drawn, std::optional<Frame> ba
     const CompareOptions compare = compareOptions(options);
     if (!baseline)
         return makeReport(std::move(drawn.frames), drawn.needs, device, compare, std::move(drawn.marks));
+    baseline->asked = drawn.frames.front().asked;
     return makeBaselineReport(std::move(*baseline), std::move(drawn.frames), drawn.needs.front(), device,
                               compare, baselineMismatches(*baseline, drawn.frames.front(), device));
 }

@@ -178,7 +178,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             comparison.channels.emplace_back().mode = &mode;
         } else if (onLeft || onRight) {
             const std::string& one = onLeft ? left.name : right.name;
-            if (mode.maker == MadeBy::forward_only) {
+            const Path lacking = onLeft ? right.settings.path : left.settings.path;
+            if (mode.maker == MadeBy::forward_only && lacking == Path::deferred) {
                 ChannelDiff& channel = comparison.channels.emplace_back();
                 channel.mode = &mode;
                 channel.tolerance = {0, "the G-buffer does not carry it, so only forward+ shows it"};

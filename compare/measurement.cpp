@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace diptych {
 namespace {
@@ -15,9 +16,19 @@ struct Row {
     Value (*value)(const Measurement&);
 };
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// FLIP is at most 1, but a NaN against a number is a difference that no bound may let pass.
 Value ofFlip(const Measurement& m, double FlipResult::*member) {
     const HdrFlipResult* flip = m.flip();
-    return flip ? Value((*flip).*member) : Value();
+    if (!flip) return {};
+    return m.plain().nonfinite_different > 0 ? infinity : (*flip).*member;
+}
+
+// Windows with a NaN are left out of it.
+Value ofSsim(const Measurement& m) {
+    const Value value = m.plain().ssim;
+    return value && m.plain().nonfinite_different > 0 ? -infinity : value;
 }
 
 template <double ChannelStats::*member>
@@ -60,8 +71,7 @@ const std::array rows{
     Row{{"relative_p999", false, "its 99.9th percentile"}, plain<&PlainMetrics::relative_p999>},
     Row{{"psnr", true, "10 log10(peak^2 / mse), dB; peak 1, of linear values the reference's largest"},
         plain<&PlainMetrics::psnr>},
-    Row{{"ssim", true, "mean structural similarity, at most 1 (Wang et al. 2004)"},
-        [](const Measurement& m) { return m.plain().ssim; }},
+    Row{{"ssim", true, "mean structural similarity, at most 1 (Wang et al. 2004)"}, ofSsim},
     Row{{"ulp_max", false, "most float32 values between t and r"}, plain<&PlainMetrics::ulp_max>},
     Row{{"ulp_mean", false, "mean number of float32 values between t and r"}, plain<&PlainMetrics::ulp_mean>},
     Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&PlainMetrics::angle_max>},
@@ -126,16 +136,30 @@ const PlainMetrics& Measurement::plain() const {
     return *plain_;
 }
 
+// FLIP's filters reach some pixels beyond the one that they judge: what does not count is a hole in both
+// pictures, so that it cannot be seen from beside it.
+Image Measurement::withHoles(const Image& image) const {
+    Image holed = image;
+    for (std::size_t i = 0; i < holed.pixels(); ++i)
+        if (!pair_.coverage->covered[i])
+            std::fill_n(holed.pixel(i), holed.components, std::numeric_limits<float>::quiet_NaN());
+    return holed;
+}
+
 const HdrFlipResult* Measurement::flip() const {
     if (pair_.kind != ChannelKind::color || pair_.reference->components != 3) return nullptr;
     if (!flip_) {
         HdrFlipOptions options = pair_.flip;
         options.covered = pair_.coverage->covered;
+        const bool whole = pair_.coverage->count == pair_.reference->pixels();
+        const Image reference = whole ? Image() : withHoles(*pair_.reference),
+                    test = whole ? Image() : withHoles(*pair_.test);
+        const Image &r = whole ? *pair_.reference : reference, &t = whole ? *pair_.test : test;
         if (pair_.display) {
             flip_.emplace();
-            static_cast<FlipResult&>(*flip_) = ldrFlip(*pair_.reference, *pair_.test, options);
+            static_cast<FlipResult&>(*flip_) = ldrFlip(r, t, options);
         } else {
-            flip_ = hdrFlip(*pair_.reference, *pair_.test, options);
+            flip_ = hdrFlip(r, t, options);
         }
     }
     return &*flip_;

@@ -46,6 +46,7 @@ public:
     const HdrFlipResult* flip() const;  // nullptr where it is not defined
 
 private:
+    Image withHoles(const Image& image) const;
     double failingShare(double above) const;
 
     ChannelPair pair_;
