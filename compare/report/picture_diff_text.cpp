@@ -16,7 +16,7 @@ namespace diptych {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Row = std::array<std::string, 7>;
+using Row = std::array<std::string, 9>;
 
 Json finiteOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -114,15 +114,16 @@ Json channelJson(const PictureChannelDiff& channel) {
 std::string pictureDiffTable(const PictureDiff& diff) {
     std::string out =
         fmt::format("{} against {}, {}x{}\n", diff.test, diff.reference, diff.width, diff.height);
-    std::vector<Row> rows{{"channel", "figure", "value", "tolerance", "max", "rmse", "verdict"}};
+    std::vector<Row> rows{
+        {"channel", "figure", "value", "tolerance", "max", "rmse", "psnr", "ssim", "verdict"}};
     for (const PictureChannelDiff* channel : failuresFirst(diff)) rows.push_back(rowOf(*channel));
-    std::array<std::size_t, 7> widths{};
+    std::array<std::size_t, 9> widths{};
     for (const Row& row : rows)
         for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
     for (const Row& row : rows) {
         out += fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
-        for (std::size_t i = 2; i < 6; ++i) out += fmt::format("  {:>{}}", row[i], widths[i]);
-        out += "  " + row[6] + "\n";
+        for (std::size_t i = 2; i + 1 < row.size(); ++i) out += fmt::format("  {:>{}}", row[i], widths[i]);
+        out += "  " + row.back() + "\n";
     }
     std::string failed;
     for (const PictureChannelDiff* channel : failuresFirst(diff)) {
