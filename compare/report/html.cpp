@@ -18,7 +18,10 @@ namespace {
 std::string titleOf(const Report& report, const Comparison& comparison) {
     const Frame& frame = report.baseline(comparison);
     if (report.device.name.empty()) return frame.origin.file;  // two files
-    return fmt::format("{} \u00b7 {}", frame.scene, cameraTitle(frame));
+    std::string title = fmt::format("{} \u00b7 {}", frame.scene, cameraTitle(frame));
+    // Three pairs of one scene and camera.
+    if (hasBaselineFile(report)) title += " \u00b7 " + pairTitle(report, comparison);
+    return title;
 }
 
 std::string header(const Report& report) {

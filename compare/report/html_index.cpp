@@ -69,8 +69,9 @@ std::string line(const Report& report, const ReportLayout& layout, std::size_t i
         "<tr data-comparison=\"{0}\"{1}><td><span class=\"verdict {2}\">{2}</span></td><td class=\"wide\"><a "
         "href=\"#s{0}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}{8}</tr>\n",
         index, file.empty() ? "" : fmt::format(" data-section=\"{}\"", markup(file)), verdict,
-        markup(left.scene), markup(cameraTitle(left)), worstCell(comparison, index), litCell(comparison),
-        timeCell(left), timeCell(right));
+        markup(left.scene),
+        markup(hasBaselineFile(report) ? pairTitle(report, comparison) : cameraTitle(left)),
+        worstCell(comparison, index), litCell(comparison), timeCell(left), timeCell(right));
 }
 
 }  // namespace
@@ -84,13 +85,15 @@ std::string indexTable(const Report& report, const ReportLayout& layout) {
         "<section class=\"index\"><h2>Comparisons <span class=\"shown soft\"></span></h2>"
         "<p><input type=\"search\" placeholder=\"filter: scene, camera, channel, fail\" "
         "aria-label=\"filter\"></p>"
-        "<div class=\"box scroll\"><table><thead><tr><th>verdict</th><th>scene</th><th>camera</th>"
+        "<div class=\"box scroll\"><table><thead><tr><th>verdict</th><th>scene</th><th>{}</th>"
         "<th>worst channel</th><th class=\"n optional\">of tolerance</th><th class=\"n optional\">lit "
         "max</th>"
         "<th class=\"n optional\">{}, ms</th><th class=\"n optional\">{}, "
         "ms</th></tr></thead>\n<tbody>{}</tbody>"
         "</table></div></section>\n",
-        markup(report.baseline(first).name), markup(report.test(first).name), lines);
+        hasBaselineFile(report) ? "pair" : "camera",
+        hasBaselineFile(report) ? "left" : markup(report.baseline(first).name),
+        hasBaselineFile(report) ? "right" : markup(report.test(first).name), lines);
 }
 
 }  // namespace diptych

@@ -81,6 +81,10 @@ std::string cameraTitle(const Frame& frame) {
     return frame.settings.camera.empty() ? "default view" : frame.settings.camera;
 }
 
+bool hasBaselineFile(const Report& report) {
+    return std::ranges::any_of(report.frames, [](const Frame& f) { return !f.origin.file.empty(); });
+}
+
 std::string pairTitle(const Report& report, const Comparison& comparison) {
     return fmt::format("{} against {}", report.test(comparison).name, report.baseline(comparison).name);
 }
