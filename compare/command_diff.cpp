@@ -8,14 +8,24 @@
 
 namespace diptych {
 
+// The share of reading and measuring; the rest is writing.
+constexpr double measuring = 0.8;
+
 int runDiff(const Options& options) {
     const std::optional<Output> output =
         options.out.empty() ? std::nullopt : std::optional(outputOf(options.out));
     if (output) checkReplaceable(*output, "report.json", options.force);
     PictureDiffOptions settings = options.diff;
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
+    Progress progress(progressOutput(options));
+    const Stage stage(progress, options.scenes.at(1));
+    settings.progress = stage.part(0, measuring);
     const PictureDiff diff = diffPictures(options.scenes.at(0), options.scenes.at(1), settings);
-    if (output) writePictureDiff(diff, *output, {options.picture, options.single_file, options.force});
+    stage.at(measuring, "write");
+    if (output)
+        writePictureDiff(diff, *output,
+                         {options.picture, options.single_file, options.force, stage.part(measuring, 1)});
+    progress.wipe();
     if (options.json)
         fmt::print("{}", pictureDiffJson(diff));
     else if (!options.quiet)

@@ -76,12 +76,14 @@ int runPlan(const Options& options) {
     if (options.path_given) paths = {options.settings.path};
     const std::vector<Settings> settings = plan(options, paths);
     Device device(deviceOptions(options));
+    Progress progress(progressOutput(options));
     Json scenes = Json::array();
     for (const std::string& name : options.scenes) {
-        const Scene scene = loadShown(options, name);
+        const Scene scene = loadShown(name, Stage(progress, name));
         const Requirements needs = needsOf(scene, options.settings);
         const ScenePlan result{scene.name, needs, linesOf(scene, needs, options.settings), scene.notes,
                                planPaths(device, scene, settings)};
+        progress.wipe();
         if (options.json)
             scenes.push_back(jsonOf(result));
         else if (!options.quiet)

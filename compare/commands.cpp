@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/commands.h"
 
-#include "compare/progress.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,6 +40,10 @@ Requirements needsOf(const Scene& scene, const Settings& settings) {
     return requirements(scene, pose);
 }
 
+std::optional<ProgressOutput> progressOutput(const Options& options) {
+    return options.quiet ? std::nullopt : std::optional(ProgressOutput::standardError());
+}
+
 RenderOptions renderOptions(const Options& options) {
     RenderOptions render;
     render.channels = options.channels;
@@ -49,7 +51,7 @@ RenderOptions renderOptions(const Options& options) {
         for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
     render.asked = render.channels;
     render.runs = options.runs;
-    render.progress = [&options](const std::string& step) { say(options, step); };
+    render.said = [&options](const std::string& step) { say(options, step); };
     return render;
 }
 
@@ -73,13 +75,21 @@ void checkValidation(const Device& device) {
             fmt::format("--validate: {} messages, the first: {}", count, device.firstValidationMessage()));
 }
 
-Scene loadShown(const Options& options, const std::string& where) {
-    ProgressBar bar(where, !options.quiet);
-    return loadScene(where, [&](double fraction, const char* step) { bar.at(fraction, step); });
+double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
+    // In frames drawn: a file of some hundred megabytes; ours are made at once.
+    const double load = scene.starts_with("builtin:") ? 0.1 : 4;
+    return load / (load + framesIn(render) * static_cast<double>(frames));
+}
+
+Scene loadShown(const std::string& where, const Stage& progress) {
+    progress.at(0, "read");
+    return loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
 }
 
 void note(const Options& options, const std::string& line) {
-    if (!options.quiet) std::fprintf(stderr, "diptych: %s\n", line.c_str());
+    if (options.quiet) return;
+    wipeProgress();
+    std::fprintf(stderr, "diptych: %s\n", line.c_str());
 }
 
 void say(const Options& options, const std::string& line) {

@@ -5,10 +5,12 @@
 
 #include "compare/command_line.h"
 #include "compare/diff.h"
+#include "compare/progress.h"
 #include "compare/render.h"
 #include "shared/scene/requirements.h"
 #include "shared/vulkan/device.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,9 @@ std::vector<Settings> plan(const Options& options, const std::vector<Path>& path
 // What the scene needs modelled, with the lights that the settings bring.
 Requirements needsOf(const Scene& scene, const Settings& settings);
 
+// Standard error, unless they want nothing.
+std::optional<ProgressOutput> progressOutput(const Options& options);
+
 RenderOptions renderOptions(const Options& options);
 DeviceOptions deviceOptions(const Options& options);
 ReportDevice reportDevice(const Device& device);
@@ -40,8 +45,11 @@ void refuseOut(const Options& options);
 // With --validate any message of the layers is a failure: throws how many there were and the first one.
 void checkValidation(const Device& device);
 
-// loadScene(), with a progress bar on a terminal where it takes over a second.
-Scene loadShown(const Options& options, const std::string& where);
+// The share of loading in what a scene takes until `frames` Frames of it are drawn, from 0 to 1.
+double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
+
+// loadScene(), which fills `progress`.
+Scene loadShown(const std::string& where, const Stage& progress);
 
 // A line on stderr, for people: unless they want none; where they asked for more.
 void note(const Options& options, const std::string& line);

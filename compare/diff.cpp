@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -194,9 +195,12 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         throw std::runtime_error(
             fmt::format("{} and {} share no channel that was asked for; add one that both make to --channels",
                         left.name, right.name));
+    std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];
         if (channel.verdict != Verdict::forward_only) channel = diffChannel(*channel.mode, pair, options);
+        options.progress.at(static_cast<double>(++done) / static_cast<double>(comparison.channels.size()),
+                            "compare " + std::string(channel.mode->name));
     });
 
     for (const Frame* frame : {&left, &right}) {
@@ -219,7 +223,10 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
     report.frames = std::move(frames);
     for (std::size_t i = 0; i + 1 < report.frames.size(); i += 2) {
         const bool swapped = report.frames[i + 1].settings.path == options.baseline;
-        report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), options));
+        CompareOptions here = options;
+        const auto all = static_cast<double>(report.frames.size() / 2 * 2), done = static_cast<double>(i);
+        here.progress = options.progress.part(done / all, (done + 2) / all).about(report.frames[i].scene);
+        report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), here));
         const Frame& left = report.baseline(report.comparisons.back());
         std::vector<std::string> command = wordsOf("compare", left.scene, left.settings);
         if (options.baseline != Path::deferred)
@@ -245,8 +252,12 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
     for (const Frame& frame : report.frames)
         if (frame.settings.path == Path::forward_plus && report.frames[0].settings.path == Path::forward_plus)
             report.frames[0].through_gbuffer = frame.through_gbuffer;
-    for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
-        report.comparisons.push_back(compareFrames(report, left, right, needs, options));
+    for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
+        CompareOptions here = options;
+        const auto done = static_cast<double>(report.comparisons.size());
+        here.progress = options.progress.part(done / 3, (done + 1) / 3);
+        report.comparisons.push_back(compareFrames(report, left, right, needs, here));
+    }
     report.said_first = mismatches;
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

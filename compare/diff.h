@@ -4,6 +4,7 @@
 
 #include "compare/marks.h"
 #include "compare/metrics/channel.h"
+#include "compare/progress.h"
 #include "compare/rules.h"
 #include "compare/selection.h"
 #include "compare/tolerance.h"
@@ -71,6 +72,7 @@ struct CompareOptions {
     std::vector<Rule> rules;         // in place of the derived tolerances, where one names the channel
     SelectionOptions selection;      // pixels
     bool allow_noise = false;        // on a GPU: what two runs of a path differ by is granted on top
+    Stage progress{};                // of comparing
 };
 
 // frames[test] against frames[baseline] of the report, over their common channels that were asked for; what

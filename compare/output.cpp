@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/output.h"
 
+#include "compare/report/report_folder.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -75,20 +77,22 @@ std::vector<std::string> listedIn(const fs::path& mark) {
     return names;
 }
 
-void removeListed(const fs::path& folder, const std::string& mark) {
-    if (!isOurMark(folder / mark)) return;
+bool isOurName(const fs::path& name) {
+    const std::string folder = name.parent_path().string();
+    return isPlainName(name.filename()) &&
+           std::ranges::all_of(folder, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::vector<std::string> markedIn(const fs::path& folder, const std::string& mark) {
+    if (!isOurMark(folder / mark)) return {};
     std::vector<std::string> names = listedIn(folder / mark);
-    names.push_back(mark);
-    std::error_code error;
-    for (const std::string& name : names)
-        if (fs::is_regular_file(fs::symlink_status(folder / name, error)) &&
-            !fs::remove(folder / name, error))
-            throw std::runtime_error(fmt::format("{}: {}", (folder / name).string(), error.message()));
-    if (fs::is_empty(folder, error)) fs::remove(folder, error);
+    if (std::ranges::count(names, mark) == 0) names.push_back(mark);
+    return names;
 }
 
 void checkReplaceable(const Output& output, const std::string& mark, bool force) {
     std::error_code error;
+    if (output.kind == OutputKind::folder && fs::is_directory(output.path, error)) finishPut(output.path);
     const fs::file_status there = fs::status(output.path, error);
     if (!fs::exists(there) || force) return;
     const bool ours =

@@ -29,13 +29,17 @@ bool isOurMark(const std::filesystem::path& file);
 // reaches neither outside the folder nor what diptych never writes. Empty where the mark is not ours.
 std::vector<std::string> listedIn(const std::filesystem::path& mark);
 
-// Removes what folder / `mark` lists, the mark, and the folder if that leaves it empty. Nothing happens where
-// the mark is not ours. Throws std::runtime_error naming the file.
-void removeListed(const std::filesystem::path& folder, const std::string& mark);
+// A file's name as diptych gives them in a folder that it writes: "lit.png" or, of several Frames,
+// "1/lit.png".
+bool isOurName(const std::filesystem::path& name);
+
+// `mark` in the folder and what it lists, where the mark is ours.
+std::vector<std::string> markedIn(const std::filesystem::path& folder, const std::string& mark);
 
 // An EXR or PNG that names diptych as its software, or a folder that is empty or holds `mark`, a JSON file of
 // ours, may be replaced; whatever else is there needs `force`. Throws std::runtime_error naming
-// -o. Files of others in such a folder are left alone.
+// -o. Files of others in such a folder are left alone. What a killed program left half done in a folder is
+// completed first.
 void checkReplaceable(const Output& output, const std::string& mark, bool force);
 
 }  // namespace diptych

@@ -113,6 +113,7 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     PictureDiff diff;
     diff.reference = reference;
     diff.test = test;
+    options.progress.at(0, "read");
     PictureFile a, b;
     tbb::parallel_invoke([&] { a = readPicture(reference); }, [&] { b = readPicture(test); });
     diff.reference_format = a.format;
@@ -143,7 +144,13 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
                                                       &p.test, diff.coverage.get(), nullptr, options.flip});
         diff.channels.push_back(std::move(channel));
     }
-    for (auto& channel : diff.channels) judge(*channel, options);
+    constexpr double reading = 0.3;
+    const auto all = static_cast<double>(diff.channels.size());
+    double done = 0;
+    for (auto& channel : diff.channels) {
+        options.progress.at(reading + (1 - reading) * done++ / all, "measure " + channel->pair.name);
+        judge(*channel, options);
+    }
     return diff;
 }
 

@@ -4,6 +4,7 @@
 
 #include "compare/layers.h"
 #include "compare/measurement.h"
+#include "compare/progress.h"
 #include "compare/rules.h"
 #include "compare/selection.h"
 
@@ -26,6 +27,7 @@ struct PictureDiffOptions {
     double blur = 0;  // standard deviation, pixels
     int shift = 0;    // pixels
     HdrFlipOptions flip;
+    Stage progress{};
 };
 
 // One channel of both pictures with all that is known of it.

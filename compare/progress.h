@@ -1,36 +1,73 @@
 // SPDX-License-Identifier: MIT
+// How far a command has come. On a terminal a line with a bar and the time left, which appears after a second
+// and is wiped at the end; elsewhere, for a log, a plain line every ten seconds.
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace diptych {
 
-// One line on a terminal that says how far something long has come: it appears after a second, so that short
-// work stays silent, and is wiped at the end. Nothing where standard error is no terminal.
-class ProgressBar {
-public:
-    // `what` it is about, e.g. "Sponza.gltf". `on` false: never anything.
-    ProgressBar(std::string what, bool on);
-    ~ProgressBar();
-    ProgressBar(const ProgressBar&) = delete;
-    ProgressBar& operator=(const ProgressBar&) = delete;
+// Where progress goes, and the time by which it does.
+struct ProgressOutput {
+    using Time = std::chrono::steady_clock::time_point;
+    bool terminal = false;
+    std::function<std::size_t()> columns;  // of the terminal
+    std::function<void(const std::string&)> write;
+    std::function<Time()> now;
 
-    // From any thread. `fraction` from 0 to 1; `step` in a word or two.
-    void at(double fraction, const char* step);
-
-private:
-    using Clock = std::chrono::steady_clock;
-    std::string what_;
-    bool on_;
-    bool shown_ = false;
-    std::mutex mutex_;
-    Clock::time_point next_;  // not drawn before
+    static ProgressOutput standardError();
 };
 
-// "Sponza.gltf [=======>      ] 52 % images and meshes", as wide as `columns` at most.
+class Progress {
+public:
+    // Without an output: never anything.
+    explicit Progress(std::optional<ProgressOutput> output);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    // From any thread. `what` it is about, e.g. "Sponza.gltf"; `fraction` of the whole command from 0 to 1,
+    // and what is less than was said before is taken for that; `step` in a word or two.
+    void at(const std::string& what, double fraction, const std::string& step);
+    void wipe();  // the terminal's line; the next at() draws it again
+
+private:
+    std::optional<ProgressOutput> output_;
+    std::timed_mutex mutex_;
+    ProgressOutput::Time start_{}, next_{};  // not drawn before `next_`
+    double furthest_ = 0;
+    bool shown_ = false;
+};
+
+// A stretch of a command's progress that one piece of work fills, and pieces of it smaller ones.
+class Stage {
+public:
+    Stage() = default;  // nobody asks
+    Stage(Progress& progress, std::string what);
+
+    void at(double fraction, const std::string& step) const;  // of this stage, from 0 to 1
+    Stage part(double from, double to) const;
+    Stage about(std::string what) const;  // the same under another name
+
+private:
+    Progress* progress_ = nullptr;
+    std::string what_;
+    double from_ = 0, to_ = 1;
+};
+
+// Wipes the line on standard error, whoever drew it: before another is written there, or the program dies.
+void wipeProgress();
+
+// "Sponza.gltf [=======>      ] 52 % images and meshes, 0:12 left", as wide as `columns` at most.
 std::string progressLine(const std::string& what, double fraction, const std::string& step,
                          std::size_t columns);
+
+// What is left at the pace so far, "0:07 left" or "1:02:05 left"; empty where nobody can know yet: before two
+// seconds or two percent.
+std::string timeLeft(std::chrono::duration<double> elapsed, double fraction);
 
 }  // namespace diptych

@@ -147,15 +147,18 @@ FrameCamera cameraOf(const View& view) {
     return camera;
 }
 
+constexpr double captureFrames = 4;  // a capture of all channels; measured, lavapipe
+
 class FrameMaker {
 public:
     FrameMaker(Device& device, SharedResources& shared, const Scene& scene, const Settings& settings,
-               const RenderOptions& options)
+               const RenderOptions& options, const Stage& progress)
         : device_(device),
           shared_(shared),
           scene_(scene),
           settings_(settings),
           options_(options),
+          progress_(progress),
           shot_(device, shared, scene, settings),
           path_(functionsOf(settings.path)) {}
 
@@ -184,7 +187,12 @@ public:
 
 private:
     void say(const std::string& step) const {
-        if (options_.progress) options_.progress(frame_.name + ": " + step);
+        if (options_.said) options_.said(frame_.name + ": " + step);
+    }
+    // Before something that takes about as long as `frames` timed frames do.
+    void step(const std::string& what, double frames = 1) {
+        progress_.at(framesDone_ / framesIn(options_), frame_.name + ": " + what);
+        framesDone_ += frames;
     }
     bool asked(int mode) const {
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
@@ -193,10 +201,15 @@ private:
     // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
     void drawTimed(PassList& passes) {
         say("draw");
+        step("first frame");
         passes.run();
         std::vector<double> ms;
-        for (int i = 0; i < options_.runs; ++i) ms.push_back(passes.run());
+        for (int i = 0; i < options_.runs; ++i) {
+            step(fmt::format("frame {} of {}", i + 1, options_.runs));
+            ms.push_back(passes.run());
+        }
         frame_.time = timeOf(std::move(ms));
+        step("time of each pass");
         if (options_.runs > 0)
             for (const PassMs& pass : passes.profile(0, passes.size()))
                 frame_.passes.push_back({pass.name, pass.ms});
@@ -227,6 +240,7 @@ private:
     // Every channel, over what the timed frame left; lit itself stays the timed pipeline's.
     void capture(PassList& passes, const FrameImages& images) {
         say("capture");
+        step("capture channels", captureFrames);
         const std::size_t first = passes.size();
         const std::vector<CapturedImage> captured =
             path_.capture(passes, shot_.inputs, images, captureRequest());
@@ -245,8 +259,10 @@ private:
         frame_.channels[lit] = std::move(lit_);
         if (options_.twice) {
             say("once more");
+            step("draw once more", 2);
             passes.run(0, first);
             addNoise(lit, readLit(passes, images));
+            step("capture once more", captureFrames);
             channels = read();
             for (std::size_t i = 0; i < captured.size(); ++i)
                 if (!captured[i].through_gbuffer && captured[i].mode != lit)
@@ -272,6 +288,8 @@ private:
     const Scene& scene_;
     const Settings& settings_;
     const RenderOptions& options_;
+    const Stage progress_;
+    double framesDone_ = 0;
     Shot shot_;
     const PathFunctions& path_;
     Frame frame_;
@@ -294,12 +312,22 @@ std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& s
     return lights;
 }
 
+double framesIn(const RenderOptions& options) {
+    return 2 + options.runs + (options.twice ? 2 + 2 * captureFrames : captureFrames);
+}
+
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
                              const RenderOptions& options) {
     for (const Settings& s : settings) checkSize(device, s.size);
+    options.progress.at(0, "upload");
     SharedResources shared(device, scene);
     std::vector<Frame> frames;
-    for (const Settings& s : settings) frames.push_back(FrameMaker(device, shared, scene, s, options).make());
+    const auto count = static_cast<double>(settings.size());
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        const auto done = static_cast<double>(i);
+        const Stage progress = options.progress.part(done / count, (done + 1) / count);
+        frames.push_back(FrameMaker(device, shared, scene, settings[i], options, progress).make());
+    }
     return frames;
 }
 

@@ -2,6 +2,7 @@
 // From a scene and Settings to Frames, on one device.
 #pragma once
 
+#include "compare/progress.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/scene.h"
 
@@ -20,9 +21,12 @@ struct RenderOptions {
     int runs = 5;                  // timed frames; 0: no times, no profile
     bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding
     bool twice = false;            // every channel once more, for Frame::noise
-    // Called before each step with a word on it, for a progress line.
-    std::function<void(const std::string&)> progress;
+    std::function<void(const std::string&)> said;  // called before each step with a word on it, for -v
+    Stage progress;                                // of renderAll()
 };
+
+// What making one Frame takes, in the time of drawing one frame: for a progress line.
+double framesIn(const RenderOptions& options);
 
 // One Frame per Settings, in order. Everything is uploaded once for all of them and every pipeline is
 // compiled once. Throws std::runtime_error: one line.

@@ -4,7 +4,6 @@
 #include "compare/picture.h"
 #include "compare/report/json.h"
 #include "compare/report/report.h"
-#include "compare/report/report_folder.h"
 #include "compare/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
@@ -55,37 +54,46 @@ std::string dataUri(const std::filesystem::path& png) {
     return "data:image/png;base64," + base64(bytes);
 }
 
-void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
-                const PictureChoice& choice, bool force) {
-    constexpr const char* mark = "frame.json";
-    checkReplaceable(output, mark, force);
-    const auto writePicture = [&](const std::filesystem::path& file) {
-        if (!frame.channels.contains(shown.number))
-            throw std::runtime_error(
-                fmt::format("--debug {}: the {} path does not make it{}", shown.name, frame.name,
-                            shown.maker == MadeBy::forward_only ? "; forward_plus does" : ""));
-        const auto lit = frame.channels.find(gpu::DEBUG_lit);
-        const Exposure exposure =
-            exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));
-        const Frame* frames[] = {&frame};
-        writePng(file, picture(shown, frame, scaleFor(shown, exposure, frames)));
-    };
-    if (output.kind == OutputKind::exr) return writeFrameExr(output.path, frame, device);
-    if (output.kind == OutputKind::png) return writePicture(output.path);
+namespace {
 
-    const std::vector<std::string> files{frame.name + ".exr", std::string(shown.name) + ".png", mark};
-    ReportFolder folder(output.path);
+void writePicture(const std::filesystem::path& file, const Frame& frame, const DebugMode& shown,
+                  const PictureChoice& choice) {
+    if (!frame.channels.contains(shown.number))
+        throw std::runtime_error(
+            fmt::format("--debug {}: the {} path does not make it{}", shown.name, frame.name,
+                        shown.maker == MadeBy::forward_only ? "; forward_plus does" : ""));
+    const auto lit = frame.channels.find(gpu::DEBUG_lit);
+    const Exposure exposure =
+        exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));
+    const Frame* frames[] = {&frame};
+    writePng(file, picture(shown, frame, scaleFor(shown, exposure, frames)));
+}
+
+}  // namespace
+
+void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
+                const PictureChoice& choice) {
+    if (output.kind == OutputKind::exr)
+        writeFrameExr(output.path, frame, device);
+    else
+        writePicture(output.path, frame, shown, choice);
+}
+
+std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
+                                          const std::filesystem::path& folder, const DebugMode& shown,
+                                          const PictureChoice& choice) {
+    const std::vector<std::string> files{frame.name + ".exr", std::string(shown.name) + ".png", "frame.json"};
     writeFrameExr(folder / files[0], frame, device);
-    writePicture(folder / files[1]);
-    nlohmann::ordered_json json{
+    writePicture(folder / files[1], frame, shown, choice);
+    const nlohmann::ordered_json json{
         {"schema", 1},
         {"software", softwareName},
         {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
         {"frame", jsonOf(frame)},
         {"files", files}};
-    writeFile(folder / mark,
+    writeFile(folder / files[2],
               json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-    folder.put(files, mark);
+    return files;
 }
 
 }  // namespace diptych

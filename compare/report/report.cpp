@@ -12,6 +12,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <mutex>
@@ -25,8 +26,8 @@ using Task = std::function<void()>;
 
 class Encoder {
 public:
-    Encoder(const Report& report, ReportLayout& layout, const ReportFolder& folder)
-        : report_(report), layout_(layout), folder_(folder) {}
+    Encoder(const Report& report, ReportLayout& layout, const ReportFolder& folder, const Stage& progress)
+        : report_(report), layout_(layout), folder_(folder), progress_(progress) {}
 
     void run() {
         std::vector<Task> tasks;
@@ -39,7 +40,11 @@ public:
             for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)
                 addPictures(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
                             layout_.pictures[i][k]);
-        tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) { tasks[i](); });
+        std::atomic<std::size_t> done{0};
+        tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+            tasks[i]();
+            progress_.at(static_cast<double>(++done) / static_cast<double>(tasks.size()), "write pictures");
+        });
     }
 
 private:
@@ -93,6 +98,7 @@ private:
     const Report& report_;
     ReportLayout& layout_;
     const ReportFolder& folder_;
+    const Stage& progress_;
     std::mutex mutex_;
 };
 
@@ -101,11 +107,15 @@ private:
 std::string writeReport(const Report& report, const std::filesystem::path& path,
                         const ReportOptions& options) {
     constexpr const char* mark = "report.json";
-    checkReplaceable({OutputKind::folder, path}, mark, options.force);
+    const auto earlier = [&] {
+        checkReplaceable({OutputKind::folder, path}, mark, options.force);
+        return markedIn(path, mark);
+    };
+    earlier();
     ReportFolder folder(path);
     const auto start = std::chrono::steady_clock::now();
     ReportLayout layout = layoutOf(report, options.picture, options.single_file);
-    Encoder(report, layout, folder).run();
+    Encoder(report, layout, folder, options.progress).run();
     layout.encode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
@@ -116,7 +126,7 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
         if (!layout.sections[i].empty())
             writeFile(folder / layout.sections[i], sectionScript(report, layout, i));
     writeFile(folder / "index.html", reportHtml(report, layout));
-    folder.put(layout.files(), mark);
+    folder.put(layout.files(), earlier);
     return json;
 }
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -14,47 +12,73 @@ namespace diptych {
 
 namespace fs = std::filesystem;
 
-AtomicFile::AtomicFile(const fs::path& file) : file_(file) {
+// Refused before a temporary file is made beside what is none of ours.
+fs::path AtomicFile::resolved(const fs::path& file) {
     std::error_code ignored;
-    if (fs::is_symlink(file_, ignored)) file_ = fs::weakly_canonical(file_, ignored);
-    const fs::file_status status = fs::status(file_, ignored);
-    if (fs::is_directory(status)) fail(EISDIR);
+    fs::path real = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file, ignored) : file;
+    const fs::file_status status = fs::status(real, ignored);
+    if (fs::is_directory(status)) throw std::runtime_error(writingFailed(real, EISDIR));
     if (fs::exists(status) && !fs::is_regular_file(status))
-        throw std::runtime_error(file_.string() + ": not a regular file, so it cannot be replaced");
+        throw std::runtime_error(real.string() + ": not a regular file, so it cannot be replaced");
+    return real;
+}
 
-    static std::atomic<unsigned> serial{0};
-    temporary_ = file_.parent_path() /
-                 fmt::format(".{}.{}-{}.tmp", file_.filename().string(), ::getpid(), serial.fetch_add(1));
-    stream_ = std::fopen(temporary_.c_str(), "wbx");
-    if (!stream_) {
-        const int error = errno;
-        temporary_.clear();
-        fail(error);
-    }
+AtomicFile::AtomicFile(const fs::path& file)
+    : file_(resolved(file)), temporary_(file_.parent_path(), file_), stream_(temporary_.createFile()) {
+    if (!stream_) fail(errno);
 }
 
 AtomicFile::~AtomicFile() {
     if (stream_) std::fclose(stream_);
-    std::error_code ignored;
-    if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
+// A write that failed has left its errno with nobody, so one byte more asks the disk again: the file is lost
+// anyway. EIO stands for what is gone by then.
 void AtomicFile::commit() {
-    if (std::fflush(stream_) != 0) fail(errno);
-    if (std::ferror(stream_)) fail(EIO);
+    const bool failed = std::ferror(stream_) != 0;
+    errno = 0;
+    if (failed) std::fputc(0, stream_);
+    if (std::fflush(stream_) != 0 || failed) fail(errno != 0 ? errno : EIO);
     if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(errno);
-    if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail(errno);
-    temporary_.clear();
+    if (!temporary_.become(file_)) fail(errno);
 }
 
 void AtomicFile::fail(int error) {
-    throw std::runtime_error(fmt::format("{}: {}", file_.string(), std::strerror(error)));
+    throw std::runtime_error(writingFailed(finalName(file_), error));
 }
 
 void writeFile(const fs::path& file, std::string_view contents) {
     AtomicFile out(file);
     std::fwrite(contents.data(), 1, contents.size(), out.stream());
     out.commit();
+}
+
+std::string writingFailed(const fs::path& file, int error) {
+    const char* helps = "";
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            helps = "; make room, or write to another place with -o";
+            break;
+        case EROFS:
+        case EACCES:
+        case EPERM:
+            helps = "; write to another place with -o";
+            break;
+        case EFBIG:
+            helps = "; raise the limit on a file's size (ulimit -f), or write to another place with -o";
+            break;
+        case EMFILE:
+        case ENFILE:
+            helps = "; raise the limit on open files (ulimit -n)";
+            break;
+        case EIO:
+            helps = "; check the disk, or write to another place with -o";
+            break;
+        default:
+            helps = "; -o chooses another place";
+    }
+    return fmt::format("{}: {}{}", file.string(), std::strerror(error), helps);
 }
 
 }  // namespace diptych

@@ -12,6 +12,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <new>
 #include <stdexcept>
 
 namespace diptych {
@@ -78,7 +79,10 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
         Imf::OutputFile exr(stream, header);
         exr.setFrameBuffer(buffer);
         exr.writePixels(height);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
+        if (std::ferror(out.stream())) out.commit();  // which says what the system said
         throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
     }
     out.commit();

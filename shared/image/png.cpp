@@ -67,8 +67,10 @@ void writePng(const std::filesystem::path& file, const Image8& image) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning);
     if (!png) throw std::bad_alloc();
     png_infop info = png_create_info_struct(png);
+    if (!info) failure.message = "out of memory";
     const bool written = info && encode(png, info, out.stream(), image);
     png_destroy_write_struct(&png, &info);
+    if (!written && std::ferror(out.stream())) out.commit();  // which says what the system said
     if (!written) throw std::runtime_error(fmt::format("{}: {}", file.string(), failure.message));
     out.commit();
 }

@@ -42,8 +42,26 @@ std::string nameOf(VkResult result) {
     }
 }
 
+namespace {
+
+const char* helpFor(VkResult result) {
+    switch (result) {
+        case VK_ERROR_DEVICE_LOST:
+            return "; run it again, or choose another device with --device";
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        case VK_ERROR_MEMORY_MAP_FAILED:
+            return "; try a smaller --size, or another device with --device";
+        default:
+            return "; choose another device with --device";
+    }
+}
+
+}  // namespace
+
 void check(VkResult result, const char* what) {
-    if (result < 0) throw std::runtime_error(fmt::format("Vulkan: {}: {}", what, nameOf(result)));
+    if (result < 0)
+        throw std::runtime_error(fmt::format("Vulkan: {}: {}{}", what, nameOf(result), helpFor(result)));
 }
 
 }  // namespace diptych

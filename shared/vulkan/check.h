@@ -7,7 +7,7 @@
 
 namespace diptych {
 
-// Throws std::runtime_error "Vulkan: WHAT: the reason" on an error code.
+// Throws std::runtime_error "Vulkan: WHAT: the reason; what helps" on an error code.
 void check(VkResult result, const char* what);
 std::string nameOf(VkResult result);
 

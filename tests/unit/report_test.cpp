@@ -338,18 +338,20 @@ TEST(Report, OneFrameAsFileOrFolder) {
     const fs::path here = folder();
     const Frame frame = bothFrames()[1];
     const DebugMode& lit = debugMode(gpu::DEBUG_lit);
-    writeFrame(frame, {}, {OutputKind::exr, here / "a.exr"}, lit, {}, false);
+    writeFrame(frame, {}, {OutputKind::exr, here / "a.exr"}, lit, {});
     EXPECT_EQ(readExr(here / "a.exr").layers[0].image.at(1, 2, 0), 0.5f);
-    writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, lit, {}, false);
+    writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, lit, {});
     EXPECT_EQ(readPng(here / "a.png").width, 4);
-    writeFrame(frame, {}, {OutputKind::folder, here / "a"}, lit, {}, false);
+    fs::create_directory(here / "a");
+    const std::vector<std::string> files = writeFrameFolder(frame, {}, here / "a", lit, {});
     EXPECT_EQ(namesIn(here / "a"), (std::vector<std::string>{"forward_plus.exr", "frame.json", "lit.png"}));
+    EXPECT_EQ(markedIn(here / "a", "frame.json"), files) << "frame.json lists what is there, itself too";
     // What it wrote itself it may replace, without force.
     for (const auto& [kind, name] :
          {std::pair{OutputKind::exr, "a.exr"}, {OutputKind::png, "a.png"}, {OutputKind::folder, "a"}})
-        EXPECT_NO_THROW(writeFrame(frame, {}, {kind, here / name}, lit, {}, false)) << name;
+        EXPECT_NO_THROW(checkReplaceable({kind, here / name}, "frame.json", false)) << name;
     EXPECT_THROW(writeFrame(bothFrames()[0], {}, {OutputKind::png, here / "t.png"},
-                            debugMode(gpu::DEBUG_texcoords), {}, false),
+                            debugMode(gpu::DEBUG_texcoords), {}),
                  std::runtime_error);
 }
 

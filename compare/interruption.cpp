@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "compare/interruption.h"
+
+#include "compare/progress.h"
+#include "shared/image/temporary.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <thread>
+
+namespace diptych {
+
+void dieOf(int signal) {
+    std::signal(signal, SIG_DFL);
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, signal);
+    pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+    ::raise(signal);
+    ::_exit(128 + signal);  // as shells number it
+}
+
+void watchInterruption() {
+    sigset_t watched;
+    sigemptyset(&watched);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction now {};
+        if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(&watched, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &watched, nullptr);
+    std::thread([watched] {
+        int signal = 0;
+        if (sigwait(&watched, &signal) != 0) return;
+        abandonTemporaries();
+        wipeProgress();
+        dieOf(signal);
+    }).detach();
+}
+
+}  // namespace diptych
