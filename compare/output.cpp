@@ -2,6 +2,7 @@
 #include "compare/output.h"
 
 #include "compare/report/report_folder.h"
+#include "shared/image/temporary.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -90,6 +91,16 @@ std::vector<std::string> markedIn(const fs::path& folder, const std::string& mar
     return names;
 }
 
+namespace {
+
+// What is being written there does not count.
+bool holdsNothing(const fs::path& folder) {
+    return std::ranges::all_of(fs::directory_iterator(folder),
+                               [](const auto& entry) { return isTemporaryName(entry.path()); });
+}
+
+}  // namespace
+
 void checkReplaceable(const Output& output, const std::string& mark, bool force) {
     std::error_code error;
     if (output.kind == OutputKind::folder && fs::is_directory(output.path, error)) finishPut(output.path);
@@ -97,7 +108,7 @@ void checkReplaceable(const Output& output, const std::string& mark, bool force)
     if (!fs::exists(there) || force) return;
     const bool ours =
         output.kind == OutputKind::folder
-            ? fs::is_directory(there) && (fs::is_empty(output.path) || isOurMark(output.path / mark))
+            ? fs::is_directory(there) && (holdsNothing(output.path) || isOurMark(output.path / mark))
             : fs::is_regular_file(there) && isOurFile(output.path);
     if (!ours)
         throw std::runtime_error(fmt::format(

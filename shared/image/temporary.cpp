@@ -82,6 +82,13 @@ bool isTemporary(const fs::path& folder) {
 
 }  // namespace
 
+bool isTemporaryName(const fs::path& path) {
+    const std::string name = path.filename().string();
+    if (!name.starts_with('.')) return false;
+    const std::size_t end = name.size() < 4 ? name.npos : name.rfind('.', name.size() - 5);
+    return end != name.npos && end > 0 && processOf(std::string_view(name).substr(end + 1)) != 0;
+}
+
 Temporary::Temporary(const fs::path& folder, fs::path target) : target_(std::move(target)) {
     static std::atomic<unsigned> serial{0};
     path_ = folder / fmt::format("{}{}-{}.tmp", prefixOf(target_), ::getpid(), serial.fetch_add(1));

@@ -33,6 +33,9 @@ private:
     int lock_ = -1;  // a folder's
 };
 
+// Whether `path` is called as a Temporary is, of any program: ".NAME.12-0.tmp".
+bool isTemporaryName(const std::filesystem::path& path);
+
 // While it lives an interruption waits: for steps that must all be done or none. Milliseconds, not more.
 std::unique_lock<std::recursive_mutex> holdTemporaries();
 
