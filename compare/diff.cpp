@@ -56,7 +56,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
 
 // A rule of the user's decides.
 void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measurement) {
-    const Decision decision = decide(rule, measurement.asked());
+    const Decision decision = decide(rule, measurement);
     channel.tolerance = {boundOn(rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
                          rule.because};
     channel.rule = fmt::format("{}: {}", rule.origin, wordsOf(rule.fail));

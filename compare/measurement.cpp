@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/measurement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 
 namespace diptych {
@@ -16,19 +19,9 @@ struct Row {
     Value (*value)(const Measurement&);
 };
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// FLIP is at most 1, but a NaN against a number is a difference that no bound may let pass.
 Value ofFlip(const Measurement& m, double FlipResult::*member) {
     const HdrFlipResult* flip = m.flip();
-    if (!flip) return {};
-    return m.plain().nonfinite_different > 0 ? infinity : (*flip).*member;
-}
-
-// Windows with a NaN are left out of it.
-Value ofSsim(const Measurement& m) {
-    const Value value = m.plain().ssim;
-    return value && m.plain().nonfinite_different > 0 ? -infinity : value;
+    return flip ? Value((*flip).*member) : Value();
 }
 
 template <double ChannelStats::*member>
@@ -71,7 +64,8 @@ const std::array rows{
     Row{{"relative_p999", false, "its 99.9th percentile"}, plain<&PlainMetrics::relative_p999>},
     Row{{"psnr", true, "10 log10(peak^2 / mse), dB; peak 1, of linear values the reference's largest"},
         plain<&PlainMetrics::psnr>},
-    Row{{"ssim", true, "mean structural similarity, at most 1 (Wang et al. 2004)"}, ofSsim},
+    Row{{"ssim", true, "mean structural similarity, at most 1 (Wang et al. 2004)"},
+        [](const Measurement& m) { return m.plain().ssim; }},
     Row{{"ulp_max", false, "most float32 values between t and r"}, plain<&PlainMetrics::ulp_max>},
     Row{{"ulp_mean", false, "mean number of float32 values between t and r"}, plain<&PlainMetrics::ulp_mean>},
     Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&PlainMetrics::angle_max>},
@@ -173,6 +167,15 @@ double Measurement::failingShare(double above) const {
             count += !(error(pair_.test->pixel(i), pair_.reference->pixel(i)) <= above);
     return pair_.coverage->count ? static_cast<double>(count) / static_cast<double>(pair_.coverage->count)
                                  : 0;
+}
+
+Decision decide(const Rule& rule, const Measurement& measurement) {
+    Decision decision = decide(rule, measurement.asked());
+    const std::uint64_t different = measurement.plain().nonfinite_different;
+    if (decision.level != Level::fail && different > 0 && !bounds(rule.fail, failing))
+        decision = {Level::fail, &rule,
+                    fmt::format("{} pixel(s) are NaN or infinite against something else", different)};
+    return decision;
 }
 
 }  // namespace diptych

@@ -55,4 +55,9 @@ private:
     mutable std::optional<HdrFlipResult> flip_;
 };
 
+// What the rule decides about what was measured. A NaN or infinity against anything else is a difference that
+// some figures are blind to (a mean, FLIP, SSIM): it fails whatever they are, unless the rule grants a share
+// of failing pixels, among which it is.
+Decision decide(const Rule& rule, const Measurement& measurement);
+
 }  // namespace diptych

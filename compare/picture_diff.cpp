@@ -85,7 +85,7 @@ Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel
 void judge(PictureChannelDiff& channel, const PictureDiffOptions& options) {
     const Rule* rule = ruleFor(options.rules, channel.pair.name);
     channel.rule = rule ? *rule : ruleOf(options, channel);
-    channel.decision = decide(channel.rule, channel.measurement->asked());
+    channel.decision = decide(channel.rule, *channel.measurement);
 }
 
 }  // namespace

@@ -213,6 +213,12 @@ std::optional<std::string> violation(const Condition& condition, const Measured&
     return reasons;
 }
 
+bool bounds(const Condition& condition, std::string_view figure) {
+    return condition.kind == Condition::Kind::bound
+               ? condition.quantity.figure == figure
+               : std::ranges::any_of(condition.parts, [&](const auto& part) { return bounds(part, figure); });
+}
+
 std::optional<double> boundOn(const Condition& condition, std::string_view figure) {
     if (condition.kind == Condition::Kind::bound)
         return condition.quantity.figure == figure ? std::optional(condition.limit) : std::nullopt;

@@ -43,6 +43,8 @@ struct Condition {
 // holds.
 std::optional<std::string> violation(const Condition& condition, const Measured& measured);
 
+// Whether it puts a bound on a figure in any case.
+bool bounds(const Condition& condition, std::string_view figure);
 // The least upper bound that it puts on a figure in every case; nothing: none.
 std::optional<double> boundOn(const Condition& condition, std::string_view figure);
 

@@ -119,26 +119,32 @@ TEST(CompareOptions, ABaselineIsHeldAgainstBothPaths) {
     EXPECT_FALSE(report.passed()) << "the other path";
 }
 
-// Every figure that a NaN against a number enters says so.
+// FLIP, means and SSIM stay finite, and yet no bound on them lets a NaN against a number pass.
 TEST(Measurement, NothingPassesANan) {
     const Image a(16, 16, 3, 0.5f);
     Image b = a;
     b.data[300] = std::nanf("");
     const Coverage all = everyPixel(a.pixels());
     const Measurement same({Metric::absolute, ChannelKind::color, true, &b, &b, &all, nullptr, {}}),
-        one({Metric::absolute, ChannelKind::color, true, &a, &b, &all, nullptr, {}});
-    for (const Figure& figure : figures()) {
-        const std::optional<double> equal = same({std::string(figure.name), 0}),
-                                    differs = one({std::string(figure.name), 0});
-        if (!equal) continue;
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        const double best = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
-        EXPECT_EQ(*equal, best) << figure.name << ": of two NaNs";
-        if (figure.name == "p99" || figure.name == "relative_p99" || figure.name == "flip_median")
-            continue;  // one of 256 pixels is beyond the 99th percentile
-        EXPECT_EQ(*differs, figure.more_is_better ? -infinity : infinity) << figure.name;
-    }
+        one({Metric::absolute, ChannelKind::color, true, &a, &b, &all, nullptr, {}}),
+        other({Metric::absolute, ChannelKind::color, false, &b, &a, &all, nullptr, {}});
+    EXPECT_EQ(same({"flip", 0}), 0);
+    EXPECT_EQ(one({"flip", 0}), 1.0 / 256) << "error 1 there, counted, not spread";
+    EXPECT_EQ(other({"flip", 0}), 1.0 / 256) << "in the reference, too";
     EXPECT_EQ(one({"failing", 1e30}), 1.0 / 256);
+    for (const Figure& figure : figures()) {
+        Rule rule;
+        const double worst = figure.more_is_better ? -std::numeric_limits<double>::infinity() : 1e300;
+        rule.fail = {Condition::Kind::bound, {std::string(figure.name), 0}, worst, {}};
+        if (!same(rule.fail.quantity)) continue;
+        EXPECT_EQ(decide(rule, same).level, Level::pass) << figure.name;
+        EXPECT_EQ(decide(rule, one).level, Level::fail) << figure.name;
+    }
+    Rule share;
+    share.fail = {Condition::Kind::bound, {"failing", 0}, 0.004, {}};
+    EXPECT_EQ(decide(share, one).level, Level::pass) << "1 of 256 pixels may fail";
+    share.fail.limit = 0.0039;
+    EXPECT_EQ(decide(share, one).level, Level::fail);
 }
 
 }  // namespace
