@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/baseline.h"
+#include "compare/command_words.h"
 #include "compare/commands.h"
 #include "compare/report/report.h"
 #include "shared/contract/debug_mode.h"
@@ -24,7 +25,11 @@ std::filesystem::path reportFolder(const Options& options) {
 }
 
 CompareOptions compareOptions(const Options& options) {
-    CompareOptions compare{options.baseline, {}, options.selection, options.allow_noise};
+    CompareOptions compare;
+    compare.baseline = options.baseline;
+    compare.selection = options.selection;
+    compare.allow_noise = options.allow_noise;
+    compare.words = wordsOfWhatCounts(options);
     if (!options.tolerances.empty()) compare.rules = readRules(options.tolerances);
     return compare;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/command_words.h"
 #include "compare/commands.h"
 #include "compare/picture_diff.h"
 #include "compare/picture_diff_report.h"
@@ -20,17 +21,17 @@ int runDiff(const Options& options) {
     Progress progress(progressOutput(options));
     const Stage stage(progress, options.scenes.at(1));
     settings.progress = stage.part(0, measuring);
-    const PictureDiff diff = diffPictures(options.scenes.at(0), options.scenes.at(1), settings);
+    PictureDiff diff = diffPictures(options.scenes.at(0), options.scenes.at(1), settings);
     stage.at(measuring, "write");
+    const bool passed = diff.passed();
+    const std::string text = options.json ? pictureDiffJson(diff) : pictureDiffTable(diff);
     if (output)
-        writePictureDiff(diff, *output,
-                         {options.picture, options.single_file, options.force, stage.part(measuring, 1)});
+        writePictureDiff(std::move(diff), *output,
+                         {options.picture, options.single_file, options.force, stage.part(measuring, 1)},
+                         wordsOfWhatCounts(options));
     progress.wipe();
-    if (options.json)
-        fmt::print("{}", pictureDiffJson(diff));
-    else if (!options.quiet)
-        fmt::print("{}", pictureDiffTable(diff));
-    return diff.passed() ? 0 : 1;
+    if (options.json || !options.quiet) fmt::print("{}", text);
+    return passed ? 0 : 1;
 }
 
 }  // namespace diptych

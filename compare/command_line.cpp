@@ -50,7 +50,7 @@ struct Said {
     std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
     std::vector<std::string> cameras;
     std::string settings_file, channels, debug;
-    std::string baseline = "deferred", crop, metric = "flip";
+    std::string baseline = "deferred", crop, metric;
     std::optional<double> tolerance;
     std::vector<std::string> not_built;  // options that parse but cannot be done
     int frames = 1;
@@ -191,7 +191,9 @@ void addDiff(CLI::App& app, PictureDiffOptions& diff, Said& said) {
         ->type_name("STOPS");
     app.add_option("--stop-exposure", diff.flip.stop_exposure, "HDR-FLIP: the brightest exposure, stops")
         ->type_name("STOPS");
-    app.add_option("--exposures", diff.flip.exposures, "HDR-FLIP: how many between them")->type_name("N");
+    app.add_option("--exposures", diff.flip.exposures, "HDR-FLIP: how many between them")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
 }
 
 void addDevice(CLI::App& app, Options& options) {
@@ -335,7 +337,11 @@ void resolveBaseline(Options& options, const Said& said) {
 void resolveWhatCounts(Options& options, const Said& said) {
     PictureDiffOptions& diff = options.diff;
     if (!said.crop.empty()) options.selection.crop = diff.selection.crop = cropOf(said.crop);
-    diff.metric = figureOfMetric(said.metric);
+    diff.metric = figureOfMetric(said.metric.empty() ? "flip" : said.metric);
+    diff.metric_given = !said.metric.empty();
+    if (diff.failing && diff.metric_given)
+        throw std::runtime_error("--failing: counts pixels by the channel's own errors; leave out --metric");
+    if (!std::isfinite(diff.blur)) throw std::runtime_error("--blur: is no number of pixels");
     const Figure& figure = *findFigure(diff.metric);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;

@@ -70,8 +70,8 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, const Comp
                                  pair.test.channels.at(mode.number), pair.coverage);
     const Measurement measurement({mode.metric, mode.kind, false, &pair.baseline.channels.at(mode.number),
                                    &pair.test.channels.at(mode.number), &pair.coverage, &channel.stats});
-    if (mode.kind == ChannelKind::color)
-        channel.flip = channel.stats.different > 0 ? measurement({"flip", 0}) : 0;
+    if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});
+    channel.figures = measurement.all();
     if (const Rule* rule = ruleFor(options.rules, mode.name))
         judge(channel, *rule, measurement);
     else
@@ -207,6 +207,9 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         readCounters(*frame, comparison);
         readNoise(*frame, cpu, options.allow_noise, comparison);
     }
+    std::vector<std::string> names;
+    for (const ChannelDiff& channel : comparison.channels) names.emplace_back(channel.mode->name);
+    for (const std::string& line : idleRules(options.rules, names)) comparison.notes.push_back(line);
     if (!comparison.coverage.known)
         comparison.notes.push_back(
             "neither material_id nor depth is there: background pixels count in every mean");
@@ -228,7 +231,7 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
         here.progress = options.progress.part(done / all, (done + 2) / all).about(report.frames[i].scene);
         report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), here));
         const Frame& left = report.baseline(report.comparisons.back());
-        std::vector<std::string> command = wordsOf("compare", left.scene, left.settings);
+        std::vector<std::string> command = with(wordsOf("compare", left.scene, left.settings), options.words);
         if (options.baseline != Path::deferred)
             command = with(command, "--baseline", std::string(nameOf(options.baseline)));
         report.comparisons.back().command = std::move(command);
@@ -239,6 +242,25 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
     return report;
 }
 
+namespace {
+
+// What forward+ makes of the encoding now is what it made of it then only where it still draws the same: for
+// those channels of an earlier picture of forward+ it explains what the encoding does, for others nothing
+// does.
+void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
+    if (baseline.settings.path != Path::forward_plus) return;
+    for (const Frame& frame : frames)
+        for (const auto& [mode, through] : frame.through_gbuffer) {
+            const auto then = std::as_const(baseline).channels.find(mode), now = frame.channels.find(mode);
+            if (then != baseline.channels.end() && now != frame.channels.end() &&
+                then->second.width == now->second.width && then->second.height == now->second.height &&
+                unequalPixels(then->second, now->second, cpu ? 0 : gpuUlps) == 0)
+                baseline.through_gbuffer[mode] = through;
+        }
+}
+
+}  // namespace
+
 Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
                           ReportDevice device, const CompareOptions& options,
                           const std::vector<std::string>& mismatches) {
@@ -247,16 +269,15 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
     report.device = std::move(device);
     report.frames.push_back(std::move(baseline));
     std::ranges::move(frames, std::back_inserter(report.frames));
-    // What forward+ makes of the encoding now stands for what it made of it then; whether it still draws the
-    // same is another row of the report.
-    for (const Frame& frame : report.frames)
-        if (frame.settings.path == Path::forward_plus && report.frames[0].settings.path == Path::forward_plus)
-            report.frames[0].through_gbuffer = frame.through_gbuffer;
+    explainAsNow(report.frames[0], report.frames, report.device.type == "cpu");
     for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
         CompareOptions here = options;
         const auto done = static_cast<double>(report.comparisons.size());
         here.progress = options.progress.part(done / 3, (done + 1) / 3);
         report.comparisons.push_back(compareFrames(report, left, right, needs, here));
+        const Frame& drawn = report.test(report.comparisons.back());
+        report.comparisons.back().command =
+            with(wordsOf("compare", drawn.scene, drawn.settings), options.words);
     }
     report.said_first = mismatches;
     report.diff_ms =

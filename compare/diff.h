@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -33,9 +34,12 @@ struct ChannelDiff {
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; empty otherwise
     std::string warning;  // what a rule warns of; empty otherwise
-    // What the difference picture shows instead of the metric's errors, from 0 to 1, and what it is called.
+    // What the difference picture shows instead of the metric's errors, what it is called and where its
+    // colours end.
     std::shared_ptr<const Image> shown_error;
     std::string shown_error_name;
+    double shown_error_top = 1;
+    std::vector<std::pair<std::string, double>> figures;  // all that are defined
     std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
 };
 
@@ -60,7 +64,7 @@ struct Report {
     std::vector<Frame> frames;
     std::vector<Comparison> comparisons;
     std::vector<std::string> said_first;  // what must be known before any number is read
-    double diff_ms = 0;  // the comparing alone
+    double diff_ms = 0;                   // the comparing alone
 
     bool passed() const;
     const Frame& baseline(const Comparison& comparison) const { return frames[comparison.baseline]; }
@@ -71,8 +75,10 @@ struct CompareOptions {
     Path baseline = Path::deferred;  // the left panel
     std::vector<Rule> rules;         // in place of the derived tolerances, where one names the channel
     SelectionOptions selection;      // pixels
-    bool allow_noise = false;        // on a GPU: what two runs of a path differ by is granted on top
-    Stage progress{};                // of comparing
+    std::vector<std::string>
+        words;                 // of the command line that said the above: commands that repeat it need them
+    bool allow_noise = false;  // on a GPU: what two runs of a path differ by is granted on top
+    Stage progress{};          // of comparing
 };
 
 // frames[test] against frames[baseline] of the report, over their common channels that were asked for; what

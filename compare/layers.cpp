@@ -2,6 +2,7 @@
 #include "compare/layers.h"
 
 #include "compare/rules.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,6 +62,7 @@ public:
         take({"X", "Y", "Z"}, layer_.name.empty() ? "xyz" : layer_.name);
         take({"X", "Y"}, layer_.name.empty() ? "xy" : layer_.name);
         take({"U", "V"}, layer_.name.empty() ? "uv" : layer_.name);
+        if (layer_.name.empty()) takeGrey();
         const bool alone = layer_.channels.size() == 1;
         for (std::size_t i = 0; i < left_.size(); ++i)
             if (left_[i]) put({i}, nameAlone(layer_.channels[i], alone));
@@ -71,10 +73,21 @@ private:
     std::vector<PictureChannel>& out_;
     std::vector<bool> left_;
 
+    // A grey picture's light, with alpha or without: as red, green and blue, so that it meets colours and has
+    // a FLIP.
+    void takeGrey() {
+        for (std::size_t i = 0; i < layer_.channels.size(); ++i)
+            if (left_[i] && layer_.channels[i] == "Y") {
+                PictureChannel channel{"lit", {"Y"}, layer_.sample, ChannelKind::color, {}};
+                channel.image = picked(layer_.image, {i, i, i});
+                left_[i] = false;
+                out_.push_back(std::move(channel));
+            }
+    }
+
     std::string nameAlone(const std::string& channel, bool alone) const {
         if (channel == "Z") return "depth";
-        // A grey picture's only channel is its light; "roughness.Y" is the whole of roughness.
-        if (alone && (channel == "Y" || channel == "R")) return "lit";
+        // "roughness.Y" is the whole of roughness.
         return alone && !layer_.name.empty() ? layer_.name : channel;
     }
 
@@ -201,6 +214,21 @@ std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::
     remove(file, used);
     for (PictureLayer& layer : file.layers) Splitter(std::move(layer), channels).split();
     return channels;
+}
+
+void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std::string>& names) {
+    const auto channelsIn = [](const PictureFile& file) {
+        Names all;
+        for (const PictureLayer& layer : file.layers)
+            all.insert(all.end(), layer.channels.begin(), layer.channels.end());
+        return oneLine(fmt::format("{}", fmt::join(all, ", ")));
+    };
+    for (const std::string& words : names) {
+        const Renaming renaming = renamingOf(words);
+        if (!renamed(reference, renaming) && !renamed(test, renaming))
+            fail(fmt::format("--map {}: neither file has these channels; the reference has {}, the test {}",
+                             words, channelsIn(reference), channelsIn(test)));
+    }
 }
 
 MatchedChannels match(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,

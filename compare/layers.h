@@ -27,6 +27,9 @@ struct PictureChannel {
 // channels are taken out of the layers they were in. Throws std::runtime_error where such words are wrong.
 std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names);
 
+// Throws std::runtime_error where the channels of one of `names` are not together in either file.
+void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std::string>& names);
+
 struct MatchedChannel {
     std::string name;
     ChannelKind kind = ChannelKind::scalar;

@@ -63,14 +63,19 @@ ObjectPlanes objectsOf(const std::vector<PictureChannel>& reference,
     return objects;
 }
 
-// What the command line says of a channel that no rule names. A figure that the channel has not (flip of a
-// vector) is replaced by its largest error.
+// What the command line says of a channel that no rule names. Colours have a FLIP; what has none is judged by
+// its largest error, unless the figure was asked for.
 Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel) {
     Rule rule;
     rule.channel = channel.pair.name;
+    rule.origin = "command line";
     Quantity quantity{options.metric, 0};
-    if (!(*channel.measurement)(quantity)) {
+    if (!options.failing && !(*channel.measurement)(quantity)) {
         rule.because = fmt::format("{} is not defined for it", quantity.figure);
+        if (options.metric_given) {
+            rule.because += ": not judged";
+            return rule;
+        }
         quantity.figure = "max";
     }
     const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
@@ -78,7 +83,6 @@ Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel
     if (options.failing)
         rule.fail = {Condition::Kind::bound, {"failing", options.tolerance}, *options.failing, {}};
     if (options.warn) rule.warn = bound(*options.warn);
-    rule.origin = "command line";
     return rule;
 }
 
@@ -86,6 +90,32 @@ void judge(PictureChannelDiff& channel, const PictureDiffOptions& options) {
     const Rule* rule = ruleFor(options.rules, channel.pair.name);
     channel.rule = rule ? *rule : ruleOf(options, channel);
     channel.decision = decide(channel.rule, *channel.measurement);
+}
+
+void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
+    if (channel.measurement->stats().different == 0) return;
+    const Image errors = decidingErrors(diff, channel).image;
+    const auto most = std::max_element(errors.data.begin(), errors.data.end());
+    if (!(*most > 0)) return;
+    const auto at = static_cast<int>(most - errors.data.begin());
+    channel.worst_x = at % errors.width;
+    channel.worst_y = at / errors.width;
+}
+
+// What is silent otherwise: a NaN in both, a rule that names nothing.
+void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
+    for (const auto& channel : diff.channels) {
+        const ChannelStats& s = channel->measurement->stats();
+        if (s.nonfinite_baseline + s.nonfinite_test > 0)
+            diff.notes.push_back(
+                fmt::format("{}: {} pixel(s) of the reference and {} of the test are NaN or infinite",
+                            channel->pair.name, s.nonfinite_baseline, s.nonfinite_test));
+        if (!channel->rule.because.empty() && channel->rule.origin == "command line")
+            diff.notes.push_back(fmt::format("{}: {}", channel->pair.name, channel->rule.because));
+    }
+    std::vector<std::string> names;
+    for (const auto& channel : diff.channels) names.push_back(channel->pair.name);
+    for (const std::string& line : idleRules(options.rules, names)) diff.notes.push_back(line);
 }
 
 }  // namespace
@@ -104,6 +134,23 @@ std::string figureOfMetric(const std::string& name) {
         fmt::format("--metric {}: no such figure; there are relative, angular, ulp{}", name, all));
 }
 
+DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff& channel) {
+    const MatchedChannel& pair = channel.pair;
+    const auto decides = [&](const char* figure) {
+        return std::ranges::any_of(figures(), [&](const Figure& f) {
+            return f.name.starts_with(figure) && bounds(channel.rule.fail, f.name);
+        });
+    };
+    if (decides("flip") && channel.measurement->flip())
+        return {channel.measurement->flip()->error, "FLIP", 1};
+    const bool relative = decides("relative") && pair.metric == Metric::absolute;
+    const Metric metric = relative ? Metric::relative : pair.metric;
+    Image errors = errorImage(metric, pair.kind, pair.reference, pair.test, *diff.coverage);
+    if (!relative) return {std::move(errors), "", channel.measurement->stats().max};
+    const double top = channel.measurement->plain().relative_max;
+    return {std::move(errors), "relative", top};
+}
+
 bool PictureDiff::passed() const {
     return std::ranges::none_of(channels, [](const auto& c) { return c->decision.level == Level::fail; });
 }
@@ -120,6 +167,7 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     diff.test_format = b.format;
     bringTogether(a, b, diff);
 
+    checkNames(a, b, options.names);
     std::vector<PictureChannel> left = channelsOf(std::move(a), options.names),
                                 right = channelsOf(std::move(b), options.names);
     diff.coverage = std::make_unique<Coverage>(
@@ -150,7 +198,15 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     for (auto& channel : diff.channels) {
         options.progress.at(reading + (1 - reading) * done++ / all, "measure " + channel->pair.name);
         judge(*channel, options);
+        findWorst(diff, *channel);
     }
+    if (options.metric_given && options.rules.empty() &&
+        std::ranges::none_of(diff.channels, [&](const auto& channel) {
+            return (*channel->measurement)({options.metric, 0}).has_value();
+        }))
+        throw std::runtime_error(
+            fmt::format("--metric {}: not defined for any channel of these pictures", options.metric));
+    addNotes(diff, options);
     return diff;
 }
 

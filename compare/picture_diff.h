@@ -17,6 +17,7 @@ namespace diptych {
 
 struct PictureDiffOptions {
     std::string metric = "flip";        // the figure that decides where no rule does, figureOfMetric()
+    bool metric_given = false;  // then a channel that has no such figure is not judged
     double tolerance = 0;               // the most that passes; of psnr and ssim the least
     std::optional<double> warn;         // what is beyond it is warned of
     std::optional<double> failing;      // instead: `tolerance` may be exceeded by this share of the pixels
@@ -30,6 +31,8 @@ struct PictureDiffOptions {
     Stage progress{};
 };
 
+struct PictureDiff;
+
 // One channel of both pictures with all that is known of it.
 struct PictureChannelDiff {
     MatchedChannel pair;
@@ -37,7 +40,16 @@ struct PictureChannelDiff {
     bool display = false;
     Rule rule;  // what decided
     Decision decision;
+    int worst_x = -1, worst_y = -1;  // where the errors that decide are largest; -1: nowhere
 };
+
+// Errors as what decided sees them.
+struct DecidingErrors {
+    Image image;       // W x H x 1
+    std::string name;  // "FLIP", "relative"; empty: of the channel's metric
+    double top = 0;    // the end of their colour map
+};
+DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff& channel);
 
 struct PictureDiff {
     std::string reference, test;  // file names as they were given

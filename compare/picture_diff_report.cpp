@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/picture_diff_report.h"
 
+#include "compare/command_words.h"
 #include "compare/picture.h"
 #include "shared/image/exr.h"
 
@@ -12,16 +13,6 @@
 
 namespace diptych {
 namespace {
-
-bool judgedByFlip(const PictureChannelDiff& channel) {
-    return wordsOf(channel.rule.fail).find("flip") != std::string::npos && channel.measurement->flip();
-}
-
-Image errorsOf(const PictureDiff& diff, const PictureChannelDiff& channel) {
-    if (judgedByFlip(channel)) return channel.measurement->flip()->error;
-    const MatchedChannel& pair = channel.pair;
-    return errorImage(pair.metric, pair.kind, pair.reference, pair.test, *diff.coverage);
-}
 
 // What decides: the first of those that came out worst.
 const PictureChannelDiff& deciding(const PictureDiff& diff) {
@@ -54,20 +45,22 @@ std::vector<DebugMode> modesOf(const PictureDiff& diff) {
     return modes;
 }
 
-Frame frameOf(const PictureDiff& diff, const std::vector<DebugMode>& modes, bool test) {
+// Takes the pictures: nothing is measured after this.
+Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test) {
     Frame frame;
     frame.name = test ? "test" : "reference";
     frame.origin.file = test ? diff.test : diff.reference;
     frame.scene = std::filesystem::path(frame.origin.file).filename().string();
     frame.settings.size = {diff.width, diff.height};
     for (std::size_t i = 0; i < modes.size(); ++i) {
-        const MatchedChannel& pair = diff.channels[i]->pair;
-        frame.channels[modes[i].number] = test ? pair.test : pair.reference;
+        diff.channels[i]->measurement.reset();
+        MatchedChannel& pair = diff.channels[i]->pair;
+        frame.channels[modes[i].number] = std::move(test ? pair.test : pair.reference);
     }
     return frame;
 }
 
-ChannelDiff channelOf(const PictureChannelDiff& channel, const DebugMode& mode) {
+ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel, const DebugMode& mode) {
     ChannelDiff row;
     row.mode = &mode;
     row.stats = channel.measurement->stats();
@@ -76,35 +69,41 @@ ChannelDiff channelOf(const PictureChannelDiff& channel, const DebugMode& mode) 
                      channel.rule.because};
     row.rule = fmt::format("{}: {}", channel.rule.origin, wordsOf(channel.rule.fail));
     (channel.decision.level == Level::warn ? row.warning : row.reason) = channel.decision.reason;
-    if (judgedByFlip(channel)) {
-        row.shown_error = std::make_shared<Image>(channel.measurement->flip()->error);
-        row.shown_error_name = "FLIP";
+    if (DecidingErrors errors = decidingErrors(diff, channel); !errors.name.empty()) {
+        row.shown_error = std::make_shared<Image>(std::move(errors.image));
+        row.shown_error_name = errors.name;
+        row.shown_error_top = errors.top;
     }
+    row.stats.worst_x = channel.worst_x;
+    row.stats.worst_y = channel.worst_y;
+    row.figures = channel.measurement->all();
     row.verdict = channel.decision.level == Level::fail ? Verdict::fail : Verdict::pass;
     return row;
 }
 
-void writeFolder(const PictureDiff& diff, const Output& output, const ReportOptions& options) {
+void writeFolder(PictureDiff& diff, const Output& output, const ReportOptions& options,
+                 const std::vector<std::string>& words) {
     const std::vector<DebugMode> modes = modesOf(diff);
     Report report;
-    for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, modes, test));
     Comparison& comparison = report.comparisons.emplace_back();
     comparison.test = 1;
     comparison.coverage = *diff.coverage;
     comparison.notes = diff.notes;
-    comparison.command = {"diff", diff.reference, diff.test};
+    comparison.command = with({"diff", diff.reference, diff.test}, words);
     for (std::size_t i = 0; i < modes.size(); ++i)
-        comparison.channels.push_back(channelOf(*diff.channels[i], modes[i]));
+        comparison.channels.push_back(channelOf(diff, *diff.channels[i], modes[i]));
+    for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, modes, test));
     writeReport(report, output.path, options);
 }
 
 }  // namespace
 
-void writePictureDiff(const PictureDiff& diff, const Output& output, const ReportOptions& options) {
-    if (output.kind == OutputKind::folder) return writeFolder(diff, output, options);
+void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
+                      const std::vector<std::string>& words) {
+    if (output.kind == OutputKind::folder) return writeFolder(diff, output, options, words);
     if (output.kind == OutputKind::exr) {
         std::vector<Image> errors;
-        for (const auto& channel : diff.channels) errors.push_back(errorsOf(diff, *channel));
+        for (const auto& channel : diff.channels) errors.push_back(decidingErrors(diff, *channel).image);
         std::vector<ExrLayerView> layers;
         for (std::size_t i = 0; i < errors.size(); ++i)
             layers.push_back({{diff.channels[i]->pair.name + ".Y"}, &errors[i]});
@@ -113,8 +112,8 @@ void writePictureDiff(const PictureDiff& diff, const Output& output, const Repor
         return;
     }
     const PictureChannelDiff& channel = deciding(diff);
-    const double top = judgedByFlip(channel) ? 1 : channel.measurement->stats().max;
-    writePng(output.path, errorPicture(errorsOf(diff, channel), top));
+    const DecidingErrors errors = decidingErrors(diff, channel);
+    writePng(output.path, errorPicture(errors.image, errors.top));
 }
 
 }  // namespace diptych

@@ -10,6 +10,8 @@ namespace diptych {
 // An EXR of every channel's errors (FLIP's for colours that FLIP judges, else of the channel's metric), a
 // picture of the channel's errors that decides, or a folder with the same report as of two paths. Throws
 // std::runtime_error naming the file.
-void writePictureDiff(const PictureDiff& diff, const Output& output, const ReportOptions& options);
+// `words`: of the command line, for commands that repeat it.
+void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
+                      const std::vector<std::string>& words);
 
 }  // namespace diptych

@@ -254,6 +254,14 @@ const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel) {
     return nullptr;
 }
 
+std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels) {
+    std::vector<std::string> lines;
+    for (const Rule& rule : rules)
+        if (std::ranges::none_of(channels, [&](const auto& name) { return matches(rule.channel, name); }))
+            lines.push_back(fmt::format("{}: no channel here is called {}", rule.origin, rule.channel));
+    return lines;
+}
+
 std::vector<Rule> rulesFromJson(std::string_view text, const std::string& name) {
     return named(
         name, [&] { return readDocument(parseJson(text), std::filesystem::path(name).filename().string()); });

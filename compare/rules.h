@@ -72,6 +72,9 @@ Decision decide(const Rule& rule, const Measured& measured);
 // The last rule whose pattern the channel matches, as in a list of exceptions; nullptr: none.
 const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel);
 
+// A line for each rule whose pattern is that of none of the channels.
+std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels);
+
 // A tolerance file, as compare/tolerances.schema.json describes it. Every rule names its reason. Throws
 // std::runtime_error, one line: "FILE: rule 2: no such figure maxx; there are ...".
 std::vector<Rule> readRules(const std::filesystem::path& file);

@@ -16,8 +16,10 @@ namespace diptych {
 namespace {
 
 std::string titleOf(const Report& report, const Comparison& comparison) {
-    const Frame& frame = report.baseline(comparison);
-    if (report.device.name.empty()) return frame.origin.file;  // two files
+    if (report.device.name.empty())  // two files
+        return report.test(comparison).origin.file + " against " + report.baseline(comparison).origin.file;
+    const Frame& left = report.baseline(comparison);
+    const Frame& frame = left.origin.file.empty() ? left : report.test(comparison);
     std::string title = fmt::format("{} \u00b7 {}", frame.scene, cameraTitle(frame));
     // Three pairs of one scene and camera.
     if (hasBaselineFile(report)) title += " \u00b7 " + pairTitle(report, comparison);

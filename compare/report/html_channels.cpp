@@ -47,7 +47,8 @@ public:
         if (!compared) return out + single() + "</div></details>\n";
         out += "<div class=\"pictures\">" + pair() + "<div>" + difference() + numbers() + "</div></div>\n";
         out += because();
-        return out + again() + loupes() + errorFigures(channel_, pictures_, id_) + "</div></details>\n";
+        return out + again() + loupes() + errorFigures(channel_, pictures_, id_) + allFigures() +
+               "</div></details>\n";
     }
 
 private:
@@ -93,6 +94,19 @@ private:
             markup(pictures_.values),
             markup(names.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
             unitOf(*channel_.mode));
+    }
+
+    std::string allFigures() const {
+        if (channel_.figures.empty()) return {};
+        std::string rows;
+        for (const auto& [name, value] : channel_.figures) {
+            const Figure* figure = findFigure(name);
+            rows +=
+                fmt::format("<tr><td>{}</td><td class=\"n mono\">{}</td><td class=\"soft wide\">{}</td></tr>",
+                            name, number(value), figure ? markup(figure->meaning) : "");
+        }
+        return "<details class=\"figures\"><summary>All figures</summary><div class=\"scroll\"><table>" +
+               rows + "</table></div></details>\n";
     }
 
     // A rule need not bound the largest error.

@@ -61,6 +61,11 @@ std::string costs(const Frame& a, const Frame& b) {
     count("lights", &FrameCounters::lights);
     count("overflowed light lists", &FrameCounters::overflowed_lists);
     count("NaN or infinite lit pixels", &FrameCounters::nonfinite_pixels);
+    row("pixels that a second run changed", [](const Frame& f) {
+        std::uint64_t pixels = 0;
+        for (const auto& [mode, noise] : f.noise) pixels = std::max(pixels, noise.pixels);
+        return f.noise.empty() ? std::string("not run") : fmt::format("{}", pixels);
+    });
     count("pixels the capture did not reproduce", &FrameCounters::unreproduced_pixels);
     return out + "</table></div></div>\n";
 }

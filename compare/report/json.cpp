@@ -51,6 +51,9 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     if (!channel.warning.empty()) json["warning"] = channel.warning;
     if (!compared) return json;
     if (!channel.reason.empty()) json["reason"] = channel.reason;
+    Json figures = Json::object();
+    for (const auto& [name, value] : channel.figures) figures[name] = finiteOrNull(value);
+    json["figures"] = figures;
     json["different_pixels"] = s.different;
     json["infinite_pixels"] = s.infinite;
     json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
@@ -99,17 +102,19 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
 Json jsonOf(const Frame& frame) {
     Json passes = Json::array();
     for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    // A picture of another renderer: nothing is known of how it was drawn.
+    const bool isUnknown = !frame.origin.file.empty() && frame.origin.device.empty();
     Json noise = Json::object();
     for (const auto& [mode, of] : frame.noise)
         noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
     const FrameTime& time = frame.time;
     const FrameCounters& counters = frame.counters;
     return {{"name", frame.name},
-            {"path", nameOf(frame.settings.path)},
+            {"path", isUnknown ? Json(nullptr) : Json(nameOf(frame.settings.path))},
             {"scene", frame.scene},
             {"camera", jsonOf(frame.camera)},
             {"size", {frame.settings.size.width, frame.settings.size.height}},
-            {"settings", Json::parse(toJson(frame.settings))},
+            {"settings", isUnknown ? Json(nullptr) : Json::parse(toJson(frame.settings))},
             {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
             {"made_in_ms", frame.made_in_ms},
             {"passes", passes},

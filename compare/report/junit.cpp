@@ -70,7 +70,7 @@ private:
         add("scene", left_.scene);
         add("camera", cameraTitle(left_));
         add("size", valueOf(left_.settings, "size"));
-        add("gbuffer", valueOf(left_.settings, "gbuffer"));
+        if (left_.origin.file.empty()) add("gbuffer", valueOf(left_.settings, "gbuffer"));
         add("baseline", left_.name);
         add("test", right_.name);
         add("device", report_.device.name);
@@ -86,10 +86,11 @@ private:
         if (channel.verdict == Verdict::pass) return {};
         const ChannelStats& s = channel.stats;
         return failure("difference", channel.reason,
-                       fmt::format("max {} mean {} p99.9 {} ({}), worst at {},{}; tolerance {}: {}",
-                                   number(s.max), number(s.mean), number(s.p999),
-                                   nameOf(channel.mode->metric), s.worst_x, s.worst_y,
-                                   number(channel.tolerance.max), channel.tolerance.because)) +
+                       fmt::format(
+                           "max {} mean {} p99.9 {} ({}), worst at {},{}; {}: {}", number(s.max),
+                           number(s.mean), number(s.p999), nameOf(channel.mode->metric), s.worst_x, s.worst_y,
+                           channel.rule.empty() ? "tolerance " + number(channel.tolerance.max) : channel.rule,
+                           channel.tolerance.because)) +
                attachments(channel, pictures);
     }
 

@@ -31,7 +31,7 @@ std::string slug(const std::string& text) {
 // out. Otherwise the largest finite error.
 double errorTop(const ChannelDiff& channel, const Image& baseline, const Image& test,
                 const Coverage& coverage) {
-    if (channel.shown_error) return 1;
+    if (channel.shown_error) return channel.shown_error_top;
     if (channel.tolerance.max > 0 && std::isfinite(channel.tolerance.max)) return channel.tolerance.max;
     if (std::isfinite(channel.stats.max)) return channel.stats.max;
     float largest = 0;

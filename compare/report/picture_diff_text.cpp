@@ -53,9 +53,15 @@ Row rowOf(const PictureChannelDiff& channel) {
     };
     const std::string judged = bound ? bound->quantity.figure : "rule";
     const std::optional<double> value = bound ? m(bound->quantity) : std::nullopt;
-    return {
-        channel.pair.name, judged,        value ? number(*value) : "-",  bound ? number(bound->limit) : "-",
-        shown("max"),      shown("rmse"), wordOf(channel.decision.level)};
+    return {channel.pair.name,
+            judged,
+            value ? number(*value) : "-",
+            bound ? number(bound->limit) : "-",
+            shown("max"),
+            shown("rmse"),
+            shown("psnr"),
+            shown("ssim"),
+            wordOf(channel.decision.level)};
 }
 
 Json flipJson(const HdrFlipResult& flip, bool display) {
@@ -93,7 +99,7 @@ Json channelJson(const PictureChannelDiff& channel) {
     for (const auto& [name, value] : statistics) json[name] = finiteOrNull(value);
     const HdrFlipResult* flip = m.flip();
     json["flip"] = flip ? Json(flip->mean) : Json(nullptr);
-    json["worst_pixel"] = s.worst_x >= 0 ? Json{s.worst_x, s.worst_y} : Json(nullptr);
+    json["worst_pixel"] = channel.worst_x >= 0 ? Json{channel.worst_x, channel.worst_y} : Json(nullptr);
     const Condition* bound = singleBound(channel);
     json["tolerance"] = bound ? numberOrWord(bound->limit) : Json(nullptr);
     json["rule"] = fmt::format("{}: {}", channel.rule.origin, wordsOf(channel.rule.fail));
@@ -130,13 +136,16 @@ std::string pictureDiffTable(const PictureDiff& diff) {
         if (channel->decision.level == Level::pass) continue;
         out += fmt::format("  {} {}: {}", wordOf(channel->decision.level), channel->pair.name,
                            channel->decision.reason);
-        if (const ChannelStats& s = channel->measurement->stats(); s.worst_x >= 0)
-            out += fmt::format(", worst at {},{}", s.worst_x, s.worst_y);
+        if (channel->worst_x >= 0) out += fmt::format(", worst at {},{}", channel->worst_x, channel->worst_y);
         out += fmt::format(" ({}{}{})\n", channel->rule.origin, channel->rule.because.empty() ? "" : ": ",
                            channel->rule.because);
         if (channel->decision.level == Level::fail)
             failed += (failed.empty() ? "" : ", ") + channel->pair.name;
     }
+    for (const PictureChannelDiff* channel : failuresFirst(diff))
+        if (channel->decision.level == Level::pass && !channel->rule.origin.starts_with("command"))
+            out += fmt::format("  {}: {}: {}\n", channel->pair.name, channel->rule.origin,
+                               wordsOf(channel->rule.fail));
     for (const std::string& note : diff.notes) out += "  note: " + note + "\n";
     if (!failed.empty()) return out + "FAIL: " + failed + "\n";
     return out + fmt::format("pass: {} channel{} within tolerance\n", diff.channels.size(),

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace diptych {
@@ -16,6 +17,7 @@ using Row = std::array<std::string, 7>;
 
 // Where the encoding's effect is known pixel by pixel the largest says little: max meets it by construction.
 std::string toleranceOf(const ChannelDiff& channel) {
+    if (!channel.rule.empty() && !std::isfinite(channel.tolerance.max)) return "rule";
     if (!channel.unexplained_pixels) return number(channel.tolerance.max);
     return *channel.unexplained_pixels == 0 ? "explained"
                                             : fmt::format("{} px left", *channel.unexplained_pixels);
@@ -71,6 +73,9 @@ std::string reportTable(const Report& report) {
                 out += fmt::format(" ({}{}{})\n", channel.rule, channel.rule.empty() ? "" : ", because ",
                                    channel.tolerance.because);
             }
+        for (const ChannelDiff& channel : comparison.channels)
+            if (!channel.rule.empty() && channel.verdict == Verdict::pass)
+                out += fmt::format("  {}: {}\n", channel.mode->name, channel.rule);
         for (const ChannelDiff& channel : comparison.channels)
             if (!channel.warning.empty())
                 out +=

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <sstream>
 
 namespace diptych {
 namespace {
@@ -121,6 +122,82 @@ TEST(DiffCommand, ChannelsAreMatchedByName) {
     EXPECT_EQ(
         runTool(folder, "diff a.exr b.exr --map lit=diffuse.R,diffuse.G,diffuse.B --channels lit -q").code,
         1);
+}
+
+TEST(DiffCommand, WhatIsAskedForAndNotThereIsSaid) {
+    const Folder folder;
+    writePng(folder / "a.png", grey(100));
+    EXPECT_TRUE(
+        runTool(folder, "diff a.png a.png --map x=foo.R").failedOver("--map x=foo.R: neither file has"));
+    EXPECT_TRUE(
+        runTool(folder, "diff a.png a.png --metric angle").failedOver("--metric angle_max: not defined"));
+    EXPECT_TRUE(runTool(folder, "diff a.png a.png --exposures 100000000").failedOver("--exposures"));
+    EXPECT_TRUE(runTool(folder, "diff a.png a.png --blur nan").failedOver("--blur"));
+    folder.write("t.json", R"({"rules": [{"channel": "LIT", "max": 1, "because": "x"}]})");
+    const Ran ran = runTool(folder, "diff a.png a.png --tolerances t.json");
+    EXPECT_NE(ran.out.find("note: t.json, rule 1: no channel here is called LIT"), std::string::npos)
+        << ran.out;
+}
+
+// The column that a value stands under is its own.
+TEST(DiffCommand, TheTableHasAColumnForEachFigure) {
+    const Folder folder;
+    writePng(folder / "a.png", grey(100));
+    writePng(folder / "b.png", grey(151));  // 0.2 of 1: 20 log10(5) = 13.98 dB
+    const Ran ran = runTool(folder, "diff a.png b.png --metric max --tolerance 0.3");
+    std::istringstream lines(ran.out);
+    std::string head, row;
+    std::getline(lines, head);
+    std::getline(lines, head);
+    std::getline(lines, row);
+    std::istringstream heads(head), cells(row);
+    for (std::string name, cell; heads >> name;) {
+        ASSERT_TRUE(cells >> cell) << row;
+        if (name == "psnr") {
+            EXPECT_EQ(cell, "14");
+        } else if (name == "value" || name == "rmse" || name == "max") {
+            EXPECT_EQ(cell, "0.2");
+        } else if (name == "verdict") {
+            EXPECT_EQ(cell, "pass");
+        }
+    }
+}
+
+// The place that is named is the worst of what decides: here a dark pixel, though a bright one is further
+// off.
+TEST(DiffCommand, TheWorstPixelIsOfTheFigureThatDecides) {
+    const Folder folder;
+    Image a(8, 4, 3, 1.0f), b = a;
+    for (int c = 0; c < 3; ++c) {
+        a.at(1, 1, c) = 0.01f;
+        b.at(1, 1, c) = 0.02f;
+        b.at(6, 2, c) = 1.5f;
+    }
+    writePfm(folder / "a.pfm", a);
+    writePfm(folder / "b.pfm", b);
+    EXPECT_NE(runTool(folder, "diff a.pfm b.pfm --metric max").out.find("worst at 6,2"), std::string::npos);
+    EXPECT_NE(runTool(folder, "diff a.pfm b.pfm --metric relative").out.find("worst at 1,1"),
+              std::string::npos);
+}
+
+// What a report offers to run again says all that the verdict hung on.
+TEST(DiffCommand, TheCommandOfAFailureFailsAgain) {
+    const Folder folder;
+    writePng(folder / "a.png", grey(100));
+    writePng(folder / "b b.png", grey(120));
+    ASSERT_EQ(
+        runTool(folder, "diff a.png 'b b.png' --metric max --tolerance 0.07 --crop 1,1,9x9 -q -o report")
+            .code,
+        1);
+    const std::string page = contentsOf(folder / "report" / "junit.xml");
+    const std::size_t at = page.find("again: diptych ");
+    ASSERT_NE(at, std::string::npos) << page;
+    std::string command = page.substr(at + 15, page.find('\n', at) - at - 15);
+    for (std::size_t i; (i = command.find("&apos;")) != command.npos;) command.replace(i, 6, "'");
+    for (std::size_t i; (i = command.find("&#39;")) != command.npos;) command.replace(i, 5, "'");
+    for (const char* word : {"--metric max", "--tolerance 0.07", "--crop 1,1,9x9"})
+        EXPECT_NE(command.find(word), command.npos) << command;
+    EXPECT_EQ(runTool(folder, command).code, 1) << command;
 }
 
 TEST(DiffCommand, SizesMustAgree) {

@@ -38,9 +38,9 @@ TEST_P(Malformed, FilesEndInAPictureOrOneLine) {
     for (const std::string& file : files) {
         const fs::path scene = malformed / file, picture = folder / "picture.png";
         fs::remove(picture);
-        // A guard against hanging, far above what any takes on a busy machine.
+        // Ten seconds of processor time, whatever else the machine does; and a guard against hanging.
         const Ran ran = runShell(folder,
-                                 "timeout 120 '" DIPTYCH_PROGRAM "' render '" + scene.string() +
+                                 "ulimit -t 10; timeout 120 '" DIPTYCH_PROGRAM "' render '" + scene.string() +
                                      "' --size 64x36 --runs 0 -q -o picture.png",
                                  folder.path());
         if (ran.code == 0)

@@ -84,8 +84,8 @@ std::vector<Frame> noisyFrames() {
 }
 
 TEST(CompareOptions, NoiseIsARaceOnACpu) {
-    const Report report =
-        compared(noisyFrames(), {.baseline = {}, .rules = {}, .selection = {}, .allow_noise = true});
+    const Report report = compared(
+        noisyFrames(), {.baseline = {}, .rules = {}, .selection = {}, .words = {}, .allow_noise = true});
     EXPECT_TRUE(
         says(report.comparisons[0].failures, "two runs differ in lit at 2 pixel(s), by up to 0.3: a race"));
     EXPECT_EQ(litOf(report).verdict, Verdict::fail) << "nothing is granted for a race";
@@ -96,7 +96,8 @@ TEST(CompareOptions, NoiseOfAGpuIsSaidAndGrantedOnlyWhereAsked) {
     EXPECT_TRUE(says(report.comparisons[0].notes, "--allow-noise adds that to the tolerance"));
     EXPECT_TRUE(report.comparisons[0].failures.empty());
     EXPECT_EQ(litOf(report).verdict, Verdict::fail);
-    report = compared(noisyFrames(), {.baseline = {}, .rules = {}, .selection = {}, .allow_noise = true},
+    report = compared(noisyFrames(),
+                      {.baseline = {}, .rules = {}, .selection = {}, .words = {}, .allow_noise = true},
                       "discrete");
     EXPECT_EQ(litOf(report).verdict, Verdict::pass);
     EXPECT_NE(litOf(report).tolerance.because.find("and 0.3 that two runs of one path differ by"),

@@ -82,12 +82,29 @@ TEST(Layers, WhatOnlyOneHasIsSaid) {
                                                        "c is in the test alone and was not compared"}));
 }
 
+// Grey, with alpha or without, is light: it meets colours.
+TEST(Layers, GreyIsAColour) {
+    const auto grey = channelsOf(file({layer("", {"Y", "A"})}), {});
+    EXPECT_EQ(namesOf(grey), (std::vector<std::string>{"lit", "A"}));
+    EXPECT_EQ(grey[0].kind, ChannelKind::color);
+    ASSERT_EQ(grey[0].image.components, 3);
+    for (const int c : {0, 1, 2}) EXPECT_EQ(grey[0].image.at(1, 0, c), 1);
+    EXPECT_EQ(match(grey, channelsOf(file({layer("", {"R", "G", "B"})}), {}), {}).channels.size(), 1u);
+}
+
+TEST(Layers, NamesThatNeitherFileHasAreAnError) {
+    PictureFile a = file({layer("", {"R", "G", "B"})}), b = file({layer("d", {"d.Y"})});
+    EXPECT_EQ(thrown([&] { checkNames(a, b, {"albedo=R,G,B", "ao=d.Y"}); }), "");
+    EXPECT_EQ(thrown([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
+              "--map albedo=R,G,X: neither file has these channels; the reference has R, G, B, the test d.Y");
+}
+
 TEST(Layers, WhatIsNotInBothIsAnError) {
     const auto a = [] { return channelsOf(file({layer("", {"R", "G", "B"})}), {}); };
-    const auto b = [] { return channelsOf(file({layer("", {"Y"})}), {}); };
+    const auto b = [] { return channelsOf(file({layer("lit", {"lit.Y"})}), {}); };
     const auto c = [] { return channelsOf(file({layer("ao", {"ao.Y"})}), {}); };
     EXPECT_EQ(thrown([&] { match(a(), b(), {}); }),
-              "lit: R,G,B in the reference and Y in the test; --map says what belongs together");
+              "lit: R,G,B in the reference and lit.Y in the test; --map says what belongs together");
     EXPECT_EQ(thrown([&] { match(a(), c(), {}); }),
               "no layer is in both: the reference has lit, the test ao; --map gives them one name");
     EXPECT_EQ(thrown([&] { match(a(), a(), {"normals"}); }),

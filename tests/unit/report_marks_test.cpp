@@ -171,9 +171,9 @@ TEST(ReportMarks, TheyStandWithTheirPair) {
     const std::vector<Requirements> needs(4);
     std::vector<Frame> frames = bothFrames("one.glb");
     for (Frame& frame : bothFrames("two.glb")) frames.push_back(std::move(frame));
-    const Report report =
-        makeReport(std::move(frames), needs, {},
-                   {.baseline = Path::forward_plus, .rules = {}, .selection = {}}, {{}, someMarks()});
+    const Report report = makeReport(
+        std::move(frames), needs, {},
+        {.baseline = Path::forward_plus, .rules = {}, .selection = {}, .words = {}}, {{}, someMarks()});
     EXPECT_TRUE(report.comparisons[0].marks.empty());
     ASSERT_EQ(report.comparisons[1].marks.size(), 2u);
     EXPECT_EQ(report.baseline(report.comparisons[1]).name, "forward_plus");
