@@ -6,6 +6,7 @@
 #include "compare/output.h"
 #include "compare/report/files.h"
 #include "compare/version.h"
+#include "shared/image/atomic_file.h"
 #include "shared/text/json.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
@@ -15,6 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cerrno>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <system_error>
@@ -135,18 +138,26 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
 }
 
 std::string updateBaseline(const fs::path& file, const Frame& frame, const ReportDevice& device) {
-    const fs::path old = file.string() + ".old", link = file.string() + ".old.new";
+    const fs::path old = file.string() + ".old";
     const bool fresh = !fs::exists(file);
-    std::error_code error;
+    const auto failed = [](const fs::path& path, int error) {
+        throw std::runtime_error(writingFailed(path, error));
+    };
+    // The new one is whole before any name changes. The old one then has both names until the new one takes
+    // its first: at no moment is there none.
+    Temporary aside(file.parent_path(), file);
+    if (!aside.createFolder()) failed(file, errno);
+    const fs::path made = aside.path() / file.filename(), kept = aside.path() / old.filename();
+    writeFrameExr(made, frame, device);
+    const auto held = holdTemporaries();
     if (!fresh) {
-        // The old one has both names until the new one takes its first: at no moment is there none.
-        fs::remove(link, error);
-        fs::create_hard_link(file, link, error);
-        if (error) fs::copy_file(file, link, fs::copy_options::overwrite_existing, error);
-        if (!error) fs::rename(link, old, error);
-        if (error) throw std::runtime_error(fmt::format("{}: {}", old.string(), error.message()));
+        std::error_code error;
+        fs::create_hard_link(file, kept, error);
+        if (error) fs::copy_file(file, kept, error);
+        if (!error) fs::rename(kept, old, error);
+        if (error) failed(old, error.value());
     }
-    writeFrameExr(file, frame, device);
+    if (std::rename(made.c_str(), file.c_str()) != 0) failed(file, errno);
     return fresh ? fmt::format("baseline {} written from {}", file.string(), frame.name)
                  : fmt::format("baseline {} written anew from {}; the old one is {}", file.string(),
                                frame.name, old.string());

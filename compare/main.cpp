@@ -40,6 +40,7 @@ int run(const diptych::Options& options) {
 int main(int argc, char** argv) {
     try {
         std::signal(SIGPIPE, SIG_IGN);
+        std::signal(SIGXFSZ, SIG_IGN);  // too large a file (ulimit -f) is an error of writing as any other
         diptych::watchInterruption();
         const int code = run(diptych::parseCommandLine({argv + std::min(argc, 1), argv + argc}));
         errno = 0;

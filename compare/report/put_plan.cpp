@@ -106,12 +106,13 @@ PutPlan readPlan(const fs::path& file) {
     return {namesIn(json, "files"), namesIn(json, "earlier")};
 }
 
-// Everything of it is in place: only the aside is left, which a sweep removes should we not get to it.
-void removeBegun(const fs::path& folder) {
-    Temporary last(folder, folder);
+// Everything new is in place. The plan goes after what it speaks of, so that a kill in between leaves what can be
+// carried out again.
+void removeBegun(const fs::path& begun) {
     std::error_code ignored;
-    if (std::rename((folder / begunName).c_str(), last.path().c_str()) == 0)
-        fs::remove_all(last.path(), ignored);
+    fs::remove_all(begun / oldName, ignored);
+    fs::remove(begun / planName, ignored);
+    ::rmdir(begun.c_str());
 }
 
 }  // namespace
@@ -140,7 +141,7 @@ void putByPlan(const fs::path& folder, Temporary& made, const PutPlan& plan) {
         throw;
     }
     removeEmptied(folder, plan);
-    removeBegun(folder);
+    removeBegun(begun);
 }
 
 bool isPlanBegun(const fs::path& folder) {
@@ -149,7 +150,7 @@ bool isPlanBegun(const fs::path& folder) {
 
 void finishPlan(const fs::path& folder) {
     const fs::path begun = folder / begunName;
-    if (!isThere(begun)) return;
+    if (!isThere(begun) || ::rmdir(begun.c_str()) == 0) return;
     const PutPlan plan = readPlan(begun / planName);
     Moves moves;
     for (const std::string& name : plan.files)
@@ -158,7 +159,7 @@ void finishPlan(const fs::path& folder) {
     for (const std::string& name : removedBy(plan))
         if (fs::is_regular_file(fs::symlink_status(folder / name))) fs::remove(folder / name, error);
     removeEmptied(folder, plan);
-    removeBegun(folder);
+    removeBegun(begun);
 }
 
 }  // namespace diptych

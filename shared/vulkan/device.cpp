@@ -256,7 +256,10 @@ double Device::submit(const std::function<void(VkCommandBuffer)>& record) {
     const auto start = std::chrono::steady_clock::now();
     check(vkQueueSubmit2(s.queue, 1, &submit, s.fence), "vkQueueSubmit2");
     const VkFence fence = s.fence;
-    check(vkWaitForFences(s.device.get(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    const VkResult waited = vkWaitForFences(s.device.get(), 1, &fence, VK_TRUE, UINT64_MAX);
+    // What may still run must not outlive what it works on, which the exception takes down.
+    if (waited != VK_SUCCESS) vkDeviceWaitIdle(s.device.get());
+    check(waited, "vkWaitForFences");
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     check(vkResetFences(s.device.get(), 1, &fence), "vkResetFences");
     return elapsed.count();

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Memory and devices that fail: exit 2, one line that says what helps, nothing written.
+#include "tests/tool/faults.h"
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstddef>
+
+namespace diptych {
+namespace {
+
+#ifdef DIPTYCH_FAULTS
+
+const std::string command = "compare builtin:triangle -q -o r --size 16x9 --runs 1 --channels albedo";
+constexpr int manyCalls = 2000;
+
+// From each call on in turn, until the tool does without the next one. Returns how many there were.
+int sweep(const std::string& function, VkResult result, const std::string& says, int step = 1) {
+    const Folder folder;
+    EXPECT_EQ(runTool(folder, command).code, 0);
+    const Contents old = contentsBelow(folder / "r");
+    int hit = 0;
+    for (int at = 1; at < manyCalls && !testing::Test::HasFailure(); at += step) {
+        const Faulted ran =
+            runFaulted(folder, command, {function, std::to_string(static_cast<int>(result))}, at);
+        if (ran.seen.empty()) return hit;
+        ++hit;
+        EXPECT_TRUE(ran.failedOver(says)) << function << " " << at;
+        EXPECT_EQ(contentsBelow(folder / "r"), old) << function << " " << at;
+        EXPECT_TRUE(leftoversIn(folder.path()).empty()) << function << " " << at;
+    }
+    ADD_FAILURE() << function << " has no end";
+    return hit;
+}
+
+TEST(DeviceFaults, MemoryThatIsNotThereNamesASmallerSize) {
+    EXPECT_GE(sweep("vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY, "try a smaller --size"), 2);
+    EXPECT_GE(sweep("vkAllocateMemory", VK_ERROR_OUT_OF_HOST_MEMORY, "try a smaller --size"), 2);
+    EXPECT_GE(sweep("vkMapMemory", VK_ERROR_MEMORY_MAP_FAILED, "try a smaller --size"), 1);
+}
+
+TEST(DeviceFaults, ALostDeviceIsNamedAtEverySubmit) {
+    EXPECT_GE(
+        sweep("vkQueueSubmit2", VK_ERROR_DEVICE_LOST,
+              "vkQueueSubmit2: the device was lost; run it again, or choose another device with --device"),
+        5);
+    EXPECT_GE(sweep("vkWaitForFences", VK_ERROR_DEVICE_LOST, "vkWaitForFences: the device was lost"), 5);
+}
+
+TEST(DeviceFaults, WhatCannotBeMadeIsNamed) {
+    EXPECT_GE(sweep("vkCreateInstance", VK_ERROR_INCOMPATIBLE_DRIVER, "install mesa-vulkan-drivers"), 1);
+    EXPECT_GE(sweep("vkCreateDevice", VK_ERROR_INITIALIZATION_FAILED, "vkCreateDevice"), 1);
+    EXPECT_GE(sweep("vkCreateBuffer", VK_ERROR_OUT_OF_HOST_MEMORY, "vkCreateBuffer", 3), 3);
+    EXPECT_GE(sweep("vkCreateImage", VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkCreateImage", 3), 3);
+    EXPECT_GE(sweep("vkCreateGraphicsPipelines", VK_ERROR_OUT_OF_HOST_MEMORY, "vkCreateGraphicsPipelines"),
+              3);
+    EXPECT_GE(sweep("vkAllocateDescriptorSets", VK_ERROR_OUT_OF_POOL_MEMORY, "vkAllocateDescriptorSets"), 1);
+}
+
+TEST(DeviceFaults, AFeatureThatIsMissingIsNamedAndAnotherDeviceOffered) {
+    const Folder folder;
+    for (const auto& [feature, says] : {std::pair{"dynamicRendering", "dynamic rendering"},
+                                        {"synchronization2", "synchronization2"},
+                                        {"scalarBlockLayout", "scalar block layout"},
+                                        {"fullDrawIndexUint32", "32-bit indices"}}) {
+        const Fault fault{"features", feature};
+        const Faulted ran = runFaulted(folder, command, fault, 1);
+        EXPECT_TRUE(ran.failedOver("lacks " + std::string(says) + "; choose another with --device"))
+            << ran.err;
+        EXPECT_FALSE(fs::exists(folder / "r"));
+        const Ran devices = runFaulted(folder, "devices", fault, 1);
+        EXPECT_NE(devices.out.find(says), std::string::npos) << devices.out;
+    }
+}
+
+// Every large allocation of ours and of the libraries that we call. What is smaller is too much to fail one
+// by one.
+TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, command).code, 0);
+    const Contents old = contentsBelow(folder / "r");
+    int failed = 0;
+    for (int at = 1;; at += 4) {
+        ASSERT_LT(at, manyCalls);
+        const Faulted ran = runFaulted(folder, command, {"memory", "12", false, 4096}, at);
+        EXPECT_TRUE(leftoversIn(folder.path()).empty()) << at << " " << ran.err;
+        if (ran.seen.empty()) break;
+        if (ran.code == 0) {
+            // The library did with less.
+            fs::remove_all(folder / "r");
+            ASSERT_EQ(runTool(folder, command).code, 0);
+            continue;
+        }
+        ++failed;
+        EXPECT_TRUE(ran.failedOver("")) << at;
+        if (testing::Test::HasFailure()) break;
+    }
+    EXPECT_GE(failed, 10);
+    EXPECT_EQ(contentsBelow(folder / "r").size(), old.size());
+}
+
+#endif
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Whatever fails in writing: exit 2, one line, the earlier report whole, nothing else left. Every moment is
+// met, by counting calls until the tool comes to its end without the fault.
+#include "tests/tool/faults.h"
+
+#include <cstddef>
+
+namespace diptych {
+namespace {
+
+#ifndef DIPTYCH_FAULTS
+TEST(Faults, NeedABuildWithoutSanitizers) {
+    GTEST_SKIP() << "the sanitizers' runtime replaces the same calls";
+}
+#else
+
+const std::string small = " builtin:triangle -q --size 16x9 --runs 0 --channels ";
+constexpr int manyCalls = 5000;  // more than any of these commands makes: a sweep that gets there hangs
+
+Ran runWriter(const Folder& folder, const std::string& arguments) {
+    return runShell(folder, "'" DIPTYCH_WRITER "' " + arguments, folder.path());
+}
+
+// An earlier report and what the next one looks like.
+class Reports {
+public:
+    // `theirs`: with a file of somebody else's in it.
+    explicit Reports(const Folder& folder, bool theirs = false) : folder_(folder) {
+        EXPECT_EQ(runWriter(folder, "old saved").code, 0);
+        EXPECT_EQ(runWriter(folder, "new fresh").code, 0);
+        if (theirs)
+            for (const char* report : {"saved", "fresh"})
+                folder.write(std::string(report) + "/mine.txt", "keep");
+        old_ = contentsBelow(folder / "saved");
+        new_ = contentsBelow(folder / "fresh");
+        // The JSON and the page tell how long writing took, JUnit's names the folder.
+        for (const char* told : {"report.json", "index.html", "junit.xml"}) new_[told] = "";
+        EXPECT_NE(old_.size(), new_.size());
+        reset();
+    }
+    void reset() const { replaceBy(report(), folder_ / "saved"); }
+    fs::path report() const { return folder_ / "r"; }
+
+    bool isOld(const Contents& there) const { return there == old_; }
+
+    testing::AssertionResult isNew(Contents there) const {
+        for (const char* told : {"report.json", "index.html", "junit.xml"}) {
+            if (there[told].empty() || there[told] == old_.at(told))
+                return testing::AssertionFailure() << told << " is not the new one";
+            there[told] = "";
+        }
+        if (there == new_) return testing::AssertionSuccess();
+        std::string names;
+        for (const auto& [name, text] : there)
+            if (!new_.contains(name) || new_.at(name) != text) names += " " + name;
+        return testing::AssertionFailure()
+               << there.size() << " of " << new_.size() << " files, other:" << names;
+    }
+
+private:
+    const Folder& folder_;
+    Contents old_, new_;
+};
+
+// Fails call after call until none is left to fail; returns how many ended in exit 2. `step`: not each call.
+int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int step = 1) {
+    int failed = 0;
+    for (int at = 1; at < manyCalls; at += step) {
+        const Faulted ran = runFaulted(folder, "new r", fault, at, DIPTYCH_WRITER);
+        const std::string where = "call " + std::to_string(at) + ", " + ran.seen;
+        const std::vector<std::string> left = leftoversIn(folder.path());
+        EXPECT_TRUE(left.empty()) << where << left.front();
+        const Contents there = contentsBelow(reports.report());
+        if (ran.code == 0) {
+            // Unharmed, or a way around the fault was found.
+            EXPECT_TRUE(reports.isNew(there)) << where;
+            reports.reset();
+        } else {
+            EXPECT_TRUE(ran.failedOver("r")) << where;
+            EXPECT_TRUE(reports.isOld(there)) << where;
+            ++failed;
+        }
+        if (ran.seen.empty() || testing::Test::HasFailure()) return failed;
+    }
+    ADD_FAILURE() << "no end";
+    return failed;
+}
+
+// At least so many files, of each one open, flush, close and rename. A write is into a temporary file whichever it
+// is, so that every 13th is enough.
+constexpr int files = 14;
+
+TEST(Faults, AnyCallThatFailsOnceLeavesTheEarlierReport) {
+    const Folder folder;
+    const Reports reports(folder);
+    EXPECT_GE(sweep(folder, reports, {"create,close,move", std::to_string(EIO)}), 4 * files);
+    EXPECT_GE(sweep(folder, reports, {"write", std::to_string(EIO)}, 13), 10);
+}
+
+TEST(Faults, ADiskThatIsFullFromAnyMomentOnLeavesTheEarlierReport) {
+    const Folder folder;
+    const Reports reports(folder);
+    const Fault full{"create,write,close", std::to_string(ENOSPC), true};
+    EXPECT_GE(sweep(folder, reports, full, 13), 10);
+    const Faulted ran = runFaulted(folder, "new r", full, 40, DIPTYCH_WRITER);
+    EXPECT_TRUE(ran.failedOver("No space left on device; make room, or write to another place with -o"))
+        << ran.err;
+}
+
+// Beside files of others the new ones are moved one by one, and back.
+TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
+    const Folder folder;
+    const Reports reports(folder, true);
+    EXPECT_GE(sweep(folder, reports, {"move", std::to_string(EROFS)}), 2 * files);
+    EXPECT_GE(sweep(folder, reports, {"create", std::to_string(EROFS)}, 3), 10);
+}
+
+// At once where the folder is ours alone; beside files of others after the next run, which carries out what
+// was begun.
+void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
+    const Folder folder;
+    const Reports reports(folder, theirs);
+    int killed = 0;
+    for (int at = 1;; at += step) {
+        ASSERT_LT(at, manyCalls);
+        const Faulted ran = runFaulted(folder, "new r", {calls, "kill"}, at, DIPTYCH_WRITER);
+        const std::string where = "call " + std::to_string(at) + ", " + ran.seen;
+        if (ran.seen.empty()) break;
+        ++killed;
+        EXPECT_NE(ran.code, 0) << where;
+        if (theirs) {
+            ASSERT_EQ(runWriter(folder, "check r").code, 0) << where;
+        }
+        Contents there = contentsBelow(reports.report());
+        std::erase_if(there, [](const auto& entry) { return isLeftover(entry.first); });
+        if (reports.isOld(there)) continue;
+        ASSERT_TRUE(reports.isNew(there)) << where;
+        reports.reset();
+    }
+    EXPECT_GE(killed, least);
+    EXPECT_TRUE(leftoversIn(folder.path()).empty()) << "the last run sweeps what the killed ones left";
+}
+
+TEST(Faults, AKillAtAnyMomentLeavesAWholeReport) {
+    killAtEvery("create,close,move,lock", 3, false, files);
+    killAtEvery("remove", 1, false, 10);
+    killAtEvery("write", 29, false, 5);
+}
+
+TEST(Faults, AKillBesideFilesOfOthersIsMadeGoodByTheNextRun) {
+    killAtEvery("move", 1, true, 2 * files);
+    killAtEvery("remove", 1, true, 10);
+    killAtEvery("create", 3, true, 10);
+}
+
+// The tool itself, with a device and a main().
+TEST(Faults, TheToolSaysItInOneLine) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "compare -o r" + small + "albedo").code, 0);
+    const Contents old = contentsBelow(folder / "r");
+    for (int at = 1;; at += 5) {
+        ASSERT_LT(at, manyCalls);
+        const Faulted ran = runFaulted(folder, "compare -o r" + small + "normals",
+                                       {"create,close", std::to_string(ENOSPC)}, at);
+        if (ran.seen.empty()) break;
+        EXPECT_TRUE(ran.failedOver("No space left on device")) << at << " " << ran.seen;
+        EXPECT_EQ(contentsBelow(folder / "r"), old) << at << " " << ran.seen;
+        EXPECT_TRUE(leftoversIn(folder.path()).empty()) << at << " " << ran.seen;
+    }
+}
+
+TEST(Faults, SeveralFramesAreReplacedTogether) {
+    const Folder folder;
+    const std::string two =
+        "render -o r builtin:triangle builtin:triangle -q --size 16x9 --runs 0 --channels ";
+    ASSERT_EQ(runTool(folder, two + "albedo").code, 0);
+    fs::rename(folder / "r", folder / "saved");
+    const Contents old = contentsBelow(folder / "saved");
+    replaceBy(folder / "r", folder / "saved");
+    int earlier = 0, later = 0;
+    // What writes into temporary files is met above.
+    for (const std::string calls : {"move", "remove"})
+        for (int at = 1;; ++at) {
+            ASSERT_LT(at, manyCalls);
+            const Faulted ran = runFaulted(folder, two + "normals", {calls, "kill"}, at);
+            if (ran.seen.empty()) break;
+            Contents there = contentsBelow(folder / "r");
+            std::erase_if(there, [](const auto& entry) { return isLeftover(entry.first); });
+            const bool first = there["1/forward_plus.exr"] == old.at("1/forward_plus.exr");
+            EXPECT_EQ(there["2/forward_plus.exr"] == old.at("2/forward_plus.exr"), first) << at << ran.seen;
+            EXPECT_EQ(there.size(), old.size()) << at << ran.seen;
+            ++(first ? earlier : later);
+            if (!first) replaceBy(folder / "r", folder / "saved");
+        }
+    EXPECT_GE(earlier, 8);
+    EXPECT_GE(later, 5);
+}
+
+TEST(Faults, ASingleFileIsOldOrNew) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "render -o saved.exr" + small + "albedo").code, 0);
+    const std::string old = contentsOf(folder / "saved.exr");
+    for (const Fault& fault :
+         {Fault{"create,close,move", std::to_string(EIO)}, Fault{"create,close,move,remove", "kill"}}) {
+        int hit = 0;
+        for (int at = 1;; ++at) {
+            ASSERT_LT(at, manyCalls);
+            fs::copy_file(folder / "saved.exr", folder / "a.exr", fs::copy_options::overwrite_existing);
+            const Faulted ran = runFaulted(folder, "render -o a.exr" + small + "normals", fault, at);
+            if (ran.seen.empty()) break;
+            ++hit;
+            EXPECT_EQ(contentsOf(folder / "a.exr"), old) << at << " " << ran.seen;
+            if (fault.what != "kill") {
+                EXPECT_TRUE(ran.failedOver("a.exr")) << at << " " << ran.seen;
+            }
+        }
+        EXPECT_GE(hit, 4);
+        EXPECT_NE(contentsOf(folder / "a.exr"), old);
+        EXPECT_TRUE(leftoversIn(folder.path()).empty());
+    }
+}
+
+// A baseline has three names on its way: the file, FILE.old and the one that is written.
+TEST(Faults, ABaselineIsNeverLost) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "render --path deferred -o base.exr" + small + "albedo").code, 0);
+    const std::string old = contentsOf(folder / "base.exr");
+    int hit = 0;
+    for (const auto& [calls, step] : {std::pair{"create", 3}, {"move", 1}, {"remove", 2}})
+        for (int at = 1;; at += step) {
+            ASSERT_LT(at, manyCalls);
+            fs::remove(folder / "base.exr.old");
+            fs::remove_all(folder / "r");
+            folder.write("base.exr", old);
+            const Faulted ran = runFaulted(
+                folder, "compare -o r --baseline base.exr --update-baseline" + small + "albedo,normals",
+                {calls, "kill"}, at);
+            if (ran.seen.empty()) break;
+            ++hit;
+            const std::string now = contentsOf(folder / "base.exr");
+            EXPECT_TRUE(now == old || contentsOf(folder / "base.exr.old") == old) << at << " " << ran.seen;
+            EXPECT_TRUE(now.starts_with("\x76\x2f\x31\x01")) << at << " " << ran.seen;
+        }
+    EXPECT_GE(hit, 10);
+    EXPECT_TRUE(leftoversIn(folder.path()).empty());
+}
+
+#endif
+
+}  // namespace
+}  // namespace diptych

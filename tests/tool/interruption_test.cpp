@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// Signals, other programs, and disks that are truly full or read-only.
+#include "tests/tool/faults.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/file.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+#include <vector>
+
+extern char** environ;
+
+namespace diptych {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+// The tool beside the test, its stderr in a file.
+class Running {
+public:
+    Running(const Folder& folder, std::vector<std::string> words) : error_(folder / ".stderr") {
+        words.insert(words.begin(), DIPTYCH_PROGRAM);
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
+        posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_addopen(&actions, 2, error_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        EXPECT_EQ(::posix_spawn(&process_, DIPTYCH_PROGRAM, &actions, nullptr, argv.data(), environ), 0);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    ~Running() {
+        if (process_ <= 0) return;
+        ::kill(process_, SIGKILL);
+        wait();
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    pid_t process() const { return process_; }
+    std::string err() const { return contentsOf(error_); }
+    bool ended() {
+        const pid_t ended = process_ > 0 ? ::waitpid(process_, &status_, WNOHANG) : 0;
+        if (ended > 0) process_ = 0;
+        return process_ == 0;
+    }
+    int wait() {
+        if (process_ > 0) ::waitpid(process_, &status_, 0);
+        process_ = 0;
+        return status_;
+    }
+
+private:
+    pid_t process_ = 0;
+    int status_ = 0;
+    fs::path error_;
+};
+
+// `true` within a time that only a hanging program exceeds.
+template <typename Condition>
+bool soon(Condition condition) {
+    for (const Clock::time_point end = Clock::now() + 60s; Clock::now() < end;
+         std::this_thread::sleep_for(2ms))
+        if (condition()) return true;
+    return false;
+}
+
+const std::vector<std::string> longWork{
+    "render", "builtin:gallery", "-v", "--size", "1920x1080", "--runs", "5000", "-o", "r"};
+
+TEST(Interruption, ALongSubmitEndsAtOnceByTheSignal) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const Folder folder;
+        Running tool(folder, longWork);
+        ASSERT_TRUE(soon([&] { return tool.err().find("draw") != std::string::npos; })) << tool.err();
+        std::this_thread::sleep_for(100ms);  // into a frame; wherever it is, it ends
+        ::kill(tool.process(), signal);
+        ASSERT_TRUE(soon([&] { return tool.ended(); })) << signal;
+        EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
+        EXPECT_EQ(contentsBelow(folder.path()).size(), 1u) << "its stderr alone";
+    }
+}
+
+// Its folder or the one that becomes it is there.
+bool isWriting(const Folder& folder) {
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        if (entry.path().filename() == "r" || isLeftover(entry.path().filename().string())) return true;
+    return false;
+}
+
+// While files are written; wherever in it the signal falls.
+TEST(Interruption, WritingLeavesAllOrNothing) {
+    const Folder folder;
+    int cut = 0;
+    for (int attempt = 0; attempt < 12; ++attempt) {
+        fs::remove_all(folder / "r");
+        Running tool(folder,
+                     {"compare", "-q", "builtin:gallery", "--size", "192x108", "--runs", "0", "-o", "r"});
+        ASSERT_TRUE(soon([&] { return tool.ended() || isWriting(folder); }));
+        std::this_thread::sleep_for(std::chrono::milliseconds(7 * attempt));
+        if (!tool.ended()) ::kill(tool.process(), SIGINT);
+        ASSERT_TRUE(soon([&] { return tool.ended(); }));
+        const bool died = WIFSIGNALED(tool.wait());
+        cut += died;
+        EXPECT_TRUE(leftoversIn(folder.path()).empty()) << attempt;
+        if (!died) {
+            EXPECT_EQ(WEXITSTATUS(tool.wait()), 0) << tool.err();
+        }
+        EXPECT_TRUE(fs::exists(folder / "r/report.json") || !fs::exists(folder / "r")) << attempt;
+    }
+    EXPECT_GT(cut, 0);
+}
+
+TEST(Interruption, AnIgnoredSignalStaysIgnored) {
+    const Folder folder;
+    const Ran ran =
+        runShell(folder,
+                 "trap '' HUP INT; '" DIPTYCH_PROGRAM
+                 "' render -q builtin:triangle --size 64x36 --runs 200 -o r & sleep 0.2; kill -HUP $!; "
+                 "kill -INT $!; wait $!",
+                 folder.path());
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
+}
+
+// The reader of a pipe that goes early is no failure and leaves nothing behind.
+TEST(Interruption, AClosedPipeEndsAfterTheReportIsWhole) {
+    const Folder folder;
+    const Ran ran = runShell(
+        folder, "'" DIPTYCH_PROGRAM "' render -v builtin:triangle --size 16x9 --runs 0 -o r 2>&1 | true",
+        folder.path());
+    EXPECT_EQ(ran.err, "");
+    ASSERT_TRUE(soon([&] { return fs::exists(folder / "r/frame.json"); }));
+    EXPECT_TRUE(leftoversIn(folder.path()).empty());
+}
+
+TEST(Interruption, OneThatIsKilledIsSweptByTheNext) {
+    const Folder folder;
+    folder.write(".r.99999999-0.tmp/half.png", "of a process that is no more: numbers end at 4194304");
+    folder.write(".r.1-0.tmp/half.png", "of one that lives");
+    folder.write(".r.99999999.tmp/half.png", "not as ours are called");
+    folder.write(".other.99999999-0.tmp", "of another report");
+    const std::string small = "render -q builtin:triangle --size 16x9 --runs 0 -o r";
+    ASSERT_EQ(runTool(folder, small).code, 0);
+    EXPECT_FALSE(fs::exists(folder / ".r.99999999-0.tmp"));
+    for (const char* kept : {".r.1-0.tmp", ".r.99999999.tmp", ".other.99999999-0.tmp"})
+        EXPECT_TRUE(fs::exists(folder / kept)) << kept;
+
+    folder.write(".r.99999999-1.tmp", "of a process in another container, which holds its lock");
+    const int locked = ::open((folder / ".r.99999999-1.tmp").c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(::flock(locked, LOCK_EX | LOCK_NB), 0);
+    ASSERT_EQ(runTool(folder, small).code, 0);
+    EXPECT_TRUE(fs::exists(folder / ".r.99999999-1.tmp"));
+    ::close(locked);
+    ASSERT_EQ(runTool(folder, small).code, 0);
+    EXPECT_FALSE(fs::exists(folder / ".r.99999999-1.tmp"));
+}
+
+// Which of two reports a folder holds: all its files say the same.
+std::string channelsIn(const fs::path& report) {
+    std::string found;
+    for (const auto& entry : fs::directory_iterator(report)) {
+        const std::string name = entry.path().filename().string();
+        for (const std::string channel : {"albedo", "normals"})
+            if (name.starts_with(channel) && found.find(channel) == found.npos) found += channel;
+    }
+    return found;
+}
+
+TEST(Interruption, TwoProgramsLeaveOneWholeReport) {
+    const Folder folder;
+    const auto words = [](const std::string& channel) {
+        return std::vector<std::string>{"compare", "-q", "builtin:triangle", "--size", "16x9",
+                                        "--runs",  "0",  "--channels",       channel,  "-o",
+                                        "r"};
+    };
+    for (int attempt = 0; attempt < 10; ++attempt) {
+        if (attempt % 3 == 0) fs::remove_all(folder / "r");
+        if (attempt == 5) folder.write("r/mine.txt", "keep");
+        Running one(folder, words("albedo")), other(folder, words("normals"));
+        EXPECT_EQ(one.wait(), 0) << one.err();
+        EXPECT_EQ(other.wait(), 0) << other.err();
+        const std::string channels = channelsIn(folder / "r");
+        EXPECT_TRUE(channels == "albedo" || channels == "normals") << attempt << channels;
+        EXPECT_TRUE(fs::exists(folder / "r/report.json"));
+        EXPECT_TRUE(leftoversIn(folder.path()).empty());
+        if (attempt == 5) {
+            EXPECT_EQ(contentsOf(folder / "r/mine.txt"), "keep");
+        }
+    }
+}
+
+// One waits until the other has moved its files.
+TEST(Interruption, AFolderThatIsBeingWrittenIsWaitedFor) {
+    const Folder folder;
+    const int held = ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    ASSERT_EQ(::flock(held, LOCK_EX), 0);
+    Running tool(folder, {"render", "-q", "builtin:triangle", "--size", "16x9", "--runs", "0", "-o", "r"});
+    std::this_thread::sleep_for(1s);
+    EXPECT_FALSE(fs::exists(folder / "r"));
+    EXPECT_FALSE(tool.ended());
+    ::close(held);
+    EXPECT_EQ(tool.wait(), 0) << tool.err();
+    EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
+}
+
+// `script` in a name space of its own, where it may mount; skipped where that is forbidden.
+Ran mounted(const Folder& folder, const std::string& script) {
+    folder.write("script", "set -e\n" + script);
+    return runShell(folder, "unshare -rm sh script", folder.path());
+}
+bool canMount(const Folder& folder) {
+    return mounted(folder, "mkdir -p m; mount -t tmpfs -o size=64k none m").code == 0;
+}
+
+const std::string render = "'" DIPTYCH_PROGRAM "' render -q builtin:triangle --size 64x36 --runs 0 -o ";
+const std::string sums = "(cd m/r && find . -type f | sort | xargs sha256sum)";
+
+TEST(FullDisk, OfAnySizeLeavesTheEarlierReport) {
+    const Folder folder;
+    if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a small disk in";
+    int failed = 0;
+    for (int blocks = 6; blocks < 400; blocks += 3) {
+        // The earlier one is small: of one channel. What follows is of all.
+        const Ran ran =
+            mounted(folder, "mkdir -p m; mount -t tmpfs -o size=" + std::to_string(4 * blocks) +
+                                "k none m\n" + render + "m/r --channels albedo || exit 9\n" + sums +
+                                " > before\nif " + render + "m/r; then exit 0; fi\n" + sums +
+                                " > after; cmp before after; ls -A m | grep -qx r; "
+                                "[ $(ls -A m | wc -l) = 1 ]; exit 2");
+        if (ran.code == 0) break;
+        if (ran.code == 9) continue;  // no room for the earlier one even
+        ++failed;
+        EXPECT_TRUE(ran.failedOver("No space left on device; make room, or write to another place with -o"))
+            << blocks;
+    }
+    EXPECT_GE(failed, 2);
+}
+
+TEST(FullDisk, OneThatIsReadOnlyIsNamedAndKept) {
+    const Folder folder;
+    if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a read-only disk in";
+    const std::string mount = "mkdir -p m; mount -t tmpfs none m\n" + render + "m/r\n" + sums +
+                              " > before\nmount -o remount,ro m\n";
+    for (const std::string out : {"m/r", "m/new", "m/a.exr", "m/a.png"}) {
+        const Ran ran =
+            mounted(folder, mount + "code=0; " + render + out + " || code=$?\n" + sums +
+                                " > after; cmp before after; [ $(ls -A m | wc -l) = 1 ]; exit $code");
+        EXPECT_TRUE(ran.failedOver("Read-only file system; write to another place with -o")) << out;
+    }
+}
+
+TEST(FullDisk, ALimitOnFileSizeIsAnErrorAsAnyOther) {
+    const Folder folder;
+    const Ran ran = runShell(folder, "ulimit -f 1; " + render + "r", folder.path());
+    EXPECT_TRUE(ran.failedOver("raise the limit on a file's size (ulimit -f)"));
+    EXPECT_FALSE(fs::exists(folder / "r"));
+    EXPECT_TRUE(leftoversIn(folder.path()).empty());
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// report_writer old|new|check FOLDER: one of two reports written as compare writes it, or what is there made
+// good as compare does before it draws. Without a device, so that a test can run it hundreds of times.
+#include "compare/output.h"
+#include "compare/report/report.h"
+#include "tests/unit/report_maker.h"
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+int main(int argc, char** argv) {
+    using namespace diptych;
+    if (argc != 3) return 3;
+    const std::string which = argv[1];
+    try {
+        std::vector<Frame> frames = bothFrames();
+        // Few files, so that a test comes to every call that writes one.
+        for (Frame& frame : frames)
+            std::erase_if(frame.channels, [](const auto& channel) {
+                return channel.first != gpu::DEBUG_albedo && channel.first != gpu::DEBUG_roughness &&
+                       channel.first != gpu::DEBUG_material_id;
+            });
+        // Of the new one roughness differs: it has a picture of the difference, which the old one has not.
+        if (which == "new") frames[1].channels[gpu::DEBUG_roughness].at(1, 2, 0) = 0.25f;
+        if (which == "check")
+            checkReplaceable({OutputKind::folder, argv[2]}, "report.json", false);
+        else
+            writeReport(reportOf(std::move(frames)), argv[2], {});
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "diptych: %s\n", error.what());
+        return 2;
+    }
+}
