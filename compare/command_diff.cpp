@@ -10,7 +10,7 @@
 namespace diptych {
 
 // The share of reading and measuring; the rest is writing.
-constexpr double measuring = 0.8;
+constexpr double measuring = 0.9;
 
 int runDiff(const Options& options) {
     const std::optional<Output> output =

@@ -76,7 +76,7 @@ void checkValidation(const Device& device) {
 }
 
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
-    // In frames drawn: a file of some hundred megabytes; ours are made at once.
+    // In frames drawn, roughly: files differ by far, ours are made at once.
     const double load = scene.starts_with("builtin:") ? 0.1 : 4;
     return load / (load + framesIn(render) * static_cast<double>(frames));
 }

@@ -49,6 +49,14 @@ bool isPlainName(const fs::path& name) {
            });
 }
 
+// But for what is being written there just now, by this program or another.
+bool isEmpty(const fs::path& folder) {
+    const fs::path name = fs::canonical(folder);
+    return std::ranges::all_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
+        return isTemporaryOf(name, entry.path().filename().string());
+    });
+}
+
 }  // namespace
 
 Output outputOf(const fs::path& out) {
@@ -91,25 +99,14 @@ std::vector<std::string> markedIn(const fs::path& folder, const std::string& mar
     return names;
 }
 
-namespace {
-
-// What is being written there does not count.
-bool holdsNothing(const fs::path& folder) {
-    return std::ranges::all_of(fs::directory_iterator(folder),
-                               [](const auto& entry) { return isTemporaryName(entry.path()); });
-}
-
-}  // namespace
-
 void checkReplaceable(const Output& output, const std::string& mark, bool force) {
     std::error_code error;
     if (output.kind == OutputKind::folder && fs::is_directory(output.path, error)) finishPut(output.path);
     const fs::file_status there = fs::status(output.path, error);
     if (!fs::exists(there) || force) return;
-    const bool ours =
-        output.kind == OutputKind::folder
-            ? fs::is_directory(there) && (holdsNothing(output.path) || isOurMark(output.path / mark))
-            : fs::is_regular_file(there) && isOurFile(output.path);
+    const bool ours = output.kind == OutputKind::folder
+                          ? fs::is_directory(there) && (isEmpty(output.path) || isOurMark(output.path / mark))
+                          : fs::is_regular_file(there) && isOurFile(output.path);
     if (!ours)
         throw std::runtime_error(fmt::format(
             "-o {}: is there and was not written by diptych; --force replaces it", output.path.string()));

@@ -147,7 +147,7 @@ FrameCamera cameraOf(const View& view) {
     return camera;
 }
 
-constexpr double captureFrames = 4;  // a capture of all channels; measured, lavapipe
+constexpr double captureFrames = 3;  // a capture of all channels; measured, lavapipe
 
 class FrameMaker {
 public:

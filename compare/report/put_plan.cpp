@@ -110,7 +110,10 @@ PutPlan readPlan(const fs::path& file) {
 // carried out again.
 void removeBegun(const fs::path& begun) {
     std::error_code ignored;
-    fs::remove_all(begun / oldName, ignored);
+    std::vector<fs::path> folders;  // what was replaced, and those that files were moved out of
+    for (fs::directory_iterator entry(begun, ignored), end; !ignored && entry != end; entry.increment(ignored))
+        if (entry->is_directory(ignored)) folders.push_back(entry->path());
+    for (const fs::path& folder : folders) fs::remove_all(folder, ignored);
     fs::remove(begun / planName, ignored);
     ::rmdir(begun.c_str());
 }

@@ -68,9 +68,9 @@ void sweep(const fs::path& folder, const fs::path& target) {
     for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
          entry.increment(ignored)) {
         const std::string name = entry->path().filename().string();
-        if (!name.starts_with(prefix)) continue;
+        if (!isTemporaryOf(target, name)) continue;
         const pid_t process = processOf(std::string_view(name).substr(prefix.size()));
-        if (process != 0 && isAbandoned(entry->path(), process)) left.push_back(entry->path());
+        if (isAbandoned(entry->path(), process)) left.push_back(entry->path());
     }
     for (const fs::path& path : left) fs::remove_all(path, ignored);
 }
@@ -81,13 +81,6 @@ bool isTemporary(const fs::path& folder) {
 }
 
 }  // namespace
-
-bool isTemporaryName(const fs::path& path) {
-    const std::string name = path.filename().string();
-    if (!name.starts_with('.')) return false;
-    const std::size_t end = name.size() < 4 ? name.npos : name.rfind('.', name.size() - 5);
-    return end != name.npos && end > 0 && processOf(std::string_view(name).substr(end + 1)) != 0;
-}
 
 Temporary::Temporary(const fs::path& folder, fs::path target) : target_(std::move(target)) {
     static std::atomic<unsigned> serial{0};
@@ -167,6 +160,11 @@ void abandonTemporaries() noexcept {
             fs::remove_all(path, ignored);
         } catch (const std::exception&) {  // no memory: the next program sweeps it
         }
+}
+
+bool isTemporaryOf(const fs::path& target, const std::string& name) {
+    const std::string prefix = prefixOf(target);
+    return name.starts_with(prefix) && processOf(std::string_view(name).substr(prefix.size())) != 0;
 }
 
 fs::path finalName(const fs::path& path) {

@@ -33,14 +33,14 @@ private:
     int lock_ = -1;  // a folder's
 };
 
-// Whether `path` is called as a Temporary is, of any program: ".NAME.12-0.tmp".
-bool isTemporaryName(const std::filesystem::path& path);
-
 // While it lives an interruption waits: for steps that must all be done or none. Milliseconds, not more.
 std::unique_lock<std::recursive_mutex> holdTemporaries();
 
 // Removes all there are and never lets another be made nor become a file: the caller ends the program.
 void abandonTemporaries() noexcept;
+
+// A name that a Temporary of `target` has, in this or another program.
+bool isTemporaryOf(const std::filesystem::path& target, const std::string& name);
 
 // What `path`, in a temporary folder, will be called in the end; otherwise `path`. For messages.
 std::filesystem::path finalName(const std::filesystem::path& path);

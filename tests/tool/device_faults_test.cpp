@@ -42,9 +42,9 @@ TEST(DeviceFaults, MemoryThatIsNotThereNamesASmallerSize) {
 TEST(DeviceFaults, ALostDeviceIsNamedAtEverySubmit) {
     EXPECT_GE(
         sweep("vkQueueSubmit2", VK_ERROR_DEVICE_LOST,
-              "vkQueueSubmit2: the device was lost; run it again, or choose another device with --device"),
-        5);
-    EXPECT_GE(sweep("vkWaitForFences", VK_ERROR_DEVICE_LOST, "vkWaitForFences: the device was lost"), 5);
+              "vkQueueSubmit2: the device was lost; run it again, or choose another device with --device", 2),
+        3);
+    EXPECT_GE(sweep("vkWaitForFences", VK_ERROR_DEVICE_LOST, "vkWaitForFences: the device was lost", 2), 3);
 }
 
 TEST(DeviceFaults, WhatCannotBeMadeIsNamed) {
@@ -80,7 +80,7 @@ TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
     ASSERT_EQ(runTool(folder, command).code, 0);
     const Contents old = contentsBelow(folder / "r");
     int failed = 0;
-    for (int at = 1;; at += 4) {
+    for (int at = 1;; at += 7) {
         ASSERT_LT(at, manyCalls);
         const Faulted ran = runFaulted(folder, command, {"memory", "12", false, 4096}, at);
         EXPECT_TRUE(leftoversIn(folder.path()).empty()) << at << " " << ran.err;
@@ -95,7 +95,7 @@ TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
         EXPECT_TRUE(ran.failedOver("")) << at;
         if (testing::Test::HasFailure()) break;
     }
-    EXPECT_GE(failed, 10);
+    EXPECT_GE(failed, 6);
     EXPECT_EQ(contentsBelow(folder / "r").size(), old.size());
 }
 

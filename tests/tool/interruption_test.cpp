@@ -98,12 +98,12 @@ bool isWriting(const Folder& folder) {
 TEST(Interruption, WritingLeavesAllOrNothing) {
     const Folder folder;
     int cut = 0;
-    for (int attempt = 0; attempt < 12; ++attempt) {
+    for (int attempt = 0; attempt < 6; ++attempt) {
         fs::remove_all(folder / "r");
         Running tool(folder,
-                     {"compare", "-q", "builtin:gallery", "--size", "192x108", "--runs", "0", "-o", "r"});
+                     {"compare", "-q", "builtin:gallery", "--size", "96x54", "--runs", "0", "-o", "r"});
         ASSERT_TRUE(soon([&] { return tool.ended() || isWriting(folder); }));
-        std::this_thread::sleep_for(std::chrono::milliseconds(7 * attempt));
+        std::this_thread::sleep_for(std::chrono::milliseconds(9 * attempt));
         if (!tool.ended()) ::kill(tool.process(), SIGINT);
         ASSERT_TRUE(soon([&] { return tool.ended(); }));
         const bool died = WIFSIGNALED(tool.wait());
@@ -119,12 +119,11 @@ TEST(Interruption, WritingLeavesAllOrNothing) {
 
 TEST(Interruption, AnIgnoredSignalStaysIgnored) {
     const Folder folder;
-    const Ran ran =
-        runShell(folder,
-                 "trap '' HUP INT; '" DIPTYCH_PROGRAM
-                 "' render -q builtin:triangle --size 64x36 --runs 200 -o r & sleep 0.2; kill -HUP $!; "
-                 "kill -INT $!; wait $!",
-                 folder.path());
+    const Ran ran = runShell(folder,
+                             "trap '' HUP INT; '" DIPTYCH_PROGRAM
+                             "' render -q --size 160x90 --runs 60 -o r & sleep 0.2; "
+                             "kill -HUP $! && kill -INT $! && wait $!",
+                             folder.path());
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
 }
