@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <stdexcept>
 
@@ -162,7 +163,18 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     diff.test = test;
     options.progress.at(0, "read");
     PictureFile a, b;
-    tbb::parallel_invoke([&] { a = readPicture(reference); }, [&] { b = readPicture(test); });
+    // Of two that cannot be read the reference is named, whichever thread was faster.
+    std::exception_ptr failures[2];
+    const auto read = [](PictureFile& file, const std::string& name, std::exception_ptr& failure) {
+        try {
+            file = readPicture(name);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    };
+    tbb::parallel_invoke([&] { read(a, reference, failures[0]); }, [&] { read(b, test, failures[1]); });
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
     diff.reference_format = a.format;
     diff.test_format = b.format;
     bringTogether(a, b, diff);
