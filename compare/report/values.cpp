@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -43,43 +44,61 @@ bool holdsExactly(const Image& image, int exponent) {
     });
 }
 
-// Deltas of rows, by bytes: what the page undoes.
+// Deltas of rows, by bytes, deflated plane by plane: what the page undoes.
 class Planes {
 public:
     Planes(int width, std::size_t pixels, int bits)
         : width_(static_cast<std::size_t>(width)),
-          pixels_(pixels),
-          bytes_(static_cast<std::size_t>(bits) / 8) {}
+          plane_(pixels * static_cast<std::size_t>(bits) / 8),
+          pixels_(pixels) {
+        // Level 1: a report waits for dozens of these; level 4 takes half again as long to save a thirteenth.
+        if (deflateInit(&stream_, 1) != Z_OK) fail();
+    }
+    ~Planes() { deflateEnd(&stream_); }
+    Planes(const Planes&) = delete;
+    Planes& operator=(const Planes&) = delete;
 
     // wordOf(i): the word of pixel i.
     template <class Word>
     void add(const Word& wordOf) {
-        const std::size_t start = raw_.size();
-        raw_.resize(start + pixels_ * bytes_);
         std::uint32_t left = 0;
         for (std::size_t i = 0; i < pixels_; ++i) {
             if (i % width_ == 0) left = 0;
             const std::uint32_t word = wordOf(i);
-            for (std::size_t byte = 0; byte < bytes_; ++byte)
-                raw_[start + byte * pixels_ + i] = static_cast<unsigned char>((word - left) >> (8 * byte));
+            for (std::size_t byte = 0; byte * pixels_ < plane_.size(); ++byte)
+                plane_[byte * pixels_ + i] = static_cast<unsigned char>((word - left) >> (8 * byte));
             left = word;
         }
+        stream_.next_in = plane_.data();
+        stream_.avail_in = static_cast<uInt>(plane_.size());  // at most 64 MiB: there is a limit of pixels
+        deflateTo(Z_NO_FLUSH);
     }
 
-    // Level 1: a report waits for dozens of these; level 4 takes half again as long to save a thirteenth.
-    std::string deflated() const {
-        uLongf size = compressBound(static_cast<uLong>(raw_.size()));
-        std::string out(size, '\0');
-        if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, raw_.data(),
-                      static_cast<uLong>(raw_.size()), 1) != Z_OK)
-            throw std::runtime_error("zlib: no memory for the values of a channel");
-        out.resize(size);
-        return out;
+    std::string deflated() {
+        deflateTo(Z_FINISH);
+        return std::move(out_);
     }
 
 private:
-    std::size_t width_, pixels_, bytes_;
-    std::vector<unsigned char> raw_;
+    [[noreturn]] static void fail() {
+        throw std::runtime_error("zlib: no memory for the values of a channel");
+    }
+
+    void deflateTo(int flush) {
+        std::array<unsigned char, 1 << 16> piece;
+        do {
+            stream_.next_out = piece.data();
+            stream_.avail_out = static_cast<uInt>(piece.size());
+            if (deflate(&stream_, flush) == Z_STREAM_ERROR) fail();
+            out_.append(reinterpret_cast<const char*>(piece.data()), piece.size() - stream_.avail_out);
+        } while (stream_.avail_out == 0);
+    }
+
+    std::size_t width_;
+    std::vector<unsigned char> plane_;
+    std::size_t pixels_;
+    z_stream stream_{};
+    std::string out_;
 };
 
 // One word of a component; 32 bits are not scaled. A double holds every float times every scale exactly.
@@ -127,9 +146,16 @@ std::string valuesScript(const std::string& name, const ChannelValues& values) {
                                       {"bits", word.bits},
                                       {"exact", word.bits == 32 || halfIsExact},
                                       {"exponent", word.bits == 32 ? 0 : exponent},
-                                      {"errorUnit", unit > 0 ? unit : 1.0},
-                                      {"data", base64(planes.deflated())}};
-    return "diptychValues(" + nlohmann::json(name).dump() + "," + head.dump() + ");\n";
+                                      {"errorUnit", unit > 0 ? unit : 1.0}};
+    // The data, most of it all, is appended: a JSON tree and its text would each hold it once more.
+    std::string script = "diptychValues(" + nlohmann::json(name).dump() + "," + head.dump();
+    script.pop_back();
+    script += ",\"data\":\"";
+    const std::string data = planes.deflated();
+    script.reserve(script.size() + data.size() / 3 * 4 + 16);
+    constexpr std::size_t piece = 3 << 14;  // whole groups of three, so that pieces join
+    for (std::size_t i = 0; i < data.size(); i += piece) script += base64(data.substr(i, piece));
+    return script += "\"});\n";
 }
 
 }  // namespace diptych
