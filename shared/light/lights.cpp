@@ -30,8 +30,9 @@ gpu::Light gpuLight(const Light& light, const glm::dvec3& eye) {
     return g;
 }
 
+// No path draws area lights yet.
 bool shines(const Light& light) {
-    return light.color * light.intensity != glm::vec3(0) &&
+    return !isArea(light.kind) && light.color * light.intensity != glm::vec3(0) &&
            (light.kind == LightKind::directional || light.range > 0);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/scene/axes.h"
 #include "shared/scene/scene.h"
 
 #include <fmt/format.h>
@@ -42,10 +43,12 @@ Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     Light result = light;
     if (light.node < 0) return result;
     const glm::dmat4& worldFromLight = world[static_cast<std::size_t>(light.node)];
-    const glm::dvec3 axis = -glm::dvec3(worldFromLight[2]);
-    const double length = glm::length(axis);
-    result.position = glm::dvec3(worldFromLight[3]);
-    result.direction = length > 0 && std::isfinite(length) ? axis / length : glm::dvec3(0, 0, -1);
+    result.position = glm::dvec3(worldFromLight * glm::dvec4(light.position, 1));
+    result.direction = unitOr(glm::dmat3(worldFromLight) * light.direction, {0, 0, -1});
+    // A sheared node's axes are not at right angles.
+    const glm::dvec3 axis = unitOr(glm::dmat3(worldFromLight) * light.axis, {1, 0, 0});
+    const glm::dvec3 across = axis - glm::dot(axis, result.direction) * result.direction;
+    result.axis = light.kind == LightKind::tube ? axis : unitOr(across, perpendicularTo(result.direction));
     result.node = -1;
     return result;
 }

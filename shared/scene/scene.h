@@ -4,6 +4,7 @@
 #pragma once
 
 #include "shared/contract/constants.h"
+#include "shared/image/image.h"
 #include "shared/scene/motion.h"
 
 #include <glm/mat4x4.hpp>
@@ -106,20 +107,40 @@ struct Node {
     int weights = -1;    // into Scene::weights: in place of its mesh's
 };
 
-enum class LightKind { directional, point, spot };
+enum class LightKind { directional, point, spot, rect, disc, tube };
+constexpr bool isArea(LightKind kind) {
+    return kind == LightKind::rect || kind == LightKind::disc || kind == LightKind::tube;
+}
 
-// KHR_lights_punctual. Shines along -Z of its node; without a node position and direction are world.
+// KHR_lights_punctual, and surfaces that shine: a rectangle and a disc, from one side or both, and a closed
+// cylinder, the tube. Every point of these sends the same radiance into every direction (Lambert); they throw no
+// shadow and are not seen themselves. Shines along -Z of its node, +X of the node is its axis; without a node
+// everything is world.
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
     glm::vec3 color{1, 1, 1};                              // linear Rec.709
-    float intensity = 1;                                   // directional: lux; point, spot: candela
-    float range = std::numeric_limits<float>::infinity();  // m
+    float intensity = 1;                                   // directional: lux; point, spot: candela; area: nits
+    float range = std::numeric_limits<float>::infinity();  // m; of an area light from its centre
     float inner_cone = 0;                                  // rad, from the axis
     float outer_cone = gpu::PI / 4;                        // rad
+    float angle = 0;                                       // directional: the diameter of its disc, rad
+    float width = 1, height = 1;                           // rect: along the axis, and across it; m
+    float radius = 0.5f;                                   // disc, tube; m
+    float length = 1;                                      // tube: along the axis; m
+    bool two_sided = false;                                // rect, disc
     int node = -1;
-    glm::dvec3 position{0, 0, 0};
-    glm::dvec3 direction{0, 0, -1};  // unit, in which it shines
+    glm::dvec3 position{0, 0, 0};    // area: of its centre
+    glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; a tube's counts for nothing
+    glm::dvec3 axis{1, 0, 0};        // unit; rect: at right angles to the direction
+};
+
+// What shines from everywhere, as a picture of all directions: column x + 0.5 of `width` looks to the azimuth
+// 2 pi (x + 0.5) / width - pi, which is 0 at -Z, positive towards +X; row y + 0.5 of `height` to pi (y + 0.5) /
+// height from +Y. Between the pixels' centres it is bilinear, across the seam too.
+struct Environment {
+    std::string name;  // the file
+    Image radiance;    // width x height x 3, linear Rec.709, W/(sr m^2), >= 0 and finite
 };
 
 // Looks along -Z of its node, +Y up.
@@ -142,6 +163,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
     std::vector<Light> lights;
+    std::optional<Environment> environment;
     std::vector<Camera> cameras;
     std::vector<Transform> transforms;        // of the nodes that an animation moves
     std::vector<std::vector<float>> weights;  // of morph targets, of the nodes that have their own

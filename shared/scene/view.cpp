@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/view.h"
 
+#include "shared/scene/axes.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -20,18 +22,6 @@ namespace diptych {
 // ---- the camera's axes -------------------------------------------------------------------------------
 
 namespace {
-
-// `v` as a unit vector, or `fallback` where it has no direction.
-glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& fallback) {
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? v / length : fallback;
-}
-
-// Any unit vector at right angles to the unit vector `v`.
-glm::dvec3 perpendicularTo(const glm::dvec3& v) {
-    const glm::dvec3 axis = std::abs(v.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    return glm::normalize(glm::cross(v, axis));
-}
 
 double tanHalfFov(const Camera& camera) {
     return std::tan(camera.yfov * 0.5);
