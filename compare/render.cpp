@@ -152,13 +152,12 @@ constexpr double captureFrames = 3;  // a capture of all channels; measured, lav
 class FrameMaker {
 public:
     FrameMaker(Device& device, SharedResources& shared, const Scene& scene, const Settings& settings,
-               const RenderOptions& options, const Stage& progress)
+               const RenderOptions& options)
         : device_(device),
           shared_(shared),
           scene_(scene),
           settings_(settings),
           options_(options),
-          progress_(progress),
           shot_(device, shared, scene, settings),
           path_(functionsOf(settings.path)) {}
 
@@ -191,7 +190,7 @@ private:
     }
     // Before something that takes about as long as `frames` timed frames do.
     void step(const std::string& what, double frames = 1) {
-        progress_.at(framesDone_ / framesIn(options_), frame_.name + ": " + what);
+        options_.progress.at(framesDone_ / framesIn(options_), frame_.name + ": " + what);
         framesDone_ += frames;
     }
     bool asked(int mode) const {
@@ -288,7 +287,6 @@ private:
     const Scene& scene_;
     const Settings& settings_;
     const RenderOptions& options_;
-    const Stage progress_;
     double framesDone_ = 0;
     Shot shot_;
     const PathFunctions& path_;
@@ -316,17 +314,33 @@ double framesIn(const RenderOptions& options) {
     return 2 + options.runs + (options.twice ? 2 + 2 * captureFrames : captureFrames);
 }
 
+struct Renderer::State {
+    Device& device;
+    const Scene& scene;
+    SharedResources shared;
+};
+
+Renderer::Renderer(Device& device, const Scene& scene)
+    : state_(new State{device, scene, SharedResources(device, scene)}) {}
+Renderer::~Renderer() = default;
+
+Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
+    checkSize(state_->device, settings.size);
+    return FrameMaker(state_->device, state_->shared, state_->scene, settings, options).make();
+}
+
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
                              const RenderOptions& options) {
     for (const Settings& s : settings) checkSize(device, s.size);
     options.progress.at(0, "upload");
-    SharedResources shared(device, scene);
+    Renderer renderer(device, scene);
+    RenderOptions each = options;
     std::vector<Frame> frames;
     const auto count = static_cast<double>(settings.size());
     for (std::size_t i = 0; i < settings.size(); ++i) {
         const auto done = static_cast<double>(i);
-        const Stage progress = options.progress.part(done / count, (done + 1) / count);
-        frames.push_back(FrameMaker(device, shared, scene, settings[i], options, progress).make());
+        each.progress = options.progress.part(done / count, (done + 1) / count);
+        frames.push_back(renderer.draw(settings[i], each));
     }
     return frames;
 }

@@ -7,6 +7,7 @@
 #include "shared/scene/scene.h"
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,8 +29,23 @@ struct RenderOptions {
 // What making one Frame takes, in the time of drawing one frame: for a progress line.
 double framesIn(const RenderOptions& options);
 
-// One Frame per Settings, in order. Everything is uploaded once for all of them and every pipeline is
-// compiled once. Throws std::runtime_error: one line.
+// Frames of one scene, one after another as they are asked for: everything is uploaded once for all of them
+// and every pipeline is compiled once. Device and scene outlive it. Throws std::runtime_error: one line.
+class Renderer {
+public:
+    Renderer(Device& device, const Scene& scene);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    Frame draw(const Settings& settings, const RenderOptions& options);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+// One Frame per Settings, in order, by one Renderer.
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
                              const RenderOptions& options);
 
