@@ -74,6 +74,8 @@ int runPlan(const Options& options) {
     refuseOut(options);
     std::vector<Path> paths{Path::deferred, Path::forward_plus};
     if (options.path_given) paths = {options.settings.path};
+    if (paths.front() == Path::reference)
+        throw std::runtime_error("--path reference: has no passes; plan tells of deferred and forward_plus");
     const std::vector<Settings> settings = plan(options, paths);
     Device device(deviceOptions(options));
     Progress progress(progressOutput(options));

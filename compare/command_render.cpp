@@ -3,6 +3,7 @@
 #include "compare/report/json.h"
 #include "compare/report/report.h"
 #include "compare/report/report_folder.h"
+#include "compare/truth.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 #include "shared/scene/builtin/builtin.h"
@@ -96,9 +97,10 @@ double drawnShare(const RenderOptions& render) {
 }
 
 std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& settings, Device& device,
-                           Progress& progress) {
+                           KeptReferences& kept, Progress& progress) {
     const Output output = outputIn(options);
     RenderOptions render = renderOptions(options);
+    render.keep = [&kept] { return kept.next(); };
     render.channels = channelsFor(output.kind, options, render.channels);
     std::vector<Frame> frames;
     const double drawn = drawnShare(render);
@@ -174,7 +176,8 @@ int runRender(const Options& options) {
                 {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
                 {"frames", Json::array()}};
     // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
-    const std::vector<Frame> frames = drawAll(options, settings, device, progress);
+    KeptReferences kept(output.path);
+    const std::vector<Frame> frames = drawAll(options, settings, device, kept, progress);
     for (const Frame& frame : frames) {
         result["frames"].push_back(jsonOf(frame));
         result["frames"].back()["file"] = output.path.string();
@@ -182,6 +185,7 @@ int runRender(const Options& options) {
     const std::vector<std::filesystem::path> places =
         writeAll(options, frames, result, made,
                  Stage(progress, output.path.string()).part(drawnShare(renderOptions(options)), 1));
+    kept.remove();
     progress.wipe();
     for (std::size_t i = 0; i < frames.size() && !options.json && !options.quiet; ++i) {
         const Frame& frame = frames[i];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/commands.h"
 
+#include "compare/truth.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,9 +29,9 @@ std::vector<Settings> plan(const Options& options, const std::vector<Path>& path
         for (const Path path : paths) {
             Settings settings = options.settings;
             settings.camera = camera;
-            if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
             settings.path = path;
-            all.push_back(settings);
+            if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+            all.push_back(path == Path::reference ? referenceSettings(settings) : settings);
         }
     return all;
 }

@@ -7,9 +7,22 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
+#include <mutex>
 #include <thread>
 
 namespace diptych {
+namespace {
+
+std::mutex lastWordsMutex;
+std::string lastWords;
+
+}  // namespace
+
+void sayWhenInterrupted(const std::string& line) {
+    const std::lock_guard lock(lastWordsMutex);
+    lastWords = line;
+}
 
 void dieOf(int signal) {
     std::signal(signal, SIG_DFL);
@@ -34,6 +47,10 @@ void watchInterruption() {
         if (sigwait(&watched, &signal) != 0) return;
         abandonTemporaries();
         wipeProgress();
+        {
+            const std::lock_guard lock(lastWordsMutex);
+            if (!lastWords.empty()) std::fprintf(stderr, "diptych: %s\n", lastWords.c_str());
+        }
         dieOf(signal);
     }).detach();
 }

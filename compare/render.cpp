@@ -2,7 +2,9 @@
 #include "compare/render.h"
 
 #include "compare/metrics/channel.h"
+#include "compare/reference/reference.h"
 #include "compare/tolerance.h"
+#include "compare/truth.h"
 #include "deferred/deferred.h"
 #include "forward_plus/forward_plus.h"
 #include "shared/contract/debug_mode.h"
@@ -89,7 +91,7 @@ const PathFunctions paths[] = {
 const PathFunctions& functionsOf(Path path) {
     for (const PathFunctions& functions : paths)
         if (functions.path == path) return functions;
-    throw std::runtime_error(fmt::format("--path {} is not built yet", nameOf(path)));
+    throw std::logic_error(fmt::format("--path {} is drawn by no device", nameOf(path)));
 }
 
 void checkSize(const Device& device, const Size& size) {
@@ -120,31 +122,6 @@ FrameTime timeOf(std::vector<double> ms) {
     time.max = ms.back();
     time.median = 0.5 * (ms[(ms.size() - 1) / 2] + ms[ms.size() / 2]);
     return time;
-}
-
-std::uint64_t nonfinitePixels(const Image& image) {
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-        const float* p = image.pixel(i);
-        count += !std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); });
-    }
-    return count;
-}
-
-FrameCamera cameraOf(const View& view) {
-    FrameCamera camera;
-    camera.name = view.camera.name;
-    const glm::dvec3 eye = view.eye(), target = view.target(), up = view.up();
-    for (int i = 0; i < 3; ++i) {
-        camera.eye[i] = eye[i];
-        camera.target[i] = target[i];
-        camera.up[i] = up[i];
-    }
-    camera.fov_degrees = view.camera.orthographic ? 0.0 : glm::degrees(view.camera.yfov);
-    camera.ymag = view.camera.orthographic ? view.camera.ymag : 0.0;
-    camera.near = view.camera.near;
-    camera.far = view.camera.far;
-    return camera;
 }
 
 constexpr double captureFrames = 3;  // a capture of all channels; measured, lavapipe
@@ -296,6 +273,31 @@ private:
 
 }  // namespace
 
+std::uint64_t nonfinitePixels(const Image& image) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* p = image.pixel(i);
+        count += !std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); });
+    }
+    return count;
+}
+
+FrameCamera cameraOf(const View& view) {
+    FrameCamera camera;
+    camera.name = view.camera.name;
+    const glm::dvec3 eye = view.eye(), target = view.target(), up = view.up();
+    for (int i = 0; i < 3; ++i) {
+        camera.eye[i] = eye[i];
+        camera.target[i] = target[i];
+        camera.up[i] = up[i];
+    }
+    camera.fov_degrees = view.camera.orthographic ? 0.0 : glm::degrees(view.camera.yfov);
+    camera.ymag = view.camera.orthographic ? view.camera.ymag : 0.0;
+    camera.near = view.camera.near;
+    camera.far = view.camera.far;
+    return camera;
+}
+
 std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& settings) {
     std::vector<Light> lights = pose.lights;
     if (!settings.lights.empty())
@@ -326,7 +328,22 @@ Renderer::~Renderer() = default;
 
 Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
     checkSize(state_->device, settings.size);
+    if (settings.path == Path::reference) return drawReference(settings, options);
     return FrameMaker(state_->device, state_->shared, state_->scene, settings, options).make();
+}
+
+// The reference, over what forward+ captures where that is asked for.
+Frame Renderer::drawReference(const Settings& settings, const RenderOptions& options) {
+    if (settings.reference_mode == ReferenceMode::scene)
+        return drawTruth(state_->scene, settings, nullptr, options);
+    RenderOptions capture;
+    capture.channels = reference::surfaceChannels();
+    capture.runs = 0;
+    capture.said = options.said;
+    const Frame surfaces =
+        FrameMaker(state_->device, state_->shared, state_->scene, surfaceSettings(settings), capture).make();
+    Frame truth = drawTruth(state_->scene, settings, &surfaces, options);
+    return truth;
 }
 
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,

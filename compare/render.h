@@ -6,6 +6,7 @@
 #include "shared/frame/frame.h"
 #include "shared/scene/scene.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -24,6 +25,8 @@ struct RenderOptions {
     bool twice = false;            // every channel once more, for Frame::noise
     std::function<void(const std::string&)> said;  // called before each step with a word on it, for -v
     Stage progress;                                // of renderAll()
+    // Where a reference keeps what is done of it, asked once for each; it stays there. Empty: nowhere.
+    std::function<std::filesystem::path()> keep{};
 };
 
 // What making one Frame takes, in the time of drawing one frame: for a progress line.
@@ -41,6 +44,8 @@ public:
     Frame draw(const Settings& settings, const RenderOptions& options);
 
 private:
+    Frame drawReference(const Settings& settings, const RenderOptions& options);
+
     struct State;
     std::unique_ptr<State> state_;
 };
@@ -57,6 +62,10 @@ struct PathPlan {
     std::vector<std::string> notes;
 };
 std::vector<PathPlan> planPaths(Device& device, const Scene& scene, const std::vector<Settings>& settings);
+
+struct View;
+FrameCamera cameraOf(const View& view);
+std::uint64_t nonfinitePixels(const Image& image);
 
 // The lights that Settings put into a scene: its own, the rig's, or a sun where there are none.
 std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& settings);

@@ -138,6 +138,9 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
             return emissionTolerance(pair);
         case gpu::DEBUG_specular:
             return specularTolerance(pair, bits);
+        case gpu::DEBUG_dielectric_f90:
+            if (!pair.needs.dielectric_specular) return {0, "every dielectric has F90 = 1: nothing is stored"};
+            return unormTolerance(gpu::SPECULAR_BITS);
         case gpu::DEBUG_material_id:
             return {0, "the index is carried whole"};
         case gpu::DEBUG_depth:

@@ -22,6 +22,7 @@ vec4 debugValue(uint mode, Surface s, Radiance radiance, float z) {
         case DEBUG_geometric_normal: return vec4(s.geometric_normal, 1.0);
         case DEBUG_lit_diffuse: return vec4(radiance.diffuse, 1.0);
         case DEBUG_lit_specular: return vec4(radiance.specular, 1.0);
+        case DEBUG_dielectric_f90: return vec4(s.dielectric_f90);
     }
     return vec4(0.0);
 }

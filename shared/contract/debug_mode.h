@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every channel that a path can show or write. Numbers 0-9 are fixed; more are appended in blocks of ten
-// (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms) and never renumbered.
+// (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material) and never renumbered.
 //
-// To add a channel: a row here, a line in shaders/lib/debug.glsl, a line in compare/reference.
+// To add a channel: a row here, a line in shaders/lib/debug.glsl, a line in compare/reference/reference.cpp.
 #ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
 #define DIPTYCH_CONTRACT_DEBUG_MODE_H
 
@@ -28,7 +28,8 @@
     X(11, position,         3, relative, vector, both,         "shading position, world axes, from the camera, m") \
     X(12, geometric_normal, 3, angular,  vector, both,         "normal of the triangle, world")           \
     X(40, lit_diffuse,      3, relative, color,  both,         "reflected by the diffuse lobe, W/(sr m^2)") \
-    X(41, lit_specular,     3, relative, color,  both,         "reflected by the specular lobe, W/(sr m^2)")
+    X(41, lit_specular,     3, relative, color,  both,         "reflected by the specular lobe, W/(sr m^2)") \
+    X(50, dielectric_f90,   1, absolute, scalar, both,         "F90 of the dielectric layer, 0 to 1")
 
 CONTRACT_BEGIN
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, maker, shows) \

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace diptych {
 namespace {
 
@@ -36,20 +38,29 @@ constexpr Fixed fixed[] = {
     {"reference-mode", needs_reference},
 };
 
+// What the reference can, or has alone.
+constexpr std::string_view in_reference[] = {"shadows", "spp", "reference-mode"};
+
+// More than that would take a day for a small picture.
+constexpr int most_samples = 65536;
+
 // Largest side of a picture: what every Vulkan 1.3 device in use has as maxImageDimension2D, or more.
 constexpr int max_side = 16384;
 
 }  // namespace
 
 std::optional<std::string> Settings::problem() const {
-    if (path == Path::reference)
-        return fmt::format("--path reference {}; use deferred or forward_plus", not_built);
     if (size.width < 1 || size.height < 1 || size.width > max_side || size.height > max_side)
         return fmt::format("--size {}: width and height are 1 to {}", valueOf(*this, "size"), max_side);
     if (msaa != 1 && msaa != 4) return fmt::format("--msaa {}: a pixel has 1 or 4 samples", msaa);
 
+    if (spp < 1 || spp > most_samples) return fmt::format("--spp {}: 1 to {}", spp, most_samples);
+    if (path == Path::reference && spp > 1 && reference_mode == ReferenceMode::surface)
+        return fmt::format("--spp {}: --reference-mode surface shades one sample; use --reference-mode scene", spp);
+
     const Settings usual;
     for (const Fixed& setting : fixed) {
+        if (path == Path::reference && std::ranges::count(in_reference, setting.option) > 0) continue;
         const std::string value = valueOf(*this, setting.option);
         const std::string expected = valueOf(usual, setting.option);
         if (value != expected)

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/brdf.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace diptych::reference {
+namespace {
+
+// What the model itself bounds (README, "The model"), restated here: a punctual light on a perfect mirror is a
+// delta that nothing can sample, and a normal map may turn a surface away from the viewer who sees it.
+constexpr double least_roughness = 0.045, least_n_dot_v = 1e-4;
+
+double square(double x) {
+    return x * x;
+}
+
+// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equation 33: GGX, 1/sr.
+double distribution(double alpha, double n_dot_h) {
+    return square(alpha) / (std::numbers::pi * square(square(n_dot_h) * (square(alpha) - 1) + 1));
+}
+
+// Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72.
+double lambda(double alpha, double cosine) {
+    const double tangent2 = (1 - square(cosine)) / square(cosine);
+    return (std::sqrt(1 + square(alpha) * tangent2) - 1) / 2;
+}
+
+// Schlick 1994, "An Inexpensive BRDF Model".
+glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double v_dot_h) {
+    return f0 + (glm::dvec3(f90) - f0) * std::pow(std::clamp(1 - v_dot_h, 0.0, 1.0), 5);
+}
+
+}  // namespace
+
+Brdf::Brdf(const Surface& s)
+    : normal_(s.normal),
+      to_viewer_(s.to_viewer),
+      albedo_(s.albedo),
+      dielectric_f0_(s.dielectric_f0),
+      metallic_(s.metallic),
+      dielectric_f90_(s.dielectric_f90),
+      alpha_(square(std::max(s.roughness, least_roughness))),
+      n_dot_v_(std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0)) {}
+
+Reflected Brdf::operator()(const glm::dvec3& to_light) const {
+    const double n_dot_l = std::min(glm::dot(normal_, to_light), 1.0);
+    if (!(n_dot_l > 0)) return {};
+    const glm::dvec3 sum = to_light + to_viewer_;
+    const double length = glm::length(sum);
+    const glm::dvec3 half = length > 1e-12 ? sum / length : normal_;
+    const double n_dot_h = std::clamp(glm::dot(normal_, half), 0.0, 1.0);
+    const double v_dot_h = glm::dot(to_viewer_, half);
+
+    // Height-correlated masking and shadowing; Heitz 2014, equation 99.
+    const double masking = 1 / (1 + lambda(alpha_, n_dot_v_) + lambda(alpha_, n_dot_l));
+    const double lobe = distribution(alpha_, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
+    const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, v_dot_h);
+    const glm::dvec3 metal = fresnel(albedo_, 1, v_dot_h);
+    // A dielectric is a Lambertian base that gets what its layer does not reflect.
+    const double base = 1 - std::max({layer.r, layer.g, layer.b});
+    return {albedo_ * ((1 - metallic_) * base * n_dot_l / std::numbers::pi),
+            (layer * (1 - metallic_) + metal * metallic_) * (lobe * n_dot_l)};
+}
+
+}  // namespace diptych::reference

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What is done of a long picture, kept in a file as it is done.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace diptych::reference {
+
+// A hash of what decides a picture (FNV-1a of 64 bits; Fowler, Noll and Vo 1991): a file of another one is not gone
+// on from.
+class Key {
+public:
+    void add(std::span<const std::byte> bytes);
+    template <class T>
+    void add(const T& value) {
+        add(std::as_bytes(std::span(&value, 1)));
+    }
+    template <class T>
+    void addAll(const std::vector<T>& values) {
+        add(values.size());
+        add(std::as_bytes(std::span(values)));
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+// Records of floats, numbered, each with a checksum: however the program ends, what is whole in the file counts. From
+// any thread.
+class Checkpoint {
+public:
+    // Nothing is kept where `file` is empty. What it holds of another key or size is overwritten. Throws
+    // std::runtime_error naming the file where it cannot be written.
+    Checkpoint(std::filesystem::path file, std::uint64_t key, std::size_t floats);
+    ~Checkpoint();
+    Checkpoint(const Checkpoint&) = delete;
+    Checkpoint& operator=(const Checkpoint&) = delete;
+
+    struct Record {
+        std::uint64_t number;
+        std::vector<float> values;
+    };
+    std::vector<Record> takeEarlier() { return std::move(earlier_); }
+
+    void keep(std::uint64_t number, std::span<const float> values);  // fewer than `floats` are filled up with 0
+    void remove();                                                   // the picture is whole
+
+private:
+    std::filesystem::path file_;
+    std::size_t floats_;
+    std::FILE* stream_ = nullptr;
+    std::mutex mutex_;
+    std::vector<Record> earlier_;
+};
+
+}  // namespace diptych::reference

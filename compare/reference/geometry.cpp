@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/geometry.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace diptych::reference {
+
+struct Geometry::Embree {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    ~Embree() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+};
+
+namespace {
+
+// What a filter is told of the ray that asks.
+struct Asking {
+    RTCIntersectContext context;  // first: Embree hands back a pointer to it
+    const Geometry* geometry;
+    const Ray* ray;
+    const Geometry::Counts* counts;
+    Hit hit;  // the last that counted
+};
+
+// Embree's candidate, in double; one that does not count is passed by. Embree has the nearest in single precision:
+// what it accepted last is the nearest.
+void filter(const RTCFilterFunctionNArguments* arguments) {
+    auto& asking = *reinterpret_cast<Asking*>(arguments->context);
+    const TriangleId id{RTCHitN_geomID(arguments->hit, 1, 0), RTCHitN_primID(arguments->hit, 1, 0)};
+    const Ray& ray = *asking.ray;
+    const auto reject = [&] { arguments->valid[0] = 0; };
+    if (id == ray.without) return reject();
+    const std::optional<Hit> hit = asking.geometry->onPlane(id, ray.origin, ray.direction);
+    if (!hit || !(hit->t > ray.from) || !(hit->t < ray.to) || !(*asking.counts)(*hit)) return reject();
+    asking.hit = *hit;
+}
+
+void check(RTCDevice device, const char* step) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error(fmt::format("reference: Embree: {}: error {}", step, static_cast<int>(error)));
+}
+
+RTCRay single(const Ray& ray) {
+    RTCRay r{};
+    r.org_x = static_cast<float>(ray.origin.x);
+    r.org_y = static_cast<float>(ray.origin.y);
+    r.org_z = static_cast<float>(ray.origin.z);
+    r.dir_x = static_cast<float>(ray.direction.x);
+    r.dir_y = static_cast<float>(ray.direction.y);
+    r.dir_z = static_cast<float>(ray.direction.z);
+    // A little more at both ends: the filter knows them in double.
+    r.tnear = static_cast<float>(ray.from > 0 ? ray.from * (1 - 1e-5) : 0);
+    r.tfar = std::isinf(ray.to) ? std::numeric_limits<float>::infinity() : static_cast<float>(ray.to * (1 + 1e-5));
+    r.mask = ~0u;
+    return r;
+}
+
+}  // namespace
+
+Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye)
+    : scene_(scene), pose_(pose), eye_(eye), embree_(std::make_unique<Embree>()) {
+    embree_->device = rtcNewDevice(nullptr);
+    if (!embree_->device) check(nullptr, "device");
+    embree_->scene = rtcNewScene(embree_->device);
+    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
+    tbb::parallel_for(std::size_t{0}, pose.instances.size(), [&](std::size_t i) {
+        const Primitive& p = primitive({static_cast<std::uint32_t>(i), 0});
+        if (p.indices.empty()) return;
+        const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), p.positions.size()));
+        auto* indices = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
+                                    p.indices.size() / 3));
+        if (vertices && indices) {
+            for (std::size_t v = 0; v < p.positions.size(); ++v) {
+                const glm::dvec3 world(pose.instances[i].world_from_object * glm::dvec4(p.positions[v], 1));
+                for (int c = 0; c < 3; ++c) *vertices++ = static_cast<float>(world[c] - eye[c]);
+            }
+            std::copy(p.indices.begin(), p.indices.end() - static_cast<std::ptrdiff_t>(p.indices.size() % 3), indices);
+            rtcCommitGeometry(geometry);
+            rtcAttachGeometryByID(embree_->scene, geometry, static_cast<unsigned>(i));
+        }
+        rtcReleaseGeometry(geometry);
+    });
+    rtcCommitScene(embree_->scene);
+    check(embree_->device, "scene");
+}
+
+Geometry::~Geometry() = default;
+
+const Instance& Geometry::instance(const TriangleId& id) const {
+    return pose_.instances[id.instance];
+}
+
+const Primitive& Geometry::primitive(const TriangleId& id) const {
+    const Instance& of = instance(id);
+    return scene_.meshes[static_cast<std::size_t>(of.mesh)].primitives[static_cast<std::size_t>(of.primitive)];
+}
+
+std::array<std::uint32_t, 3> Geometry::vertices(const TriangleId& id) const {
+    const std::vector<std::uint32_t>& indices = primitive(id).indices;
+    const std::size_t first = std::size_t{3} * id.triangle;
+    return {indices[first], indices[first + 1], indices[first + 2]};
+}
+
+std::array<glm::dvec3, 3> Geometry::corners(const TriangleId& id) const {
+    const Primitive& p = primitive(id);
+    const glm::dmat4& world = instance(id).world_from_object;
+    std::array<glm::dvec3, 3> result;
+    const std::array<std::uint32_t, 3> index = vertices(id);
+    for (std::size_t i = 0; i < 3; ++i)
+        result[i] = glm::dvec3(world * glm::dvec4(p.positions[index[i]], 1)) - eye_;
+    return result;
+}
+
+std::optional<Hit> Geometry::onPlane(const TriangleId& id, const glm::dvec3& origin,
+                                     const glm::dvec3& direction) const {
+    const std::array<glm::dvec3, 3> p = corners(id);
+    const glm::dvec3 a = p[1] - p[0], b = p[2] - p[0], normal = glm::cross(a, b);
+    const double twice = glm::length(normal), along = glm::dot(normal, direction);
+    if (!(twice > 0) || along == 0) return std::nullopt;
+    Hit hit;
+    hit.id = id;
+    hit.t = glm::dot(normal, p[0] - origin) / along;
+    hit.position = origin + hit.t * direction;
+    const glm::dvec3 within = hit.position - p[0];
+    const double square = twice * twice;
+    hit.barycentric = {glm::dot(glm::cross(within, b), normal) / square,
+                       glm::dot(glm::cross(a, within), normal) / square};
+    // Front faces are counter-clockwise, but where the transform mirrors.
+    const bool mirrored = glm::determinant(glm::dmat3(instance(id).world_from_object)) < 0;
+    hit.geometric_normal = normal * ((mirrored ? -1 : 1) / twice);
+    hit.front = (along < 0) != mirrored;
+    return hit;
+}
+
+std::optional<Hit> Geometry::nearest(const Ray& ray, const Counts& counts) const {
+    Asking asking{{}, this, &ray, &counts, {}};
+    rtcInitIntersectContext(&asking.context);
+    asking.context.filter = filter;
+    RTCRayHit request{};
+    request.ray = single(ray);
+    request.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(embree_->scene, &asking.context, &request);
+    if (request.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return asking.hit;
+}
+
+bool Geometry::meets(const Ray& ray, const Counts& counts) const {
+    Asking asking{{}, this, &ray, &counts, {}};
+    rtcInitIntersectContext(&asking.context);
+    asking.context.filter = filter;
+    RTCRay request = single(ray);
+    rtcOccluded1(embree_->scene, &asking.context, &request);
+    return request.tfar < 0;
+}
+
+}  // namespace diptych::reference

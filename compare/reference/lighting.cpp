@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/lighting.h"
+
+#include "compare/reference/punctual.h"
+#include "compare/reference/sampling.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace diptych::reference {
+namespace {
+
+// Radiance that a point of a patch sends, with the solid angle that it stands for.
+Reflected through(const Brdf& brdf, const Patch::Point& point) {
+    const double square = glm::dot(point.place, point.place);
+    if (!(square > 0) || point.area == 0) return {};
+    const glm::dvec3 to_light = point.place / std::sqrt(square);
+    return brdf(to_light) * (std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / square);
+}
+
+// A cell is split as long as the mirror image of the viewer could hide in it: as it is wider than the lobe there. A
+// turn of the light by an angle turns the half vector by that over 2 v.h.
+bool mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
+    const auto direction = [&](double u, double v) { return glm::normalize(patch.at(u, v).place); };
+    const glm::dvec3 middle = direction((cell.u0 + cell.u1) / 2, (cell.v0 + cell.v1) / 2);
+    double radius = 0;
+    for (const double u : {cell.u0, cell.u1})
+        for (const double v : {cell.v0, cell.v1})
+            radius = std::max(radius, glm::length(direction(u, v) - middle));
+    const glm::dvec3 sum = middle + brdf.toViewer();
+    const double length = glm::length(sum);
+    if (!(length > 1e-9)) return radius > 0.1;
+    const glm::dvec3 half = sum / length;
+    const double turn = radius / (2 * std::max(glm::dot(brdf.toViewer(), half), 0.05));
+    const double apart = glm::length(glm::cross(brdf.normal(), half));  // sine of the angle from the lobe's middle
+    return turn > std::max(brdf.alpha(), apart - turn);
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Random randomOf(std::uint64_t seed, std::uint64_t number) {
+    return Random(seed * 0x9e3779b97f4a7c15u ^ number * 0xd1342543de82ef95u);
+}
+
+struct Leaves {
+    const Patch* patch;
+    std::vector<Leaf> leaves;
+};
+
+// The visible part of an integral that is known without shadows: in each leaf of it places, spread evenly. Of the
+// two unbiased ways to use one, f V and F - f (1 - V), the one is exact in full shade and the other in full light;
+// a pilot tells which is nearer to hand.
+class Shaded {
+public:
+    Shaded(const Brdf& brdf, const std::vector<Leaves>& leaves, bool far, const Open& open)
+        : brdf_(brdf), leaves_(leaves), far_(far), open_(open) {}
+
+    // One place in each leaf, number `index` of a sequence that `seed` turns; `seen` counts those in the light.
+    Reflected estimate(std::uint64_t seed, std::uint64_t index, bool mostly_open, std::size_t& seen) const {
+        Reflected sum;
+        std::uint64_t number = 0;
+        for (const Leaves& part : leaves_)
+            for (const Leaf& leaf : part.leaves) {
+                Random turn = randomOf(seed, ++number);
+                const double u = turn();
+                const glm::dvec2 at = evenly(index, {u, turn()});
+                const Cell& c = leaf.cell;
+                const Patch::Point point = part.patch->at(c.u0 + (c.u1 - c.u0) * at.x, c.v0 + (c.v1 - c.v0) * at.y);
+                const double distance = glm::length(point.place);
+                const bool lit = distance > 0 && open_(point.place / distance, far_ ? infinity : distance);
+                seen += lit;
+                const Reflected here = through(brdf_, point) * c.area();
+                if (mostly_open)
+                    sum += lit ? leaf.value : leaf.value - here;
+                else if (lit)
+                    sum += here;
+            }
+        return sum;
+    }
+    std::size_t places() const {
+        std::size_t count = 0;
+        for (const Leaves& part : leaves_) count += part.leaves.size();
+        return count;
+    }
+
+private:
+    const Brdf& brdf_;
+    const std::vector<Leaves>& leaves_;
+    bool far_;
+    const Open& open_;
+};
+
+// Sixteen independent sequences, twice as long each time, until their means agree: estimate(round, index). `whole`:
+// what the confidence is relative to, where the mean is smaller.
+template <class Estimate>
+Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first, double whole) {
+    constexpr std::size_t count = 16;
+    std::array<Reflected, count> sums;
+    std::uint64_t done = 0;
+    for (std::uint64_t next = first;; next *= 2) {
+        Rounds rounds;
+        for (std::size_t round = 0; round < count; ++round) {
+            for (std::uint64_t index = done; index < next; ++index) sums[round] += estimate(round, index);
+            rounds.add(sums[round] * (1.0 / static_cast<double>(next)));
+        }
+        done = next;
+        const double width = rounds.halfWidth();
+        if (width <= samplingError * std::max(whole, rounds.mean().size()) || done * count * samples >= mostSamples)
+            return {rounds.mean(), width};
+    }
+}
+
+// Directions around the normal and around the mirror's, drawn by the BRDF's own lobes.
+class LobeSampler {
+public:
+    explicit LobeSampler(const Brdf& brdf) : brdf_(brdf) {
+        const glm::dvec3& n = brdf.normal();
+        const glm::dvec3 a = std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        x_ = glm::normalize(glm::cross(n, a));
+        y_ = glm::cross(n, x_);
+    }
+
+    glm::dvec3 diffuse(const glm::dvec2& u) const { return around(std::sqrt(1 - u.x), u.y); }
+    double diffuseDensity(const glm::dvec3& l) const {
+        return std::max(glm::dot(brdf_.normal(), l), 0.0) / std::numbers::pi;
+    }
+
+    // Half vectors by D (n.h), Walter et al. 2007, equation 35.
+    glm::dvec3 specular(const glm::dvec2& u) const {
+        const double alpha2 = brdf_.alpha() * brdf_.alpha();
+        const glm::dvec3 h = around(std::sqrt((1 - u.x) / (1 + (alpha2 - 1) * u.x)), u.y);
+        return glm::normalize(2 * glm::dot(brdf_.toViewer(), h) * h - brdf_.toViewer());
+    }
+    double specularDensity(const glm::dvec3& l) const {
+        const glm::dvec3 h = glm::normalize(l + brdf_.toViewer());
+        const double n_dot_h = glm::dot(brdf_.normal(), h), v_dot_h = std::abs(glm::dot(brdf_.toViewer(), h));
+        if (!(n_dot_h > 0) || !(v_dot_h > 0)) return 0;
+        const double alpha2 = brdf_.alpha() * brdf_.alpha();
+        const double k = n_dot_h * n_dot_h * (alpha2 - 1) + 1;
+        return alpha2 * n_dot_h / (std::numbers::pi * k * k * 4 * v_dot_h);
+    }
+
+private:
+    glm::dvec3 around(double cosine, double turn) const {
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * turn;
+        return x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + brdf_.normal() * cosine;
+    }
+
+    const Brdf& brdf_;
+    glm::dvec3 x_, y_;
+};
+
+}  // namespace
+
+Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
+                   const glm::dvec3& eye) {
+    for (const Light& light : lights) {
+        if (glm::dvec3(light.color) * double{light.intensity} == glm::dvec3(0)) continue;
+        if (isArea(light.kind) || (light.kind == LightKind::directional && light.angle > 0))
+            emitters_.push_back(emitterOf(light, eye));
+        else
+            punctual_.push_back({light, light.position - eye});
+    }
+    if (environment) environment_.emplace(*environment, environment_factor);
+    if (environment_ && environment_->black()) environment_.reset();
+}
+
+Shading Lighting::operator()(const Surface& surface, const Open& open, std::uint64_t seed) const {
+    const Brdf brdf(surface);
+    Shading sum;
+    for (const Punctual& p : punctual_) {
+        const Incident light = incident(p.light, p.position, surface.position);
+        const Reflected reflected = brdf(light.to_light) * light.irradiance;
+        if (reflected.size() > 0 && (!open || open(light.to_light, light.distance))) sum.reflected += reflected;
+        // What is not a number must show.
+        if (std::isnan(reflected.size())) sum.reflected += reflected;
+    }
+    const auto add = [&](const Shading& part) {
+        sum.reflected += part.reflected;
+        sum.uncertainty += part.uncertainty;
+    };
+    for (std::size_t i = 0; i < emitters_.size(); ++i)
+        add(fromEmitter(emitters_[i], surface.position, brdf, open, seed + ((i + 1) << 40)));
+    if (environment_) add(fromEnvironment(brdf, open, seed));
+    return sum;
+}
+
+Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf, const Open& open,
+                              std::uint64_t seed) const {
+    const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - place;
+    const double window = rangeWindow(glm::length(centre), emitter.range);
+    if (!(window > 0)) return {};
+    const std::vector<Patch> patches = visiblePatches(emitter, centre, brdf.normal());
+    std::vector<Leaves> leaves;
+    Integral whole;
+    for (const Patch& patch : patches) {
+        leaves.push_back({&patch, {}});
+        const auto integrand = [&](double u, double v) { return through(brdf, patch.at(u, v)); };
+        const auto mustSplit = [&](const Cell& cell) { return mayHideLobe(brdf, patch, cell); };
+        const Integral part =
+            Quadrature(integrand, mustSplit, quadratureError, open ? &leaves.back().leaves : nullptr)();
+        whole.value += part.value;
+        whole.error += part.error;
+    }
+    const glm::dvec3 radiance = emitter.radiance * window;
+    const double brightest = std::max({radiance.r, radiance.g, radiance.b});
+    if (!open || !(whole.value.size() > 0)) return {whole.value * radiance, whole.error * brightest};
+
+    const Shaded shaded(brdf, leaves, emitter.far, open);
+    const std::size_t places = shaded.places();
+    std::size_t seen = 0, ignored = 0;
+    constexpr std::uint64_t pilot = 4;
+    for (std::uint64_t i = 0; i < pilot; ++i) shaded.estimate(~seed, i, false, seen);
+    const bool mostly_open = 2 * seen > pilot * places;
+    const Shading visible = untilConfident(
+        [&](std::size_t round, std::uint64_t index) {
+            return shaded.estimate(seed * 16 + round, index, mostly_open, ignored);
+        },
+        places, std::max<std::uint64_t>(1, 8 / places), whole.value.size());
+    return {visible.reflected * radiance, (visible.uncertainty + whole.error) * brightest};
+}
+
+// Three ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally Combining
+// Sampling Techniques for Monte Carlo Rendering").
+Shading Lighting::fromEnvironment(const Brdf& brdf, const Open& open, std::uint64_t seed) const {
+    const LobeSampler lobes(brdf);
+    const auto value = [&](const glm::dvec3& l) -> Reflected {
+        const Reflected f = brdf(l);
+        if (!(f.size() > 0) || (open && !open(l, infinity))) return {};
+        const double density = lobes.diffuseDensity(l) + lobes.specularDensity(l) + environment_->density(l);
+        return f * environment_->radiance(l) * (1 / density);
+    };
+    std::array<std::array<glm::dvec2, 3>, 16> turns;
+    Random random = randomOf(seed, 0);
+    for (auto& round : turns)
+        for (glm::dvec2& turn : round) {
+            const double u = random();
+            turn = {u, random()};
+        }
+    return untilConfident(
+        [&](std::size_t round, std::uint64_t index) {
+            const auto& turn = turns[round];
+            return value(lobes.diffuse(evenly(index, turn[0]))) + value(lobes.specular(evenly(index, turn[1]))) +
+                   value(environment_->sample(evenly(index, turn[2])));
+        },
+        3, 4, 0);
+}
+
+}  // namespace diptych::reference

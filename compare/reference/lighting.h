@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Every light on one surface, in full: nothing is culled, packed or listed.
+#pragma once
+
+#include "compare/reference/area.h"
+#include "compare/reference/brdf.h"
+#include "compare/reference/environment.h"
+#include "compare/reference/quadrature.h"
+#include "compare/reference/surface.h"
+#include "shared/scene/scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace diptych::reference {
+
+// What integrals without shadows are taken to, relative to themselves.
+inline constexpr double quadratureError = 1e-7;
+// What sampling goes on to, relative to what is sampled: half the 95 % confidence interval. And where it ends all
+// the same: the pixel's uncertainty says so.
+inline constexpr double samplingError = 5e-3;
+inline constexpr std::uint32_t mostSamples = 65536;
+
+// Whether light comes through from `distance` metres in a direction; infinite: from beyond everything.
+using Open = std::function<bool(const glm::dvec3& to_light, double distance)>;
+
+struct Shading {
+    Reflected reflected;      // W/(sr m^2), towards the viewer; emission is not in it
+    double uncertainty = 0;   // of its largest component, 95 % confidence, W/(sr m^2)
+};
+
+class Lighting {
+public:
+    // World lights and `environment`, which outlives this; `eye` becomes the origin.
+    Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
+             const glm::dvec3& eye);
+
+    // `open` empty: nothing throws a shadow. `seed` names what is shaded, for sampling.
+    Shading operator()(const Surface& surface, const Open& open, std::uint64_t seed) const;
+
+    // Whether something of it is sampled, with shadows or without them.
+    bool samples(bool shadows) const { return environment_ || (shadows && !emitters_.empty()); }
+
+private:
+    struct Punctual {
+        Light light;
+        glm::dvec3 position;
+    };
+    Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf, const Open& open,
+                        std::uint64_t seed) const;
+    Shading fromEnvironment(const Brdf& brdf, const Open& open, std::uint64_t seed) const;
+
+    std::vector<Punctual> punctual_;
+    std::vector<Emitter> emitters_;
+    std::optional<EnvironmentLight> environment_;
+};
+
+}  // namespace diptych::reference

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/material.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::reference {
+namespace {
+
+// What a triangle's corners carry, mixed by barycentric coordinates.
+template <class T>
+T mixed(const std::array<T, 3>& corner, const glm::dvec2& b) {
+    return corner[0] * (1 - b.x - b.y) + corner[1] * b.x + corner[2] * b.y;
+}
+
+glm::dvec3 unitOrZero(const glm::dvec3& v) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
+}
+
+}  // namespace
+
+const Material& Materials::material(const Hit& hit) const {
+    return scene_.materials[static_cast<std::size_t>(geometry_.primitive(hit.id).material)];
+}
+
+// The rays of the neighbours meet the triangle's plane (Igehy 1999, "Tracing Ray Differentials"); to first order
+// t changes by -n.(o' + t d') / n.d.
+Footprint Materials::footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const {
+    const Primitive& primitive = geometry_.primitive(hit.id);
+    const std::vector<glm::vec2>& set = primitive.texcoords[slot.texcoord == 1 ? 1 : 0];
+    if (set.empty()) return {{slot.u.z, slot.v.z}};
+    const std::array<std::uint32_t, 3> v = geometry_.vertices(hit.id);
+    const auto moved = [&](const glm::dvec2& uv) {
+        return glm::dvec2(glm::dot(slot.u, glm::dvec3(uv, 1)), glm::dot(slot.v, glm::dvec3(uv, 1)));
+    };
+    const std::array<glm::dvec2, 3> uv{moved(set[v[0]]), moved(set[v[1]]), moved(set[v[2]])};
+    Footprint result{mixed(uv, hit.barycentric)};
+    if (!ray) return result;
+    const std::array<glm::dvec3, 3> p = geometry_.corners(hit.id);
+    const glm::dvec3 a = p[1] - p[0], b = p[2] - p[0], normal = glm::cross(a, b);
+    const double square = glm::dot(normal, normal);
+    const auto change = [&](const glm::dvec3& origin, const glm::dvec3& direction) {
+        const glm::dvec3 across = origin + hit.t * direction;
+        const glm::dvec3 d =
+            across - ray->direction * (glm::dot(normal, across) / glm::dot(normal, ray->direction));
+        const double second = glm::dot(glm::cross(d, b), normal) / square;
+        const double third = glm::dot(glm::cross(a, d), normal) / square;
+        return (uv[1] - uv[0]) * second + (uv[2] - uv[0]) * third;
+    };
+    result.dx = change(ray->origin_dx, ray->direction_dx);
+    result.dy = change(ray->origin_dy, ray->direction_dy);
+    return result;
+}
+
+glm::dvec4 Materials::lookUp(const Hit& hit, const TextureSlot& slot, bool srgb, const PixelRay* ray) const {
+    if (slot.texture < 0) return glm::dvec4(1);
+    return textures_(scene_.textures[static_cast<std::size_t>(slot.texture)], srgb, footprint(hit, slot, ray));
+}
+
+glm::dvec4 Materials::baseColor(const Hit& hit, const PixelRay* ray) const {
+    const Material& m = material(hit);
+    glm::dvec4 color = glm::dvec4(m.base_color) * lookUp(hit, m.base_color_texture, true, ray);
+    const std::vector<glm::vec4>& colors = geometry_.primitive(hit.id).colors;
+    if (!colors.empty()) {
+        const std::array<std::uint32_t, 3> v = geometry_.vertices(hit.id);
+        color *= mixed<glm::dvec4>({colors[v[0]], colors[v[1]], colors[v[2]]}, hit.barycentric);
+    }
+    return color;
+}
+
+bool Materials::isThere(const Hit& hit, const PixelRay* ray) const {
+    const Material& m = material(hit);
+    if (!hit.front && !m.double_sided) return false;
+    return m.alpha_mode != AlphaMode::mask || baseColor(hit, ray).a >= double{m.alpha_cutoff};
+}
+
+bool Materials::throwsShadow(const Hit& hit) const {
+    const Material& m = material(hit);
+    if (m.alpha_mode == AlphaMode::mask) return baseColor(hit, nullptr).a >= double{m.alpha_cutoff};
+    return m.alpha_mode != AlphaMode::blend;
+}
+
+double Materials::opacity(const Hit& hit, const PixelRay& ray) const {
+    if (material(hit).alpha_mode != AlphaMode::blend) return 1;
+    return std::clamp(baseColor(hit, &ray).a, 0.0, 1.0);
+}
+
+// glTF 2.0, 3.7.2.1 and 3.9.3: normals move by the inverse transpose, tangents with the surface; a bitangent is
+// w cross(normal, tangent). Both are mixed as they are, as MikkTSpace asks. A back face is turned round.
+glm::dvec3 Materials::shadingNormal(const Hit& hit, const PixelRay& ray) const {
+    const Primitive& primitive = geometry_.primitive(hit.id);
+    const glm::dmat3 world(geometry_.instance(hit.id).world_from_object);
+    const glm::dvec3 facing =
+        glm::dot(hit.geometric_normal, ray.direction) > 0 ? -hit.geometric_normal : hit.geometric_normal;
+    // The cofactors are the inverse transpose times the determinant, and are there where no inverse is.
+    const double handedness = glm::determinant(world) < 0 ? -1 : 1;
+    const glm::dmat3 cofactors = glm::dmat3(glm::cross(world[1], world[2]), glm::cross(world[2], world[0]),
+                                            glm::cross(world[0], world[1])) *
+                                 handedness;
+    const std::array<std::uint32_t, 3> v = geometry_.vertices(hit.id);
+    const auto normalAt = [&](std::uint32_t i) { return unitOrZero(cofactors * glm::dvec3(primitive.normals[i])); };
+    glm::dvec3 n = mixed<glm::dvec3>({normalAt(v[0]), normalAt(v[1]), normalAt(v[2])}, hit.barycentric);
+    const Material& m = material(hit);
+    if (!m.unlit && m.normal_texture.texture >= 0) {
+        const auto tangentAt = [&](std::uint32_t i) {
+            return unitOrZero(world * glm::dvec3(primitive.tangents[i]));
+        };
+        const glm::dvec3 tangent =
+            mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric);
+        const double sign = handedness * double{primitive.tangents[v[0]].w};
+        glm::dvec3 t = glm::dvec3(lookUp(hit, m.normal_texture, false, &ray)) * 2.0 - 1.0;
+        t.x *= double{m.normal_scale};
+        t.y *= double{m.normal_scale};
+        n = t.x * tangent + t.y * sign * glm::cross(n, tangent) + t.z * n;
+    }
+    const double length = glm::length(n);
+    if (!(length > 0)) return facing;
+    return hit.front ? n / length : -n / length;
+}
+
+Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
+    const Material& m = material(hit);
+    Surface s;
+    s.position = hit.position;
+    s.geometric_normal =
+        glm::dot(hit.geometric_normal, ray.direction) > 0 ? -hit.geometric_normal : hit.geometric_normal;
+    s.normal = shadingNormal(hit, ray);
+    s.material = geometry_.primitive(hit.id).material;
+    s.texcoord = footprint(hit, TextureSlot{}, nullptr).uv;
+    const glm::dvec3 color(baseColor(hit, &ray));
+    if (m.unlit) {  // reflects nothing and emits its base colour
+        s.emission = color;
+        s.dielectric_f90 = 0;
+        return s;
+    }
+    s.albedo = color;
+    const glm::dvec4 metallic_roughness = lookUp(hit, m.metallic_roughness_texture, false, &ray);
+    s.roughness = double{m.roughness} * metallic_roughness.g;
+    s.metallic = double{m.metallic} * metallic_roughness.b;
+    s.occlusion = 1 + double{m.occlusion_strength} * (lookUp(hit, m.occlusion_texture, false, &ray).r - 1);
+    s.emission = glm::dvec3(m.emissive) * glm::dvec3(lookUp(hit, m.emissive_texture, true, &ray));
+    // KHR_materials_ior: 0 stands for an infinite one. KHR_materials_specular: colour from rgb, strength from a.
+    const double ior = m.ior, r = (1 - ior) / (1 + ior);
+    const glm::dvec3 tint =
+        glm::dvec3(m.specular_color) * glm::dvec3(lookUp(hit, m.specular_color_texture, true, &ray));
+    s.dielectric_f90 = double{m.specular} * lookUp(hit, m.specular_texture, false, &ray).a;
+    s.dielectric_f0 = glm::min(r * r * tint, glm::dvec3(1)) * s.dielectric_f90;
+    return s;
+}
+
+}  // namespace diptych::reference

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/punctual.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace diptych::reference {
+
+double rangeWindow(double distance, double range) {
+    if (std::isinf(range)) return 1;
+    return distance < range ? 1 - std::pow(distance / range, 4) : 0;
+}
+
+Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place) {
+    const glm::dvec3 power = glm::dvec3(light.color) * double{light.intensity};
+    if (light.kind == LightKind::directional)
+        return {-light.direction, power, std::numeric_limits<double>::infinity()};
+    const glm::dvec3 path = light_position - place;
+    const double distance = glm::length(path);
+    if (!(distance > 0)) return {};
+    Incident result{path / distance, power / (distance * distance) * rangeWindow(distance, light.range), distance};
+    if (light.kind == LightKind::spot) {
+        const double outer = std::cos(double{light.outer_cone}), inner = std::cos(double{light.inner_cone});
+        // 0.001 is KHR_lights_punctual's own: a cone with a hard edge keeps a finite slope.
+        const double inside =
+            (-glm::dot(result.to_light, light.direction) - outer) / std::max(0.001, inner - outer);
+        result.irradiance *= std::pow(std::clamp(inside, 0.0, 1.0), 2);
+    }
+    return result;
+}
+
+}  // namespace diptych::reference

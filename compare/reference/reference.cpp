@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/reference.h"
+
+#include "compare/reference/checkpoint.h"
+#include "compare/reference/geometry.h"
+#include "compare/reference/lighting.h"
+#include "compare/reference/material.h"
+#include "compare/reference/pixel_rays.h"
+#include "compare/reference/sampling.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace diptych::reference {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+glm::dvec3 specularColor(const Surface& s) {
+    return s.dielectric_f0 * (1 - s.metallic) + s.albedo * s.metallic;
+}
+
+// ---- channels ----------------------------------------------------------------------------------------
+
+// What a pixel shows. Without a surface it is background.
+struct Pixel {
+    std::optional<Surface> surface;
+    Shading shading;
+    glm::dvec3 lit{0};
+    double depth = 0;
+};
+
+bool isLight(int mode) {
+    return mode == static_cast<int>(gpu::DEBUG_lit) || mode == static_cast<int>(gpu::DEBUG_lit_diffuse) ||
+           mode == static_cast<int>(gpu::DEBUG_lit_specular);
+}
+
+// The numbers of a channel (shared/contract/debug_mode.h).
+glm::dvec3 channelValue(int mode, const Pixel& pixel) {
+    if (!pixel.surface) return glm::dvec3(mode == static_cast<int>(gpu::DEBUG_material_id) ? -1 : 0);
+    const Surface& s = *pixel.surface;
+    switch (static_cast<gpu::uint>(mode)) {
+        case gpu::DEBUG_lit: return pixel.lit;
+        case gpu::DEBUG_albedo: return s.albedo;
+        case gpu::DEBUG_normals: return s.normal;
+        case gpu::DEBUG_metallic: return glm::dvec3(s.metallic);
+        case gpu::DEBUG_roughness: return glm::dvec3(s.roughness);
+        case gpu::DEBUG_emission: return s.emission;
+        case gpu::DEBUG_occlusion: return glm::dvec3(s.occlusion);
+        case gpu::DEBUG_specular: return specularColor(s);
+        case gpu::DEBUG_material_id: return glm::dvec3(s.material);
+        case gpu::DEBUG_texcoords: return glm::dvec3(s.texcoord, 0);
+        case gpu::DEBUG_depth: return glm::dvec3(pixel.depth);
+        case gpu::DEBUG_position: return s.position;
+        case gpu::DEBUG_geometric_normal: return s.geometric_normal;
+        case gpu::DEBUG_lit_diffuse: return pixel.shading.reflected.diffuse;
+        case gpu::DEBUG_lit_specular: return pixel.shading.reflected.specular;
+        case gpu::DEBUG_dielectric_f90: return glm::dvec3(s.dielectric_f90);
+    }
+    throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
+}
+
+// The way back, from a path's capture.
+class Captured {
+public:
+    explicit Captured(const std::map<int, Image>& channels) : channels_(channels) {}
+
+    bool isSurface(std::size_t pixel) const { return value(gpu::DEBUG_material_id, pixel).x >= 0; }
+    double depth(std::size_t pixel) const { return value(gpu::DEBUG_depth, pixel).x; }
+
+    Surface surface(std::size_t pixel, const PixelRays& rays) const {
+        Surface s;
+        s.position = value(gpu::DEBUG_position, pixel);
+        s.to_viewer = rays.toViewer(s.position);
+        s.normal = value(gpu::DEBUG_normals, pixel);
+        s.geometric_normal = value(gpu::DEBUG_geometric_normal, pixel);
+        s.albedo = value(gpu::DEBUG_albedo, pixel);
+        s.metallic = value(gpu::DEBUG_metallic, pixel).x;
+        s.roughness = value(gpu::DEBUG_roughness, pixel).x;
+        s.occlusion = value(gpu::DEBUG_occlusion, pixel).x;
+        s.emission = value(gpu::DEBUG_emission, pixel);
+        s.dielectric_f90 = value(gpu::DEBUG_dielectric_f90, pixel).x;
+        s.material = static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
+        // The channel is the mix with the metal; a whole metal has no dielectric to find again, and needs none.
+        if (s.metallic < 1)
+            s.dielectric_f0 = glm::max(
+                (value(gpu::DEBUG_specular, pixel) - s.albedo * s.metallic) / (1 - s.metallic), glm::dvec3(0));
+        return s;
+    }
+
+private:
+    glm::dvec3 value(gpu::uint mode, std::size_t pixel) const {
+        const Image& image = channels_.at(static_cast<int>(mode));
+        const float* p = image.pixel(pixel);
+        glm::dvec3 result(0);
+        for (int c = 0; c < std::min(image.components, 3); ++c) result[c] = double{p[c]};
+        return result;
+    }
+
+    const std::map<int, Image>& channels_;
+};
+
+// ---- one pixel ---------------------------------------------------------------------------------------
+
+class Painter {
+public:
+    explicit Painter(const Request& request)
+        : request_(request),
+          eye_(request.view.eye()),
+          rays_(request.view),
+          geometry_(request.scene, request.pose, eye_),
+          materials_(request.scene, geometry_),
+          lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
+                    request.environment_factor, eye_) {}
+
+    Pixel paint(int x, int y) const {
+        const std::uint64_t seed = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(request_.view.width) +
+                                   static_cast<std::uint64_t>(x);
+        return request_.mode == ReferenceMode::surface ? paintCaptured(x, y, seed) : paintScene(x, y, seed);
+    }
+
+private:
+    // How far from a place a shadow begins, relative to its distance from the camera: well above what double loses,
+    // well below what is modelled. A captured place was a float32 depth.
+    static constexpr double exactOffset = 1e-9, capturedOffset = 1e-5;
+
+    // Light that comes from behind the triangle does not reach it, whatever the shading normal says.
+    Open openFrom(const glm::dvec3& place, const glm::dvec3& geometric_normal, const TriangleId& without,
+                  double offset) const {
+        if (!request_.shadows) return {};
+        const double from = offset * glm::length(place);
+        return [this, place, geometric_normal, without, from](const glm::dvec3& to_light, double distance) {
+            if (!(glm::dot(geometric_normal, to_light) > 0)) return false;
+            const Ray ray{place, to_light, from, distance, without};
+            return !geometry_.meets(ray, [this](const Hit& hit) { return materials_.throwsShadow(hit); });
+        };
+    }
+
+    Ray cameraRay(const PixelRay& pixel, double from) const {
+        return {pixel.origin, pixel.direction, std::max(from, request_.view.camera.near), request_.view.camera.far};
+    }
+
+    std::optional<Hit> nearest(const PixelRay& ray, double from, const TriangleId& without = {}) const {
+        Ray search = cameraRay(ray, from);
+        search.without = without;
+        return geometry_.nearest(search, [&](const Hit& hit) { return materials_.isThere(hit, &ray); });
+    }
+
+    Pixel paintCaptured(int x, int y, std::uint64_t seed) const {
+        const Captured captured(*request_.surfaces);
+        Pixel pixel;
+        if (!captured.isSurface(seed)) return pixel;
+        Surface s = captured.surface(seed, rays_);
+        pixel.depth = captured.depth(seed);
+        Open open;
+        if (request_.shadows) {
+            // The place itself is found again, where the ray sees what the path saw there.
+            const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5), 0);
+            if (hit && std::abs(hit->t - pixel.depth) <= 1e-4 * pixel.depth)
+                open = openFrom(hit->position, s.geometric_normal, hit->id, exactOffset);
+            else
+                open = openFrom(s.position, s.geometric_normal, {}, capturedOffset);
+        }
+        pixel.shading = lighting_(s, open, seed);
+        pixel.lit = pixel.shading.reflected.diffuse + pixel.shading.reflected.specular + s.emission;
+        pixel.surface = s;
+        return pixel;
+    }
+
+    Pixel shaded(const Hit& hit, const PixelRay& ray, std::uint64_t seed) const {
+        Pixel pixel;
+        Surface s = materials_.surface(hit, ray);
+        s.to_viewer = rays_.toViewer(s.position);
+        pixel.depth = hit.t;
+        pixel.shading = lighting_(s, openFrom(s.position, s.geometric_normal, hit.id, exactOffset), seed);
+        pixel.lit = pixel.shading.reflected.diffuse + pixel.shading.reflected.specular + s.emission;
+        pixel.surface = s;
+        return pixel;
+    }
+
+    // What the ray meets, front to back: what blends lets the rest through (Porter and Duff 1984, "Compositing
+    // Digital Images": over). Channels but the lit ones are of the first.
+    Pixel alongRay(const PixelRay& ray, std::uint64_t seed) const {
+        Pixel pixel;
+        double through = 1, from = 0;
+        TriangleId last;
+        for (std::uint64_t layer = 0; through > 1e-6; ++layer) {
+            const std::optional<Hit> hit = nearest(ray, from, last);
+            if (!hit) break;
+            const double opacity = materials_.opacity(*hit, ray), share = through * opacity;
+            const Pixel here = shaded(*hit, ray, seed + (layer << 56));
+            if (!pixel.surface) {
+                pixel.surface = here.surface;
+                pixel.depth = here.depth;
+            }
+            pixel.lit += here.lit * share;
+            pixel.shading.reflected += here.shading.reflected * share;
+            pixel.shading.uncertainty += here.shading.uncertainty * share;
+            through -= share;
+            from = hit->t;
+            last = hit->id;
+        }
+        return pixel;
+    }
+
+    // Several samples: light is their mean over the pixel, the other channels are its centre's.
+    Pixel paintScene(int x, int y, std::uint64_t seed) const {
+        Pixel centre = alongRay(rays_.through(x + 0.5, y + 0.5), seed);
+        if (request_.samples == 1) return centre;
+        Pixel mean;
+        const double share = 1.0 / request_.samples;
+        for (int i = 0; i < request_.samples; ++i) {
+            const glm::dvec2 at = evenly(static_cast<std::uint64_t>(i), {0.5, 0.5});
+            const PixelRay ray = rays_.through(x + at.x, y + at.y, std::sqrt(share));
+            const Pixel sample = alongRay(ray, seed + (static_cast<std::uint64_t>(i + 1) << 44));
+            mean.lit += sample.lit * share;
+            mean.shading.reflected += sample.shading.reflected * share;
+            mean.shading.uncertainty += sample.shading.uncertainty * share;
+        }
+        centre.lit = mean.lit;
+        centre.shading = mean.shading;
+        return centre;
+    }
+
+    const Request& request_;
+    const glm::dvec3 eye_;
+    const PixelRays rays_;
+    const Geometry geometry_;
+    const Materials materials_;
+    const Lighting lighting_;
+};
+
+// ---- the picture -------------------------------------------------------------------------------------
+
+void addScene(Key& key, const Request& request) {
+    const Scene& scene = request.scene;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) {
+            key.addAll(p.positions);
+            key.addAll(p.normals);
+            key.addAll(p.tangents);
+            key.addAll(p.texcoords[0]);
+            key.addAll(p.texcoords[1]);
+            key.addAll(p.colors);
+            key.addAll(p.indices);
+            key.add(p.material);
+        }
+    const auto addSlot = [&](const TextureSlot& slot) {
+        key.add(slot.texture);
+        key.add(slot.texcoord);
+        key.add(slot.u);
+        key.add(slot.v);
+    };
+    for (const Material& m : scene.materials) {
+        key.add(m.base_color);
+        key.add(glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength));
+        key.add(glm::vec4(m.emissive, m.ior));
+        key.add(glm::vec4(m.specular_color, m.specular));
+        key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, 0));
+        key.add(m.alpha_cutoff);
+        for (const TextureSlot* slot :
+             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
+              &m.emissive_texture, &m.specular_texture, &m.specular_color_texture})
+            addSlot(*slot);
+    }
+    for (const Texture& texture : scene.textures) {
+        key.add(texture.image);
+        key.add(glm::ivec4(static_cast<int>(texture.sampler.wrap_s), static_cast<int>(texture.sampler.wrap_t),
+                           texture.sampler.magnify_linear, texture.sampler.minify_linear));
+    }
+    for (const TextureImage& image : scene.images) {
+        key.add(glm::ivec2(image.width, image.height));
+        key.addAll(image.rgba);
+        key.addAll(image.rgba16);
+    }
+    for (const Instance& instance : request.pose.instances) {
+        key.add(glm::ivec2(instance.mesh, instance.primitive));
+        key.add(instance.world_from_object);
+    }
+}
+
+// Everything that decides a pixel. The version goes up where the reference itself changes what it draws.
+std::uint64_t keyOf(const Request& request) {
+    constexpr int version = 1;
+    Key key;
+    key.add(version);
+    const View& view = request.view;
+    key.add(glm::ivec4(view.width, view.height, request.samples, static_cast<int>(request.mode)));
+    key.add(view.camera.world_from_camera);
+    key.add(glm::dvec4(view.camera.yfov, view.camera.ymag, view.camera.near, view.camera.far));
+    key.add(glm::ivec2(view.camera.orthographic, request.shadows));
+    for (const Light& l : request.lights) {
+        key.add(glm::vec4(l.color, l.intensity));
+        key.add(glm::vec4(l.range, l.inner_cone, l.outer_cone, l.angle));
+        key.add(glm::vec4(l.width, l.height, l.radius, l.length));
+        key.add(glm::ivec2(static_cast<int>(l.kind), l.two_sided));
+        key.add(l.position);
+        key.add(l.direction);
+        key.add(l.axis);
+    }
+    key.add(request.environment_factor);
+    if (request.scene.environment) key.addAll(request.scene.environment->radiance.data);
+    if (request.surfaces)
+        for (const auto& [mode, image] : *request.surfaces) key.addAll(image.data);
+    if (request.mode == ReferenceMode::scene || request.shadows) addScene(key, request);
+    return key.value();
+}
+
+// A square of the picture: what is done at once and kept at once.
+constexpr int tileSide = 16;
+
+class Drawing {
+public:
+    explicit Drawing(const Request& request)
+        : request_(request),
+          across_((request.view.width + tileSide - 1) / tileSide),
+          down_((request.view.height + tileSide - 1) / tileSide) {
+        for (const DebugMode& mode : debugModes()) {
+            const bool copied = request.mode == ReferenceMode::surface && !isLight(mode.number);
+            Image& image = picture_.channels[mode.number];
+            if (copied) {
+                image = request.surfaces->at(mode.number);
+                continue;
+            }
+            image = Image(request.view.width, request.view.height, mode.width);
+            drawn_.push_back(&mode);
+            floats_ += mode.width;
+        }
+        picture_.uncertainty = Image(request.view.width, request.view.height, 1);
+        ++floats_;
+    }
+
+    Picture operator()() {
+        const std::size_t pixels = std::size_t{tileSide} * tileSide;
+        Checkpoint checkpoint(request_.keep, request_.keep.empty() ? 0 : keyOf(request_),
+                              pixels * static_cast<std::size_t>(floats_));
+        const auto tiles = static_cast<std::uint64_t>(across_) * static_cast<std::uint64_t>(down_);
+        std::vector<bool> there(tiles, false);
+        for (const Checkpoint::Record& record : checkpoint.takeEarlier())
+            if (record.number < tiles) {
+                put(record.number, record.values);
+                there[record.number] = true;
+            }
+        // Scattered over the picture, so that what is done tells how long the rest will take.
+        std::vector<std::uint64_t> order;
+        std::uint64_t step = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(0.618 * static_cast<double>(tiles)));
+        while (std::gcd(step, tiles) != 1) ++step;
+        for (std::uint64_t i = 0, tile = 0; i < tiles; ++i, tile = (tile + step) % tiles)
+            if (!there[tile]) order.push_back(tile);
+
+        if (!order.empty()) {
+            const Painter painter(request_);
+            std::atomic<std::size_t> done{0};
+            tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
+                const std::vector<float> values = paintTile(painter, order[i]);
+                put(order[i], values);
+                checkpoint.keep(order[i], values);
+                if (request_.progress)
+                    request_.progress(static_cast<double>(++done) / static_cast<double>(order.size()));
+            });
+        }
+        checkpoint.remove();
+        if (std::ranges::all_of(picture_.uncertainty.data, [](float u) { return u == 0; }))
+            picture_.uncertainty = {};
+        return std::move(picture_);
+    }
+
+private:
+    template <class Visit>
+    void eachPixel(std::uint64_t tile, Visit&& visit) const {
+        const int x0 = static_cast<int>(tile % static_cast<std::uint64_t>(across_)) * tileSide;
+        const int y0 = static_cast<int>(tile / static_cast<std::uint64_t>(across_)) * tileSide;
+        for (int y = y0; y < std::min(y0 + tileSide, request_.view.height); ++y)
+            for (int x = x0; x < std::min(x0 + tileSide, request_.view.width); ++x) visit(x, y);
+    }
+
+    std::vector<float> paintTile(const Painter& painter, std::uint64_t tile) const {
+        std::vector<float> values;
+        eachPixel(tile, [&](int x, int y) {
+            const Pixel pixel = painter.paint(x, y);
+            for (const DebugMode* mode : drawn_) {
+                const glm::dvec3 value = channelValue(mode->number, pixel);
+                for (int c = 0; c < mode->width; ++c) values.push_back(static_cast<float>(value[c]));
+            }
+            values.push_back(static_cast<float>(pixel.shading.uncertainty));
+        });
+        return values;
+    }
+
+    void put(std::uint64_t tile, const std::vector<float>& values) {
+        const float* next = values.data();
+        eachPixel(tile, [&](int x, int y) {
+            for (const DebugMode* mode : drawn_) {
+                Image& image = picture_.channels[mode->number];
+                for (int c = 0; c < mode->width; ++c) image.at(x, y, c) = *next++;
+            }
+            picture_.uncertainty.at(x, y) = *next++;
+        });
+    }
+
+    const Request& request_;
+    const int across_, down_;
+    int floats_ = 0;  // of a pixel
+    std::vector<const DebugMode*> drawn_;
+    Picture picture_;
+};
+
+}  // namespace
+
+std::vector<int> surfaceChannels() {
+    std::vector<int> modes;
+    for (const DebugMode& mode : debugModes())
+        if (!isLight(mode.number)) modes.push_back(mode.number);
+    return modes;
+}
+
+Picture draw(const Request& request) {
+    return Drawing(request)();
+}
+
+}  // namespace diptych::reference

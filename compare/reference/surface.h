@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What the reference shades, and what comes of it: double precision, world axes with the camera as origin, metres,
+// linear Rec.709.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+
+namespace diptych::reference {
+
+struct Surface {
+    glm::dvec3 position{0};
+    glm::dvec3 to_viewer{0, 0, 1};         // unit
+    glm::dvec3 normal{0, 0, 1};            // unit, shading
+    glm::dvec3 geometric_normal{0, 0, 1};  // unit, of the triangle, towards the viewer
+    glm::dvec3 albedo{0};                  // base colour
+    double metallic = 0, roughness = 1;    // perceptual roughness
+    double occlusion = 1;
+    glm::dvec3 emission{0};       // W/(sr m^2)
+    glm::dvec3 dielectric_f0{0};  // of the dielectric's layer; the mix with the metal is the BRDF's
+    double dielectric_f90 = 1;
+    int material = -1;
+    glm::dvec2 texcoord{0};
+};
+
+// By the two lobes: radiance, W/(sr m^2), or what becomes it when multiplied.
+struct Reflected {
+    glm::dvec3 diffuse{0}, specular{0};
+
+    Reflected& operator+=(const Reflected& other) {
+        diffuse += other.diffuse;
+        specular += other.specular;
+        return *this;
+    }
+    friend Reflected operator+(Reflected a, const Reflected& b) { return a += b; }
+    friend Reflected operator-(const Reflected& a, const Reflected& b) { return a + b * -1.0; }
+    friend Reflected operator*(const Reflected& a, double b) { return {a.diffuse * b, a.specular * b}; }
+    friend Reflected operator*(const Reflected& a, const glm::dvec3& b) {
+        return {a.diffuse * b, a.specular * b};
+    }
+
+    // The largest component of the sum, by magnitude: what errors are held against.
+    double size() const {
+        const glm::dvec3 sum = glm::abs(diffuse + specular);
+        return std::max({sum.x, sum.y, sum.z});
+    }
+};
+
+}  // namespace diptych::reference

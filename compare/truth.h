@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The reference's Frame: compare/reference and what the tool gives it.
+#pragma once
+
+#include "compare/render.h"
+#include "shared/frame/frame.h"
+#include "shared/frame/settings.h"
+#include "shared/scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What of Settings the truth depends on, with path = reference; the rest is as usual.
+Settings referenceSettings(const Settings& settings);
+
+// What a path is told: no Setting of the reference alone.
+Settings withoutReference(const Settings& settings);
+
+// What mode surface shades: forward+, one sample, with nothing packed.
+Settings surfaceSettings(const Settings& settings);
+
+// A Frame of our reference: drawn now, or read from a file that we wrote. Another renderer's file is none.
+bool isTruth(const Frame& frame);
+
+// `surfaces` is the Frame of surfaceSettings() with reference::surfaceChannels(); nullptr in mode scene.
+Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfaces, const RenderOptions& options);
+
+// Where references keep what is done of them until a command ends: beside its output, one file each. They are gone
+// on from when the same command is given again.
+class KeptReferences {
+public:
+    explicit KeptReferences(std::filesystem::path output) : output_(std::move(output)) {}
+    std::filesystem::path next();  // for one reference more, in the command's order
+    void remove();                 // the command has made its output
+
+private:
+    std::filesystem::path output_;
+    std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace diptych
