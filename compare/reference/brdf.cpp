@@ -19,8 +19,10 @@ double square(double x) {
     return x * x;
 }
 
-// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equation 33: GGX, 1/sr.
+// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equation 33: GGX, 1/sr. No
+// microfacet faces down.
 double distribution(double alpha, double n_dot_h) {
+    if (!(n_dot_h > 0)) return 0;
     return square(alpha) / (std::numbers::pi * square(square(n_dot_h) * (square(alpha) - 1) + 1));
 }
 
@@ -53,7 +55,7 @@ Reflected Brdf::operator()(const glm::dvec3& to_light) const {
     const glm::dvec3 sum = to_light + to_viewer_;
     const double length = glm::length(sum);
     const glm::dvec3 half = length > 1e-12 ? sum / length : normal_;
-    const double n_dot_h = std::clamp(glm::dot(normal_, half), 0.0, 1.0);
+    const double n_dot_h = std::min(glm::dot(normal_, half), 1.0);
     const double v_dot_h = glm::dot(to_viewer_, half);
 
     // Height-correlated masking and shadowing; Heitz 2014, equation 99.

@@ -33,12 +33,14 @@ Brdf makeBrdf(Surface s, vec3 v) {
 // Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"; 1/sr.
 // (n.h)^2 (alpha^2 - 1) + 1 cancels near the highlight; by Lagrange's identity 1 - (n.h)^2 = |n x h|^2,
 // which does not (off by over 1e-4 on 40 % of near-highlight samples at roughness 0.1, against none).
+// No microfacet faces down: a normal map that turns from the viewer would mirror lights behind the surface.
 float distributionGgx(float alpha, vec3 n, vec3 h) {
     vec3 n_cross_h = cross(n, h);
-    float a = dot(n, h) * alpha;
+    float n_dot_h = dot(n, h);
+    float a = n_dot_h * alpha;
     precise float k = alpha / (dot(n_cross_h, n_cross_h) + a * a);
     precise float d = k * k * INVERSE_PI;
-    return d;
+    return n_dot_h > 0.0 ? d : 0.0;
 }
 
 // Heitz 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs": height-correlated
