@@ -3,6 +3,7 @@
 #include "compare/command_words.h"
 #include "compare/commands.h"
 #include "compare/report/report.h"
+#include "compare/truth.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -36,10 +37,27 @@ CompareOptions compareOptions(const Options& options) {
 
 // What both paths drew, of every scene and camera.
 struct Drawn {
-    std::vector<Frame> frames;  // two by two
+    std::vector<Frame> frames;  // two by two; three by three where the truth comes first
     std::vector<Requirements> needs;
-    std::vector<std::vector<FeatureMarks>> marks;  // per pair
+    // Per scene and camera: what a person must look at, and the materials' names by id.
+    std::vector<std::vector<FeatureMarks>> marks;
+    std::vector<std::vector<std::string>> materials;
 };
+
+bool againstTruth(const Options& options) {
+    return options.baseline == Path::reference && options.baseline_file.empty();
+}
+
+std::vector<Path> pathsOf(const Options& options) {
+    if (againstTruth(options)) return {Path::reference, Path::deferred, Path::forward_plus};
+    return {Path::deferred, Path::forward_plus};
+}
+
+std::vector<std::string> materialNames(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Material& material : scene.materials) names.push_back(material.name);
+    return names;
+}
 
 RenderOptions bothOptions(const Options& options) {
     RenderOptions render = renderOptions(options);
@@ -61,9 +79,11 @@ Shares sharesOf(const RenderOptions& render) {
     return {frames / (frames + 4), (frames + 1) / (frames + 4)};
 }
 
-Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device,
+Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device, KeptReferences& kept,
            Progress& progress) {
     RenderOptions render = bothOptions(options);
+    render.keep = [&kept] { return kept.next(); };
+    const std::size_t together = pathsOf(options).size();
     const double drawing = sharesOf(render).drawn;
     Drawn drawn;
     const auto scenes = static_cast<double>(options.scenes.size());
@@ -78,7 +98,10 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Device
         render.progress = stage.part(loading, 1);
         drawn.needs.insert(drawn.needs.end(), settings.size(), needsOf(scene, options.settings));
         std::vector<Frame> frames = renderAll(device, scene, settings, render);
-        for (std::size_t k = 0; k < frames.size(); k += 2) drawn.marks.push_back(marksOf(scene, frames[k]));
+        for (std::size_t k = 0; k < frames.size(); k += together) {
+            drawn.marks.push_back(marksOf(scene, frames[k + together - 2]));
+            drawn.materials.push_back(materialNames(scene));
+        }
         std::ranges::move(frames, std::back_inserter(drawn.frames));
     }
     checkValidation(device);
@@ -103,10 +126,13 @@ const Frame& renewing(const Options& options, const Frame* old, const std::vecto
     throw std::runtime_error(fmt::format("--path {}: compare draws deferred and forward_plus", nameOf(path)));
 }
 
-Report againstFile(const Options& options, Drawn& drawn, std::optional<Frame> baseline,
+Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> baseline,
                    const ReportDevice& device, const Stage& progress) {
     CompareOptions compare = compareOptions(options);
     compare.progress = progress;
+    if (againstTruth(options))
+        return makeTruthReport(std::move(drawn.frames), drawn.needs, device, compare, std::move(drawn.marks),
+                               drawn.materials);
     if (!baseline)
         return makeReport(std::move(drawn.frames), drawn.needs, device, compare, std::move(drawn.marks));
     baseline->asked = drawn.frames.front().asked;
@@ -117,7 +143,7 @@ Report againstFile(const Options& options, Drawn& drawn, std::optional<Frame> ba
 }  // namespace
 
 int runCompare(const Options& options) {
-    const std::vector<Settings> settings = plan(options, {Path::deferred, Path::forward_plus});
+    const std::vector<Settings> settings = plan(options, pathsOf(options));
     const std::filesystem::path folder = reportFolder(options);
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare draws both");
@@ -132,7 +158,8 @@ int runCompare(const Options& options) {
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
-    Drawn drawn = draw(options, settings, device, progress);
+    KeptReferences kept(folder);
+    Drawn drawn = draw(options, settings, device, kept, progress);
     const ReportDevice here = reportDevice(device);
     std::string updated;
     if (options.update_baseline)
@@ -141,9 +168,10 @@ int runCompare(const Options& options) {
     const Stage stage(progress, folder.string());
     const auto [drawing, comparing] = sharesOf(bothOptions(options));
     const Report report =
-        againstFile(options, drawn, std::move(baseline), here, stage.part(drawing, comparing));
+        reportOf(options, drawn, std::move(baseline), here, stage.part(drawing, comparing));
     const std::string json = writeReport(
         report, folder, {options.picture, options.single_file, options.force, stage.part(comparing, 1)});
+    kept.remove();
     progress.wipe();
     if (options.json)
         fmt::print("{}", json);

@@ -68,16 +68,14 @@ Settings settingsOf(const Said& said) {
 }
 
 void resolveBaseline(Options& options, const Said& said) {
-    if (said.baseline == "reference")
+    const auto path = std::ranges::find(enumNames<Path>(), said.baseline, &std::pair<Path, std::string_view>::second);
+    const bool isPath = path != enumNames<Path>().end();
+    if (isPath) options.baseline = path->first;
+    if (!isPath && !said.baseline.ends_with(".exr"))
         throw std::runtime_error(
-            "--baseline reference is not built yet; use deferred, forward_plus or a file");
-    const bool path = said.baseline == "deferred" || said.baseline == "forward_plus";
-    if (path) options.baseline = said.baseline == "deferred" ? Path::deferred : Path::forward_plus;
-    if (!path && !said.baseline.ends_with(".exr"))
-        throw std::runtime_error(fmt::format(
-            "--baseline {}: is neither deferred nor forward_plus nor an .exr file", said.baseline));
-    if (!path) options.baseline_file = said.baseline;
-    if (options.update_baseline && path)
+            fmt::format("--baseline {}: is none of deferred, forward_plus, reference, and no .exr file", said.baseline));
+    if (!isPath) options.baseline_file = said.baseline;
+    if (options.update_baseline && isPath)
         throw std::runtime_error("--update-baseline: --baseline FILE.exr says which file");
 }
 

@@ -215,7 +215,7 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
         addFiles(app, options, "folder of the report (diptych-report)");
         app.add_option(
                "--baseline", said.baseline,
-               "the left panel: deferred, forward_plus, or an EXR, with which both are compared (deferred)")
+               "the left panel: deferred, forward_plus; or reference or an EXR, with which both are compared (deferred)")
             ->type_name("PATH|FILE.exr");
         app.add_flag("--single-file", options.single_file, "embed the pictures in index.html at half size");
         app.add_flag("--update-baseline", options.update_baseline,

@@ -30,6 +30,9 @@ std::vector<Settings> plan(const Options& options, const std::vector<Path>& path
             Settings settings = options.settings;
             settings.camera = camera;
             settings.path = path;
+            // Beside the truth a path is not asked for what the truth alone has.
+            if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
+                settings = withoutReference(settings);
             if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
             all.push_back(path == Path::reference ? referenceSettings(settings) : settings);
         }

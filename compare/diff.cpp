@@ -3,6 +3,7 @@
 
 #include "compare/command_words.h"
 #include "compare/measurement.h"
+#include "compare/truth.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -24,6 +25,12 @@ namespace {
 std::string faultOf(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("{} pixel(s) differ from what the encoding explains", *channel.unexplained_pixels);
+    // At most a share of the pixels beyond it is the same as the next percentile within it.
+    if (channel.tolerance.most_pixels)
+        return channel.stats.p999 <= channel.tolerance.max
+                   ? std::string()
+                   : fmt::format("over 0.1 % of the pixels exceed {:.4g}: p99.9 is {:.4g}", channel.tolerance.max,
+                                 channel.stats.p999);
     if (channel.stats.infinite > 0)
         return fmt::format(
             "{} pixel(s) are infinitely far apart (a NaN or infinity against a number, or a baseline "
@@ -125,6 +132,17 @@ void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& compariso
     }
 }
 
+// The forward+ Frame that was drawn through the G-buffer of this pair's scene and camera.
+const Frame* explaining(const Report& report, const Frame& left, const Frame& right) {
+    if (!isTruth(left) && !isTruth(right)) return nullptr;
+    for (const Frame& frame : report.frames)
+        if (frame.settings.path == Path::forward_plus && !frame.through_gbuffer.empty() &&
+            frame.scene == right.scene && frame.settings.camera == right.settings.camera &&
+            frame.settings.size == right.settings.size)
+            return &frame;
+    return nullptr;
+}
+
 }  // namespace
 
 std::string_view nameOf(Verdict verdict) {
@@ -168,7 +186,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     comparison.coverage = coverage(left, right);
     select(comparison.coverage, left.settings.size.width, left.settings.size.height, options.selection,
            objectsOf(left, right), comparison.notes);
-    const FramePair pair{left, right, needs, comparison.coverage, cpu};
+    const FramePair pair{left, right, needs, comparison.coverage, cpu, explaining(report, left, right)};
 
     bool shared = false;
     for (const DebugMode& mode : debugModes()) {
@@ -236,6 +254,37 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
             command = with(command, "--baseline", std::string(nameOf(options.baseline)));
         report.comparisons.back().command = std::move(command);
         if (!marks.empty()) report.comparisons.back().marks = std::move(marks.at(i / 2));
+    }
+    report.diff_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+Report makeTruthReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
+                       const CompareOptions& options, std::vector<std::vector<FeatureMarks>> marks,
+                       const std::vector<std::vector<std::string>>& materials) {
+    const auto start = std::chrono::steady_clock::now();
+    Report report;
+    report.device = std::move(device);
+    report.frames = std::move(frames);
+    for (std::size_t i = 0; i + 2 < report.frames.size(); i += 3) {
+        const auto all = static_cast<double>(report.frames.size());
+        int pairs = 0;
+        for (const auto& [left, right] : {std::pair{i, i + 1}, {i, i + 2}, {i + 1, i + 2}}) {
+            CompareOptions here = options;
+            const double done = static_cast<double>(i) + pairs++;
+            here.progress = options.progress.part(done / all, (done + 1) / all).about(report.frames[i].scene);
+            report.comparisons.push_back(compareFrames(report, left, right, needs.at(i), here));
+            const Frame& truth = report.frames[i];
+            Settings settings = report.frames[right].settings;  // both paths' and what the truth has beside
+            settings.spp = truth.settings.spp;
+            settings.reference_mode = truth.settings.reference_mode;
+            report.comparisons.back().command =
+                with(with(wordsOf("compare", truth.scene, settings), options.words), "--baseline", "reference");
+        }
+        Comparison& between = report.comparisons.back();
+        if (!marks.empty()) between.marks = std::move(marks.at(i / 3));
+        report.nearer.push_back(nearerOf(report.frames, i, {i + 1, i + 2}, between.coverage, materials.at(i / 3)));
     }
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -4,6 +4,7 @@
 
 #include "compare/marks.h"
 #include "compare/metrics/channel.h"
+#include "compare/nearer.h"
 #include "compare/progress.h"
 #include "compare/rules.h"
 #include "compare/selection.h"
@@ -64,6 +65,7 @@ struct Report {
     std::vector<Frame> frames;
     std::vector<Comparison> comparisons;
     std::vector<std::string> said_first;  // what must be known before any number is read
+    std::vector<Nearer> nearer;           // with --baseline reference: one per scene and camera
     double diff_ms = 0;                   // the comparing alone
 
     bool passed() const;
@@ -92,6 +94,13 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
 // none.
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
                   const CompareOptions& options = {}, std::vector<std::vector<FeatureMarks>> marks = {});
+
+// The truth as the left panel: frames come three by three, the reference and both paths of one scene and camera;
+// both paths against it, then against each other. `needs`: one entry per frame; `marks` and `materials`, the names
+// of these by id: one per scene and camera.
+Report makeTruthReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
+                       const CompareOptions& options, std::vector<std::vector<FeatureMarks>> marks,
+                       const std::vector<std::vector<std::string>>& materials);
 
 // A Frame of earlier as the left panel: both paths against it, then against each other. `mismatches` are said
 // first.

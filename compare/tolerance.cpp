@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tolerance.h"
 
+#include "compare/truth.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
@@ -48,7 +49,7 @@ Tolerance unormTolerance(unsigned bits) {
 
 Tolerance emissionTolerance(const FramePair& pair) {
     if (!pair.needs.emission) return {0, "nothing in the scene emits"};
-    if (gbufferLayout(pair.baseline.settings.gbuffer, pair.needs).wide_emission)
+    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_emission)
         return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
     // The largest component has its top bit set, so half a step is at most 0.5 / 256 of it; 1/512 of that
     // more where rounding moves the exponent. Below 2^-16 the exponent ends and half a step stays 2^-25.
@@ -174,6 +175,57 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
     return 0;
 }
 
+// What float32 shading may be off of double: DESIGN's figure, of the pixel as its metric has it.
+constexpr double shadingRounding = 1e-4;
+
+// The G-buffer's whole effect on a lit channel, at 99.9 % of the pixels.
+double encodingEffect(const DebugMode& mode, const FramePair& pair) {
+    if (!pair.explaining) return 0;
+    const auto through = pair.explaining->through_gbuffer.find(mode.number);
+    const auto own = pair.explaining->channels.find(mode.number);
+    if (through == pair.explaining->through_gbuffer.end() || own == pair.explaining->channels.end()) return 0;
+    return channelStats(mode.metric, mode.kind, own->second, through->second, pair.coverage).p999;
+}
+
+// The path that is held against the truth loses what its encoding loses, and what its arithmetic does.
+Tolerance truthTolerance(const DebugMode& mode, const FramePair& pair) {
+    const Frame& truth = isTruth(pair.baseline) ? pair.baseline : pair.test;
+    const Frame& path = isTruth(pair.baseline) ? pair.test : pair.baseline;
+    const bool packed = path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
+    const bool own = truth.settings.reference_mode == ReferenceMode::scene;
+    Tolerance result;
+    if (isLit(mode)) {
+        result = {shadingRounding, "float32 shading against double, 1e-4"};
+        if (const double effect = packed ? encodingEffect(mode, pair) : 0; effect > 0) {
+            result.max += effect;
+            result.because += fmt::format(
+                "; and what forward+ changes by at 99.9 % of the pixels when it shades what the {} G-buffer gives "
+                "back, {:.3g}",
+                nameOf(path.settings.gbuffer), effect);
+        }
+        if (truth.uncertainty > 0) {
+            result.max += truth.uncertainty;
+            result.because += fmt::format("; and the reference's own 95 % confidence, {:.3g}", truth.uncertainty);
+        }
+    } else {
+        // Surfaces that are forward+'s own capture.
+        result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
+                        : Tolerance{0, "float32, nothing is packed"};
+        if (mode.number == gpu::DEBUG_geometric_normal && path.settings.gbuffer != GBufferEncoding::full)
+            result = {octahedralBound(path.settings.gbuffer == GBufferEncoding::compact
+                                          ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
+                                          : gpu::STANDARD_NORMAL_BITS),
+                      "both paths pack it alike, octahedral"};
+        if (own && mode.metric != Metric::exact) {
+            result.max += mode.metric == Metric::angular ? shadingRounding * degrees : shadingRounding;
+            result.because += "; and float32 on the way to the pixel, 1e-4";
+        }
+    }
+    if (own) result.because += "; rasterisation and texture filtering are judged, so nothing is granted for them";
+    result.most_pixels = true;
+    return result;
+}
+
 }  // namespace
 
 const Frame* FramePair::of(Path path) const {
@@ -196,6 +248,8 @@ Tolerance tolerance(const DebugMode& mode, const FramePair& pair) {
     Tolerance result{0, "one path twice: the same function of the same numbers"};
     if (deferred && pair.of(Path::forward_plus))
         result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
+    else if (isTruth(pair.baseline) != isTruth(pair.test))
+        result = truthTolerance(mode, pair);
     else if (pair.baseline.settings.path != pair.test.settings.path)
         result = {0, "no bound is known between these two paths"};
     if (!pair.cpu && mode.metric != Metric::exact) {

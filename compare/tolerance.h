@@ -16,6 +16,7 @@ namespace diptych {
 struct Tolerance {
     double max = 0;  // in the channel's metric
     std::string because;
+    bool most_pixels = false;  // 0.1 % of the pixels may exceed it: against the reference
 };
 
 // Two Frames of one scene and camera, the device they were drawn on, and what the scene needs.
@@ -25,6 +26,8 @@ struct FramePair {
     const Requirements& needs;
     const Coverage& coverage;
     bool cpu = true;  // a CPU device rounds alike in every pipeline; a GPU is granted gpuUlps
+    // Against the reference: forward+ of the same view, which was drawn through the G-buffer; or nullptr.
+    const Frame* explaining = nullptr;
 
     const Frame* of(Path path) const;  // nullptr: neither, or both
 };

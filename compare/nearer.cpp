@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "compare/nearer.h"
+
+#include "compare/measurement.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace diptych {
+namespace {
+
+Standing standingOf(const DebugMode& mode, const Image& reference, const Image& test, const Coverage& covered) {
+    Standing standing;
+    standing.stats = channelStats(mode.metric, mode.kind, reference, test, covered);
+    standing.relative_rmse =
+        mode.metric == Metric::relative
+            ? standing.stats.rmse
+            : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
+    const Measurement measurement(
+        {mode.metric, mode.kind, false, &reference, &test, &covered, &standing.stats});
+    standing.flip = measurement({"flip", 0});
+    return standing;
+}
+
+std::vector<MaterialStanding> materialsOf(const Image& ids, const std::array<Image, 2>& errors,
+                                          const Coverage& covered, const std::vector<std::string>& names) {
+    constexpr std::size_t most = 8;
+    std::map<int, MaterialStanding> found;
+    for (std::size_t i = 0; i < ids.pixels(); ++i) {
+        if (!covered.covered[i]) continue;
+        const int id = static_cast<int>(ids.pixel(i)[0]);
+        MaterialStanding& material = found[id];
+        ++material.pixels;
+        for (std::size_t k = 0; k < 2; ++k) material.mean[k] += double{errors[k].data[i]};
+    }
+    std::vector<MaterialStanding> materials;
+    for (auto& [id, material] : found) {
+        material.id = id;
+        if (id >= 0 && static_cast<std::size_t>(id) < names.size())
+            material.name = names[static_cast<std::size_t>(id)];
+        for (double& mean : material.mean) mean /= static_cast<double>(material.pixels);
+        materials.push_back(material);
+    }
+    // By what they add to the difference of the two means.
+    std::ranges::stable_sort(materials, std::greater{}, [](const MaterialStanding& m) {
+        const double weight = std::abs(m.mean[0] - m.mean[1]) * static_cast<double>(m.pixels);
+        return std::isnan(weight) ? std::numeric_limits<double>::infinity() : weight;
+    });
+    if (materials.size() > most) materials.resize(most);
+    return materials;
+}
+
+NearerChannel channelOf(const DebugMode& mode, const Frame& truth, const std::array<const Frame*, 2>& paths,
+                        const Coverage& covered, const std::vector<std::string>& names) {
+    const Image& reference = truth.channels.at(mode.number);
+    NearerChannel channel;
+    channel.mode = &mode;
+    std::array<Image, 2> errors;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Image& image = paths[k]->channels.at(mode.number);
+        channel.paths[k] = standingOf(mode, reference, image, covered);
+        errors[k] = errorImage(mode.metric, mode.kind, reference, image, covered);
+    }
+    channel.between = standingOf(mode, paths[0]->channels.at(mode.number), paths[1]->channels.at(mode.number), covered);
+    channel.apart = Image(reference.width, reference.height, 1);
+    for (std::size_t i = 0; i < reference.pixels(); ++i) {
+        if (!covered.covered[i]) continue;
+        const float first = errors[0].data[i], second = errors[1].data[i];
+        channel.nearer_pixels[0] += first < second;
+        channel.nearer_pixels[1] += second < first;
+        channel.even_pixels += first == second;
+        if (first != second) channel.apart.data[i] = first - second;
+    }
+    const double first = channel.paths[0].stats.mean, second = channel.paths[1].stats.mean;
+    if (first != second) {
+        channel.nearer = first < second ? 0 : 1;
+        const double least = std::min(first, second);
+        channel.by = least > 0 ? std::max(first, second) / least : std::numeric_limits<double>::infinity();
+    }
+    const auto ids = truth.channels.find(static_cast<int>(gpu::DEBUG_material_id));
+    if (ids != truth.channels.end()) channel.materials = materialsOf(ids->second, errors, covered, names);
+    return channel;
+}
+
+}  // namespace
+
+Nearer nearerOf(const std::vector<Frame>& frames, std::size_t truth, std::array<std::size_t, 2> paths,
+                const Coverage& coverage, const std::vector<std::string>& names) {
+    Nearer nearer{truth, paths, {}};
+    const std::array<const Frame*, 3> all{&frames[truth], &frames[paths[0]], &frames[paths[1]]};
+    for (const gpu::uint number : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular}) {
+        const int mode = static_cast<int>(number);
+        if (std::ranges::all_of(all, [&](const Frame* f) { return f->channels.contains(mode) && f->isAsked(mode); }))
+            nearer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));
+    }
+    return nearer;
+}
+
+std::string nearerLine(const Nearer& nearer, const NearerChannel& channel, const std::vector<Frame>& frames) {
+    const std::string& truth = frames[nearer.truth].name;
+    if (channel.nearer < 0)
+        return fmt::format("{}: both paths are equally near to the {}, mean error {:.3g}", channel.mode->name, truth,
+                           channel.paths[0].stats.mean);
+    const auto near = static_cast<std::size_t>(channel.nearer), far = 1 - near;
+    const auto pixels =
+        static_cast<double>(channel.nearer_pixels[0] + channel.nearer_pixels[1] + channel.even_pixels);
+    const auto percent = [&](std::uint64_t count) {
+        return pixels > 0 ? 100 * static_cast<double>(count) / pixels : 0;
+    };
+    const std::string times = std::isfinite(channel.by) ? fmt::format("{:.3g} times less", channel.by) : "none at all";
+    return fmt::format("{}: {} is nearer to the {}: mean error {:.3g} against {:.3g} of {} ({}), at {:.1f} % of the "
+                       "pixels ({} at {:.1f} %, even at {:.1f} %)",
+                       channel.mode->name, frames[nearer.paths[near]].name, truth, channel.paths[near].stats.mean,
+                       channel.paths[far].stats.mean, frames[nearer.paths[far]].name, times,
+                       percent(channel.nearer_pixels[near]), frames[nearer.paths[far]].name,
+                       percent(channel.nearer_pixels[far]), percent(channel.even_pixels));
+}
+
+double nearerTop(const Image& apart) {
+    std::vector<float> sizes;
+    for (const float v : apart.data)
+        if (v != 0 && std::isfinite(v)) sizes.push_back(std::abs(v));
+    if (sizes.empty()) return 1;
+    const auto at = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
+    std::ranges::nth_element(sizes, sizes.begin() + at);
+    return double{sizes[static_cast<std::size_t>(at)]};
+}
+
+// The report's two colours of paths (page.css, --first and --second) over black, by the root of the distance.
+Image8 nearerPicture(const Image& apart, double top) {
+    constexpr std::array<std::array<double, 3>, 2> color{{{111, 155, 232}, {224, 165, 82}}};
+    Image8 picture{apart.width, apart.height, 3, {}};
+    picture.data.reserve(3 * apart.pixels());
+    for (const float v : apart.data) {
+        const double share = std::isnan(v) ? 0 : std::sqrt(std::min(std::abs(double{v}) / top, 1.0));
+        for (const double c : color[v < 0 ? 0 : 1])
+            picture.data.push_back(static_cast<std::uint8_t>(std::lround(c * share)));
+    }
+    return picture;
+}
+
+}  // namespace diptych
