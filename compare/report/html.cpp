@@ -22,7 +22,7 @@ std::string titleOf(const Report& report, const Comparison& comparison) {
     const Frame& frame = left.origin.file.empty() ? left : report.test(comparison);
     std::string title = fmt::format("{} \u00b7 {}", frame.scene, cameraTitle(frame));
     // Three pairs of one scene and camera.
-    if (hasBaselineFile(report)) title += " \u00b7 " + pairTitle(report, comparison);
+    if (hasSeveralPairs(report)) title += " \u00b7 " + pairTitle(report, comparison);
     return title;
 }
 
@@ -231,7 +231,7 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
     std::string body = header(report) + saidFirst(report) + failures(report, layout) +
                        warnings(report, layout) + notes(report) + marksLinks(report, layout) +
-                       indexTable(report, layout) + legend + "<div id=\"sections\">\n";
+                       nearerSection(report, layout) + indexTable(report, layout) + legend + "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         body += section(report, layout, layout.order[at]);
     body += "</div>\n" + laterSections(report, layout);

@@ -20,6 +20,8 @@ std::string indexTable(const Report& report, const ReportLayout& layout);  // em
 std::string channelCards(const Report& report, const ReportLayout& layout, std::size_t index);
 // Histogram and worst pixels of the card `id`.
 std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id);
+// Empty without a reference.
+std::string nearerSection(const Report& report, const ReportLayout& layout);
 std::string frameTables(const Report& report, const Comparison& comparison);
 
 }  // namespace diptych

@@ -70,7 +70,7 @@ std::string line(const Report& report, const ReportLayout& layout, std::size_t i
         "href=\"#s{0}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}{8}</tr>\n",
         index, file.empty() ? "" : fmt::format(" data-section=\"{}\"", markup(file)), verdict,
         markup(left.scene),
-        markup(hasBaselineFile(report) ? pairTitle(report, comparison) : cameraTitle(left)),
+        markup(hasSeveralPairs(report) ? pairTitle(report, comparison) : cameraTitle(left)),
         worstCell(comparison, index), litCell(comparison), timeCell(left), timeCell(right));
 }
 
@@ -91,9 +91,9 @@ std::string indexTable(const Report& report, const ReportLayout& layout) {
         "<th class=\"n optional\">{}, ms</th><th class=\"n optional\">{}, "
         "ms</th></tr></thead>\n<tbody>{}</tbody>"
         "</table></div></section>\n",
-        hasBaselineFile(report) ? "pair" : "camera",
-        hasBaselineFile(report) ? "left" : markup(report.baseline(first).name),
-        hasBaselineFile(report) ? "right" : markup(report.test(first).name), lines);
+        hasSeveralPairs(report) ? "pair" : "camera",
+        hasSeveralPairs(report) ? "left" : markup(report.baseline(first).name),
+        hasSeveralPairs(report) ? "right" : markup(report.test(first).name), lines);
 }
 
 }  // namespace diptych

@@ -74,6 +74,41 @@ Json jsonOf(const FeatureMarks& feature, const Mark& mark) {
             {"pixels", mark.pixels}};
 }
 
+Json jsonOf(const Standing& standing) {
+    const ChannelStats& s = standing.stats;
+    return {{"mean", finiteOrNull(s.mean)},
+            {"max", finiteOrNull(s.max)},
+            {"rmse", finiteOrNull(s.rmse)},
+            {"p99", finiteOrNull(s.p99)},
+            {"p999", finiteOrNull(s.p999)},
+            {"relative_rmse", finiteOrNull(standing.relative_rmse)},
+            {"flip", standing.flip ? finiteOrNull(*standing.flip) : Json(nullptr)}};
+}
+
+Json jsonOf(const Report& report, const Nearer& nearer) {
+    const Frame& truth = report.frames[nearer.truth];
+    const auto name = [&](std::size_t k) { return report.frames[nearer.paths[k]].name; };
+    Json channels = Json::array();
+    for (const NearerChannel& channel : nearer.channels) {
+        Json materials = Json::array();
+        for (const MaterialStanding& m : channel.materials)
+            materials.push_back({{"id", m.id},
+                                 {"name", m.name},
+                                 {"pixels", m.pixels},
+                                 {"mean", {{name(0), finiteOrNull(m.mean[0])}, {name(1), finiteOrNull(m.mean[1])}}}});
+        channels.push_back(
+            {{"name", channel.mode->name},
+             {"nearer", channel.nearer < 0 ? Json(nullptr) : Json(name(static_cast<std::size_t>(channel.nearer)))},
+             {"by", finiteOrNull(channel.by)},
+             {"error", {{name(0), jsonOf(channel.paths[0])}, {name(1), jsonOf(channel.paths[1])}}},
+             {"between", jsonOf(channel.between)},
+             {"nearer_pixels",
+              {{name(0), channel.nearer_pixels[0]}, {name(1), channel.nearer_pixels[1]}, {"even", channel.even_pixels}}},
+             {"materials", materials}});
+    }
+    return {{"scene", truth.scene}, {"camera", jsonOf(truth.camera)}, {"channels", channels}};
+}
+
 Json jsonOf(const Report& report, const Comparison& comparison) {
     const Frame& baseline = report.baseline(comparison);
     Json channels = Json::array();
@@ -117,6 +152,7 @@ Json jsonOf(const Frame& frame) {
             {"settings", isUnknown ? Json(nullptr) : Json::parse(toJson(frame.settings))},
             {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
             {"made_in_ms", frame.made_in_ms},
+            {"uncertainty", frame.uncertainty},
             {"passes", passes},
             {"bytes",
              {{"images", frame.bytes.images},
@@ -143,6 +179,8 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
         if (layout) frames.back()["exr"] = layout->exr[i];
     }
     for (const Comparison& comparison : report.comparisons) comparisons.push_back(jsonOf(report, comparison));
+    Json nearer = Json::array();
+    for (const Nearer& of : report.nearer) nearer.push_back(jsonOf(report, of));
     Json json{
         {"schema", 1},
         {"software", softwareName},
@@ -152,6 +190,7 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
         {"said_first", report.said_first},
         {"frames", frames},
         {"comparisons", comparisons},
+        {"truth", nearer},
         {"compare_ms", report.diff_ms}};
     if (layout) {
         json["encode_ms"] = layout->encode_ms;

@@ -78,6 +78,7 @@ std::vector<std::string> ReportLayout::files() const {
             for (const std::string* name :
                  {&channel.baseline, &channel.test, &channel.difference, &channel.values})
                 if (!name->empty()) all.push_back(*name);
+    for (const auto& channels : nearer) all.insert(all.end(), channels.begin(), channels.end());
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
@@ -108,7 +109,7 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool si
         }
         for (const std::size_t frame : {comparison.baseline, comparison.test})
             if (report.frames[frame].origin.file.empty())
-                layout.exr[frame] = prefix + report.frames[frame].name + ".exr";
+                layout.exr[frame] = (report.nearer.size() == 1 ? "" : prefix) + report.frames[frame].name + ".exr";
         const auto lit = left.channels.find(gpu::DEBUG_lit);
         const Exposure exposure =
             exposureFor(choice, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);
@@ -118,6 +119,12 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool si
         if (singleFile)
             for (ChannelPictures& channel : channels) channel.values.clear();
         if (!singleFile && places[i] >= comparisonsInPage) layout.sections[i] = prefix + "section.js";
+    }
+    for (std::size_t i = 0; i < report.nearer.size(); ++i) {
+        auto& names = layout.nearer.emplace_back();
+        const std::string prefix = report.nearer.size() > 1 ? fmt::format("{}.", i + 1) : "";
+        for (const NearerChannel& channel : report.nearer[i].channels)
+            names.push_back(fmt::format("{}{}.nearer.png", prefix, channel.mode->name));
     }
     return layout;
 }

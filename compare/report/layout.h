@@ -32,6 +32,7 @@ inline constexpr std::size_t comparisonsInPage = 4;
 struct ReportLayout {
     std::vector<std::string> exr;                        // per frame; empty: it gets none
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
+    std::vector<std::vector<std::string>> nearer;        // per Report::nearer and channel of it: a picture
     std::vector<std::size_t> order;                      // the comparisons as the page shows them
     std::vector<std::string> sections;                   // per comparison: its file, where it has one
     std::map<std::string, std::string> embedded;         // --single-file: picture -> data URI

@@ -40,6 +40,12 @@ public:
             for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)
                 addPictures(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
                             layout_.pictures[i][k]);
+        for (std::size_t i = 0; i < report_.nearer.size(); ++i)
+            for (std::size_t k = 0; k < report_.nearer[i].channels.size(); ++k)
+                tasks.push_back([this, i, k] {
+                    const Image& apart = report_.nearer[i].channels[k].apart;
+                    write(layout_.nearer[i][k], nearerPicture(apart, nearerTop(apart)));
+                });
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
             tasks[i]();

@@ -33,6 +33,9 @@ Row rowOf(const ChannelDiff& channel) {
 
 std::string frameLine(const Frame& frame) {
     if (!frame.origin.file.empty()) return fmt::format("  {}: {}\n", frame.name, frame.origin.file);
+    if (frame.settings.path == Path::reference)
+        return fmt::format("  {}: double precision, mode {}, made in {:.3g} s\n", frame.name,
+                           nameOf(frame.settings.reference_mode), frame.made_in_ms / 1000);
     std::string line = "  " + frame.name;
     if (frame.time.runs > 0)
         line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {} runs)", frame.time.median, frame.time.min,
@@ -83,6 +86,12 @@ std::string reportTable(const Report& report) {
         if (const std::string marks = marksLine(comparison); !marks.empty()) out += "  " + marks + "\n";
         for (const std::string& note : notesOf(report, comparison))
             if (said.insert(note).second) out += "  note: " + note + "\n";
+    }
+    for (const Nearer& nearer : report.nearer) {
+        if (report.nearer.size() > 1)
+            out += fmt::format("{}, {}:\n", report.frames[nearer.truth].scene,
+                               cameraTitle(report.frames[nearer.truth]));
+        for (const NearerChannel& channel : nearer.channels) out += nearerLine(nearer, channel, report.frames) + "\n";
     }
     return out + verdictLine(report) + "\n";
 }

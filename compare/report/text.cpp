@@ -81,8 +81,8 @@ std::string cameraTitle(const Frame& frame) {
     return frame.settings.camera.empty() ? "default view" : frame.settings.camera;
 }
 
-bool hasBaselineFile(const Report& report) {
-    return std::ranges::any_of(report.frames, [](const Frame& f) { return !f.origin.file.empty(); });
+bool hasSeveralPairs(const Report& report) {
+    return !report.nearer.empty() || std::ranges::any_of(report.frames, [](const Frame& f) { return !f.origin.file.empty(); });
 }
 
 std::string pairTitle(const Report& report, const Comparison& comparison) {

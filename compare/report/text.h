@@ -20,8 +20,8 @@ const char* unitOf(const DebugMode& mode);  // of its errors: a degree sign, or 
 
 // "default view", or the camera's name, or what was asked for.
 std::string cameraTitle(const Frame& frame);
-// Whether a Frame of earlier is compared with: then a scene and camera have several pairs.
-bool hasBaselineFile(const Report& report);
+// Whether a scene and camera have several pairs: with a Frame of earlier, or the reference.
+bool hasSeveralPairs(const Report& report);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);
 
