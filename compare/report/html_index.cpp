@@ -16,7 +16,9 @@ double used(const ChannelDiff& channel) {
     if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0)
         return std::numeric_limits<double>::infinity();
-    return channel.tolerance.max > 0 ? channel.stats.max / channel.tolerance.max
+    const double error = channel.tolerance.most_pixels ? channel.stats.p999 : channel.stats.max;
+    if (error == 0) return 0;
+    return channel.tolerance.max > 0 ? error / channel.tolerance.max
                                      : std::numeric_limits<double>::infinity();
 }
 

@@ -24,9 +24,9 @@ std::string figures(const Report& report, const Nearer& nearer) {
     const auto name = [&](std::size_t k) { return markup(report.frames[nearer.paths[k]].name); };
     const std::string truth = markup(report.frames[nearer.truth].name);
     std::string out = fmt::format(
-        "<div class=\"scroll\"><table><tr><th></th><th class=\"n\">{0}, from the {2}</th><th class=\"n\">{1}, from "
-        "the {2}</th><th class=\"n\">{0} from {1}</th></tr>",
-        name(0), name(1), truth);
+        "<div class=\"scroll\"><table><tr><th>errors</th><th class=\"n\">{}</th><th class=\"n\">{}</th>"
+        "<th class=\"n\">between them</th></tr>",
+        name(0), name(1));
     for (const NearerChannel& channel : nearer.channels) {
         out += fmt::format("<tr><td><b>{}</b></td><td></td><td></td><td></td></tr>", channel.mode->name);
         out += row("mean", channel, [](const Standing& s) { return s.stats.mean; });
@@ -36,7 +36,9 @@ std::string figures(const Report& report, const Nearer& nearer) {
         out += row("relative RMSE", channel, [](const Standing& s) { return s.relative_rmse; });
         out += row("FLIP", channel, [](const Standing& s) { return s.flip.value_or(0); });
     }
-    return out + "</table></div>\n";
+    return out + fmt::format("</table></div><p class=\"soft\">Each path's from the {}; the nearer one's in bold. Between "
+                             "them: of {} from {}.</p>\n",
+                             truth, name(1), name(0));
 }
 
 std::string materials(const Report& report, const Nearer& nearer, const NearerChannel& channel) {
@@ -85,7 +87,7 @@ std::string nearerSection(const Report& report, const ReportLayout& layout) {
         if (!nearer.channels.empty())
             out += "<div>" + picture(report, layout, nearer, i, 0) +
                    materials(report, nearer, nearer.channels.front()) + "</div>\n";
-        out += figures(report, nearer) + "</div></section>\n";
+        out += "<div>" + figures(report, nearer) + "</div></div></section>\n";
     }
     return out;
 }
