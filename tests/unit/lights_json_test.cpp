@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
 using namespace diptych;
@@ -71,13 +74,101 @@ TEST(LightsJson, ConeAnglesMayStandBesideTheType) {
     EXPECT_FLOAT_EQ(lights[0].outer_cone, 0.4f);
 }
 
+TEST(LightsJson, AreaLights) {
+    const auto lights =
+        read(R"({"type": "rect", "position": [1, 2, 3], "direction": [0, -4, 0], "axis": [0, 0, 2],
+          "size": [3, 2], "intensity": 500, "range": 9, "twoSided": true},
+        {"type": "disc", "radius": 0.25}, {"type": "tube", "length": 1.5, "radius": 0.02, "axis": [0, 3, 4]},
+        {"type": "directional", "angle": 0.0093})");
+    ASSERT_EQ(lights.size(), 4u);
+    const Light &rect = lights[0], &disc = lights[1], &tube = lights[2], &sun = lights[3];
+    EXPECT_EQ(rect.kind, LightKind::rect);
+    EXPECT_EQ(rect.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(rect.direction, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(rect.axis, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(rect.width, 3);
+    EXPECT_EQ(rect.height, 2);
+    EXPECT_EQ(rect.intensity, 500);
+    EXPECT_EQ(rect.range, 9);
+    EXPECT_TRUE(rect.two_sided);
+    EXPECT_EQ(disc.kind, LightKind::disc);
+    EXPECT_EQ(disc.radius, 0.25f);
+    EXPECT_FALSE(disc.two_sided);
+    EXPECT_TRUE(std::isinf(disc.range));
+    EXPECT_EQ(tube.kind, LightKind::tube);
+    EXPECT_EQ(tube.length, 1.5f);
+    EXPECT_EQ(tube.radius, 0.02f);
+    EXPECT_NEAR(glm::length(tube.axis - glm::dvec3(0, 0.6, 0.8)), 0, 1e-15) << "a tube's axis is its own";
+    EXPECT_EQ(sun.angle, 0.0093f);
+    EXPECT_EQ(read(R"({"type": "directional", "angle": 3.1415927})")[0].angle, gpu::PI)
+        << "a rounded pi is one";
+}
+
+TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
+    const std::pair<const char*, glm::dvec3> cases[] = {
+        {R"("axis": [1, 0, 5])", {1, 0, 0}},  // what of it lies along the direction goes
+        {R"("axis": [0, -2, 1])", {0, -1, 0}},
+        {R"("name": "none")", {1, 0, 0}},
+        {R"("direction": [1, 0, 0])", {0, 0, 1}},  // to the right, seen along the direction
+        {R"("direction": [-1, 7, 0])", {0, 0, -1}},
+        {R"("direction": [0, 1, 0])", {1, 0, 0}},  // nothing is level to the right of these two
+        {R"("direction": [0, -1, 0])", {1, 0, 0}},
+    };
+    for (const auto& [words, axis] : cases) {
+        const Light light = read(std::string("{\"type\": \"rect\", ") + words + "}")[0];
+        EXPECT_NEAR(glm::length(light.axis - axis), 0, 1e-15) << words;
+    }
+    const Light tube = read(R"({"type": "tube", "direction": [1, 0, 0]})")[0];
+    EXPECT_EQ(tube.axis, glm::dvec3(0, 0, 1));
+}
+
+// What counts for nothing in the type that is meant was meant otherwise.
+TEST(LightsJson, EveryKeyBelongsToItsTypes) {
+    const std::pair<const char*, std::set<std::string>> keys[] = {
+        {R"("angle": 0.1)", {"directional"}},
+        {R"("spot": {})", {"spot"}},
+        {R"("innerConeAngle": 0.1)", {"spot"}},
+        {R"("outerConeAngle": 0.1)", {"spot"}},
+        {R"("size": [1, 1])", {"rect"}},
+        {R"("axis": [1, 0, 0])", {"rect", "tube"}},
+        {R"("twoSided": true)", {"disc", "rect"}},
+        {R"("radius": 1)", {"disc", "tube"}},
+        {R"("length": 1)", {"tube"}},
+        {R"("width": 1)", {}},
+        {R"("two_sided": true)", {}},
+    };
+    for (const auto& [key, types] : keys)
+        for (const std::string type : {"point", "spot", "directional", "rect", "disc", "tube"}) {
+            const std::string light = "{\"type\": \"" + type + "\", " + key + "}";
+            const std::string error = errorOf("{\"lights\": [" + light + "]}");
+            EXPECT_EQ(error.empty(), types.contains(type)) << light << ": " << error;
+            if (!types.empty() && !error.empty()) {
+                EXPECT_NE(error.find("belongs to"), error.npos) << error;
+            }
+        }
+}
+
 TEST(LightsJson, ErrorsNameFileLightAndField) {
     const std::pair<const char*, const char*> cases[] = {
-        {R"({"type": "rect"})", "type: rect lights are not built yet"},
-        {R"({"type": "area", "width": 2, "height": 1})", "type: area lights are not built yet"},
-        {R"({"type": "disc", "radius": 1})", "type: disc lights are not built yet"},
-        {R"({"type": "tube", "length": 1})", "type: tube lights are not built yet"},
+        {R"({"type": "area", "size": [2, 1]})",
+         "type: \"area\" is none of point, spot, directional, rect, disc, tube"},
         {R"({"type": "laser"})", "type"},
+        {R"({"type": "point", "position": [0, 2e18, 0]})", "position: 2e+18 is beyond 1e+18"},
+        {R"({"type": "rect", "size": [0, 1]})", "size: 0 is below 1e-18"},
+        {R"({"type": "rect", "size": [1, -1]})", "size: -1 is below 1e-18"},
+        {R"({"type": "rect", "size": [1, 1e19]})", "size: 1e+19 is beyond 1e+18"},
+        {R"({"type": "rect", "size": 2})", "size: is not two numbers"},
+        {R"({"type": "rect", "size": [1, 1, 1]})", "size: is not two numbers"},
+        {R"({"type": "rect", "size": [1, null]})", "size: is not two finite numbers"},
+        {R"({"type": "rect", "axis": [0, 0, 3]})", "axis: is parallel to direction"},
+        {R"({"type": "rect", "axis": [0, 0, 0]})", "axis: has no length"},
+        {R"({"type": "rect", "twoSided": 1})", "twoSided: is not true or false"},
+        {R"({"type": "disc", "radius": 0})", "radius: 0 is below 1e-18"},
+        {R"({"type": "disc", "radius": "1"})", "radius: is not a number"},
+        {R"({"type": "tube", "length": -2})", "length: -2 is below 1e-18"},
+        {R"({"type": "tube", "axis": [1, 0]})", "axis: is not three numbers"},
+        {R"({"type": "directional", "angle": -0.1})", "angle: -0.1 is below 0"},
+        {R"({"type": "directional", "angle": 3.15})", "angle: 3.15 is beyond pi"},
         {R"({"position": [0, 0, 0]})", "type"},
         {R"({"type": "point", "position": [0, 0]})", "position"},
         {R"({"type": "point", "position": [0, 0, "x"]})", "position"},
