@@ -76,7 +76,7 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     noteWhatIsLeftOut(document, scene.notes);
     scene.notes.insert(scene.notes.end(), document.notes.begin(), document.notes.end());
     if (progress) progress(0, "geometry");
-    const std::vector<int> sceneNode = gltf::readNodes(document.model, choice, scene);
+    const std::vector<int> sceneNode = gltf::readNodes(document.model, document.light_extras, choice, scene);
     gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), scene.notes);
     gltf::readMotion(document.model, sceneNode, scene);
     std::vector<int> imageOf;

@@ -272,14 +272,15 @@ tinygltf::Model parseModel(const std::string& text) {
 
 Document open(Bytes bytes, const std::filesystem::path& folder) {
     const Container container = readContainer(bytes);
-    Document result{{}, Resources(folder), {}, {}};
+    Document result{{}, Resources(folder), {}, {}, {}};
     Json buffers, images;
     {
         Json document =
             parse({reinterpret_cast<const char*>(bytes.data()) + container.json.offset, container.json.size});
         checkVersion(document);
         checkRequired(document);
-        Schema found = applySchema(document);
+        result.light_extras = lightExtras(document);
+        Schema found = applySchema(document);  // takes extras out
         result.notes = container.notes;
         result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
         for (const auto& [name, where] : found.misplaced)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/scene/gltf_extras.h"
 #include "shared/scene/gltf_resources.h"
 
 #include <tiny_gltf.h>
@@ -17,7 +18,8 @@ namespace diptych::gltf {
 // indices name objects that are there, its buffers are loaded. What lies behind accessors is not checked yet.
 struct Document {
     tinygltf::Model model;
-    Resources resources;             // images are read from there, when somebody needs them
+    Resources resources;  // images are read from there, when somebody needs them
+    LightExtras light_extras;
     std::set<std::string> left_out;  // extensions that are not read
     std::vector<std::string> notes;  // what was repaired or left out
 };

@@ -222,10 +222,12 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
 
 }  // namespace
 
-std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene) {
+std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, const std::string& choice,
+                           Scene& scene) {
     const std::vector<int> parent = parentsOf(model);
     refuseCircles(parent);
-    const std::vector<bool> inScene = reached(model, chooseScene(model, choice, scene.notes), parent);
+    const int chosen = chooseScene(model, choice, scene.notes);
+    const std::vector<bool> inScene = reached(model, chosen, parent);
 
     std::vector<int> place(model.nodes.size(), -1);  // in Scene::nodes
     int count = 0;
@@ -259,6 +261,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choi
             if (index >= 0) {
                 Light light = readLight(model.lights[static_cast<std::size_t>(index)],
                                         fmt::format("light {}", index), notes);
+                addExtras(extras, static_cast<std::size_t>(index), light, notes);
                 if (light.name.empty()) light.name = file.name;
                 light.node = place[n];
                 scene.lights.push_back(light);
@@ -266,6 +269,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choi
         }
         scene.nodes.push_back(std::move(node));
     }
+    if (chosen >= 0) hangLights(extras, static_cast<std::size_t>(chosen), place, scene, notes);
     nodeNotes.moveTo(scene.notes);
     notes.moveTo(scene.notes);
     std::stable_sort(cameras.begin(), cameras.end(),

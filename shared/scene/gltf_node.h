@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/scene/gltf_extras.h"
 #include "shared/scene/scene.h"
 
 namespace tinygltf {
@@ -10,8 +11,10 @@ class Model;
 namespace diptych::gltf {
 
 // The nodes of one scene in the file's order, each with one parent and in no circle, and the lights and
-// cameras that hang there: lights in node order, cameras in the file's order. `choice` is the scene's index
-// or name; empty: the file's default. Returns each of the file's nodes' place in Scene::nodes, -1: not there.
-std::vector<int> readNodes(const tinygltf::Model& model, const std::string& choice, Scene& scene);
+// cameras that hang there: lights in node order, then those of the scene's extras, cameras in the file's
+// order. `choice` is the scene's index or name; empty: the file's default. Returns each of the file's nodes'
+// place in Scene::nodes, -1: not there.
+std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, const std::string& choice,
+                           Scene& scene);
 
 }  // namespace diptych::gltf

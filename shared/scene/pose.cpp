@@ -45,10 +45,12 @@ Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     const glm::dmat4& worldFromLight = world[static_cast<std::size_t>(light.node)];
     result.position = glm::dvec3(worldFromLight * glm::dvec4(light.position, 1));
     result.direction = unitOr(glm::dmat3(worldFromLight) * light.direction, {0, 0, -1});
-    // A sheared node's axes are not at right angles.
+    // A sheared node's axes are not at right angles; what is left of nearly parallel ones is rounding.
     const glm::dvec3 axis = unitOr(glm::dmat3(worldFromLight) * light.axis, {1, 0, 0});
     const glm::dvec3 across = axis - glm::dot(axis, result.direction) * result.direction;
-    result.axis = light.kind == LightKind::tube ? axis : unitOr(across, perpendicularTo(result.direction));
+    result.axis = light.kind == LightKind::tube ? axis
+                  : glm::length(across) > 1e-6  ? glm::normalize(across)
+                                                : perpendicularTo(result.direction);
     result.node = -1;
     return result;
 }
@@ -68,6 +70,13 @@ bool isWithin(const glm::dmat4& worldFromObject, const glm::dvec3& extent) {
 }
 bool isWithin(const glm::dmat4& worldFromObject) {
     return isWithin(worldFromObject, glm::dvec3(0));
+}
+
+bool hasPlace(const Light& light, const std::vector<glm::dmat4>& world) {
+    return light.node < 0 || isWithin(world[static_cast<std::size_t>(light.node)], glm::abs(light.position));
+}
+bool hasPlace(const Camera& camera, const std::vector<glm::dmat4>& world) {
+    return camera.node < 0 || isWithin(world[static_cast<std::size_t>(camera.node)]);
 }
 
 // In bind pose all joints move a vertex alike, so the first will do; the transform of a skinned mesh's own
@@ -111,15 +120,12 @@ Pose poseAt(const Scene& scene, double /*seconds*/) {
                     {scene.nodes[n].mesh, static_cast<int>(p), static_cast<int>(n), worldFromObject});
         }
     }
-    const auto hasPlace = [&](int node) {
-        return node < 0 || isWithin(world[static_cast<std::size_t>(node)]);
-    };
     for (const Light& light : scene.lights)
-        if (hasPlace(light.node)) pose.lights.push_back(inWorld(light, world));
+        if (hasPlace(light, world)) pose.lights.push_back(inWorld(light, world));
     std::stable_partition(pose.lights.begin(), pose.lights.end(),
                           [](const Light& light) { return light.kind == LightKind::directional; });
     for (Camera camera : scene.cameras) {
-        if (!hasPlace(camera.node)) continue;
+        if (!hasPlace(camera, world)) continue;
         if (camera.node >= 0) camera.world_from_camera = world[static_cast<std::size_t>(camera.node)];
         camera.node = -1;
         pose.cameras.push_back(camera);
@@ -152,11 +158,9 @@ void leaveOutWhatIsBeyond(Scene& scene) {
             }
     }
     note(beyond, "drawn node");
-    const auto isBeyond = [&](const auto& hung) {
-        return hung.node >= 0 && !isWithin(world[static_cast<std::size_t>(hung.node)]);
-    };
-    note(std::erase_if(scene.lights, isBeyond), "light");
-    note(std::erase_if(scene.cameras, isBeyond), "camera");
+    note(std::erase_if(scene.lights, [&](const Light& light) { return !hasPlace(light, world); }), "light");
+    note(std::erase_if(scene.cameras, [&](const Camera& camera) { return !hasPlace(camera, world); }),
+         "camera");
 }
 
 Bounds worldBounds(const Scene& scene, const Pose& pose) {

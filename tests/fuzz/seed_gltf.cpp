@@ -134,7 +134,7 @@ GltfFile dressed() {
                                 "KHR_texture_transform"};
     m.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     m.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "directional"}, {"intensity", 3}},
+        {{"type", "directional"}, {"intensity", 3}, {"extras", {{"diptych", {{"angle", 0.0093}}}}}},
         {{"type", "point"}, {"color", {1, 0.5, 0}}, {"range", 10}},
         {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}}};
     const auto light = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
@@ -144,6 +144,10 @@ GltfFile dressed() {
         {{"camera", 1}, {"extensions", light(1)}},
         {{"name", "lamp"}, {"extensions", light(2)}}};
     m.json["scenes"] = {{{"nodes", {0}}, {"name", "one"}}, {{"nodes", {3}}}};
+    m.json["scenes"][0]["extras"]["diptych"]["lights"] = {
+        {{"type", "rect"}, {"node", 2}, {"size", {2, 1}}, {"axis", {0, 1, 0}}, {"twoSided", true}},
+        {{"type", "disc"}, {"radius", 0.5}, {"position", {0, 2, 0}}, {"direction", {0, -1, 0}}},
+        {{"type", "tube"}, {"node", 1}, {"length", 1.5}, {"radius", 0.02}, {"intensity", 900}}};
     return m;
 }
 

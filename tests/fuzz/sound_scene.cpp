@@ -2,6 +2,7 @@
 #include "tests/fuzz/sound_scene.h"
 
 #include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/sound_light.h"
 
 #include <glm/geometric.hpp>
 
@@ -166,9 +167,7 @@ void requireSound(const Scene& scene) {
                 "an image has its pixels");
     for (const Light& light : scene.lights) {
         require(withinOrNone(light.node, scene.nodes), "a light's node is there");
-        require(finite(light.color) && std::isfinite(light.intensity) && light.range > 0,
-                "a light is finite");
-        require(light.inner_cone >= 0 && light.inner_cone < light.outer_cone, "a cone has an edge");
+        requireSound(light);
     }
     for (const Camera& camera : scene.cameras) {
         require(withinOrNone(camera.node, scene.nodes), "a camera's node is there");
@@ -177,6 +176,7 @@ void requireSound(const Scene& scene) {
                 "a camera sees something");
     }
     const Pose pose = poseAt(scene, 0);
+    for (const Light& light : pose.lights) requireSound(light);
     for (const Instance& instance : pose.instances) {
         require(within(instance.mesh, scene.meshes), "an instance's mesh is there");
         require(within(instance.primitive, scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives),
