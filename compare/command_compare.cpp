@@ -94,7 +94,7 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Device
         const Stage stage =
             Stage(progress, name).part(drawing * done / scenes, drawing * (done + 1) / scenes);
         const double loading = loadingShare(name, render, settings.size());
-        const Scene scene = loadShown(name, stage.part(0, loading));
+        const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
         render.progress = stage.part(loading, 1);
         drawn.needs.insert(drawn.needs.end(), settings.size(), needsOf(scene, options.settings));
         std::vector<Frame> frames = renderAll(device, scene, settings, render);

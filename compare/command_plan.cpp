@@ -22,7 +22,7 @@ struct ScenePlan {
 std::vector<Requirements::Line> linesOf(const Scene& scene, const Requirements& needs,
                                         const Settings& settings) {
     std::vector<Requirements::Line> lines = needs.lines();
-    if (settings.lights.empty() && poseAt(scene, settings.time).lights.empty())
+    if (settings.lights.empty() && !scene.environment && poseAt(scene, settings.time).lights.empty())
         for (Requirements::Line& line : lines)
             if (line.what == "directional lights")
                 line.why = "the default sun, added because the scene has no light";
@@ -43,7 +43,7 @@ Json jsonOf(const ScenePlan& plan) {
             {"triangles", plan.needs.triangles},
             {"materials", plan.needs.materials},
             {"textures", plan.needs.textures},
-            {"lights", plan.needs.directional_lights + plan.needs.point_lights + plan.needs.spot_lights},
+            {"lights", plan.needs.lights()},
             {"modelled", modelled},
             {"left_out", leftOut},
             {"notes", plan.notes},
@@ -53,8 +53,7 @@ Json jsonOf(const ScenePlan& plan) {
 void print(const ScenePlan& plan) {
     const Requirements& needs = plan.needs;
     fmt::print("{}: {} draws, {} triangles, {} materials, {} textures, {} lights\n", plan.scene, needs.draws,
-               needs.triangles, needs.materials, needs.textures,
-               needs.directional_lights + needs.point_lights + needs.spot_lights);
+               needs.triangles, needs.materials, needs.textures, needs.lights());
     for (const bool modelled : {true, false}) {
         fmt::print("  {}\n", modelled ? "modelled" : "left out");
         for (const auto& line : plan.lines)
@@ -81,7 +80,7 @@ int runPlan(const Options& options) {
     Progress progress(progressOutput(options));
     Json scenes = Json::array();
     for (const std::string& name : options.scenes) {
-        const Scene scene = loadShown(name, Stage(progress, name));
+        const Scene scene = loadShown(name, options.settings, Stage(progress, name));
         const Requirements needs = needsOf(scene, options.settings);
         const ScenePlan result{scene.name, needs, linesOf(scene, needs, options.settings), scene.notes,
                                planPaths(device, scene, settings)};

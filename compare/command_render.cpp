@@ -111,7 +111,7 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
         const auto done = static_cast<double>(i);
         const Stage stage = Stage(progress, name).part(drawn * done / scenes, drawn * (done + 1) / scenes);
         const double loading = loadingShare(name, render, settings.size());
-        const Scene scene = loadShown(name, stage.part(0, loading));
+        const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
         render.progress = stage.part(loading, 1);
         for (Frame& frame : renderAll(device, scene, settings, render)) frames.push_back(std::move(frame));
         checkValidation(device);

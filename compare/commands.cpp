@@ -2,11 +2,13 @@
 #include "compare/commands.h"
 
 #include "compare/truth.h"
+#include "shared/scene/environment.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -86,9 +88,15 @@ double loadingShare(const std::string& scene, const RenderOptions& render, std::
     return load / (load + framesIn(render) * static_cast<double>(frames));
 }
 
-Scene loadShown(const std::string& where, const Stage& progress) {
+Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress) {
     progress.at(0, "read");
-    return loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
+    std::optional<Environment> environment;
+    std::vector<std::string> notes;
+    if (settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
+    Scene scene = loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
+    scene.environment = std::move(environment);
+    std::ranges::move(notes, std::back_inserter(scene.notes));
+    return scene;
 }
 
 void note(const Options& options, const std::string& line) {

@@ -48,8 +48,8 @@ void checkValidation(const Device& device);
 // The share of loading in what a scene takes until `frames` Frames of it are drawn, from 0 to 1.
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
 
-// loadScene(), which fills `progress`.
-Scene loadShown(const std::string& where, const Stage& progress);
+// loadScene(), which fills `progress`, under the environment of the settings.
+Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
 
 // A line on stderr, for people: unless they want none; where they asked for more.
 void note(const Options& options, const std::string& line);

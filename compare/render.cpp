@@ -5,6 +5,7 @@
 #include "compare/reference/reference.h"
 #include "compare/tolerance.h"
 #include "compare/truth.h"
+#include "compare/undrawn.h"
 #include "deferred/deferred.h"
 #include "forward_plus/forward_plus.h"
 #include "shared/contract/debug_mode.h"
@@ -50,7 +51,8 @@ public:
         : pose(poseAt(scene, settings.time)),
           view(makeView(scene, pose, settings.camera, settings.size.width, settings.size.height)),
           needs(requirements(scene, pose)),
-          lights(gpuLights(litBy(scene, pose, settings), view.eye())),
+          lit_by(litBy(scene, pose, settings)),
+          lights(gpuLights(lit_by, view.eye())),
           draws(makeDrawList(pose, shared.geometry, shared.materials, view)),
           buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights),
           gbuffer(gbufferLayout(settings.gbuffer, needs)),
@@ -65,6 +67,7 @@ public:
     Pose pose;
     View view;
     Requirements needs;
+    std::vector<Light> lit_by;
     GpuLights lights;
     DrawList draws;
     FrameBuffers buffers;
@@ -147,6 +150,7 @@ public:
         frame_.background = {scene_.background.r, scene_.background.g, scene_.background.b};
         frame_.notes = scene_.notes;
         for (const std::string& note : shared_.materials.notes()) frame_.notes.push_back(note);
+        for (std::string& note : leftOutNotes()) frame_.notes.push_back(std::move(note));
         frame_.counters.lights = shot_.lights.lights.size();
         PassList passes(device_, static_cast<std::uint32_t>(settings_.size.width),
                         static_cast<std::uint32_t>(settings_.size.height));
@@ -172,6 +176,13 @@ private:
     }
     bool asked(int mode) const {
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
+    }
+
+    // Light that this path does not draw, and the reference does.
+    std::vector<std::string> leftOutNotes() const {
+        Pose pose = shot_.pose;
+        pose.lights = shot_.lit_by;
+        return undrawnLight(settings_.path, requirements(scene_, pose));
     }
 
     // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
@@ -303,7 +314,7 @@ std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& s
     if (!settings.lights.empty())
         for (Light& light : makeLights(settings.lights, settings.seed, worldBounds(scene, pose)))
             lights.push_back(std::move(light));
-    if (lights.empty()) {
+    if (lights.empty() && !scene.environment) {
         // The sun stands behind the default view, whichever camera is chosen, so that it lights what faces
         // it.
         Pose withoutCameras{pose.instances, {}, {}};

@@ -67,7 +67,8 @@ struct View;
 FrameCamera cameraOf(const View& view);
 std::uint64_t nonfinitePixels(const Image& image);
 
-// The lights that Settings put into a scene: its own, the rig's, or a sun where there are none.
+// The lights that Settings put into a scene: its own, the rig's, or a sun where there are none and no
+// environment.
 std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& settings);
 
 }  // namespace diptych

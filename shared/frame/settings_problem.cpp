@@ -5,14 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace diptych {
 namespace {
 
-// Settings of which only the usual value can be rendered, and why. They are looked at in the order of
-// Settings::fields(), so "without --env" is said only where --env is none.
+// Settings of which only the usual value can be rendered, and why.
 struct Fixed {
     std::string_view option, why;
+    std::string_view without = {};  // free where this option is not as usual
 };
 constexpr std::string_view not_built = "is not built yet";
 constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm";
@@ -20,8 +21,7 @@ constexpr std::string_view needs_reference = "has no meaning without --path refe
 constexpr Fixed fixed[] = {
     {"assign", not_built},
     {"time", not_built},
-    {"env", not_built},
-    {"ibl-intensity", "has no meaning without --env"},
+    {"ibl-intensity", "has no meaning without --env", "env"},
     {"ambient", not_built},
     {"light-cutoff", not_built},
     {"pixel-lights", "has no meaning without --assign per_object"},
@@ -57,10 +57,17 @@ std::optional<std::string> Settings::problem() const {
     if (spp < 1 || spp > most_samples) return fmt::format("--spp {}: 1 to {}", spp, most_samples);
     if (path == Path::reference && spp > 1 && reference_mode == ReferenceMode::surface)
         return fmt::format("--spp {}: --reference-mode surface shades one sample; use --reference-mode scene", spp);
+    if (env.empty()) return "--env '': names no file; use none";
+    if (!(ibl_intensity >= 0 && std::isfinite(ibl_intensity)))
+        return fmt::format("--ibl-intensity {}: is finite and at least 0", ibl_intensity);
 
     const Settings usual;
+    const auto isUsual = [&](std::string_view option) {
+        return valueOf(*this, option) == valueOf(usual, option);
+    };
     for (const Fixed& setting : fixed) {
         if (path == Path::reference && std::ranges::count(in_reference, setting.option) > 0) continue;
+        if (!setting.without.empty() && !isUsual(setting.without)) continue;
         const std::string value = valueOf(*this, setting.option);
         const std::string expected = valueOf(usual, setting.option);
         if (value != expected)

@@ -2,11 +2,14 @@
 #include "shared/scene/requirements.h"
 
 #include "shared/scene/material_slots.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace diptych {
 
@@ -65,8 +68,22 @@ Requirements requirements(const Scene& scene, const Pose& pose) {
         r.directional_lights += light.kind == LightKind::directional;
         r.point_lights += light.kind == LightKind::point;
         r.spot_lights += light.kind == LightKind::spot;
+        r.rect_lights += light.kind == LightKind::rect;
+        r.disc_lights += light.kind == LightKind::disc;
+        r.tube_lights += light.kind == LightKind::tube;
+        r.sun_discs += light.kind == LightKind::directional && light.angle > 0;
     }
+    if (scene.environment) r.environment = oneLine(scene.environment->name);
     return r;
+}
+
+std::string Requirements::areaLightsInWords() const {
+    std::vector<std::string> kinds;
+    for (const auto& [count, kind] :
+         {std::pair{rect_lights, "rect"}, std::pair{disc_lights, "disc"}, std::pair{tube_lights, "tube"}})
+        if (count > 0) kinds.push_back(fmt::format("{} {}", count, kind));
+    return fmt::format("{} area light{} ({})", areaLights(), areaLights() == 1 ? "" : "s",
+                       fmt::join(kinds, ", "));
 }
 
 std::vector<Requirements::Line> Requirements::lines() const {
@@ -109,6 +126,17 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(local_lights > 0, "point and spot lights",
         fmt::format("{} point and {} spot in the scene", point_lights, spot_lights),
         "none in the scene: no light lists");
+    constexpr const char* notYet = "no path draws them yet; the reference does";
+    result.push_back(
+        {false, "area lights",
+         areaLights() > 0 ? fmt::format("{}: {}", areaLightsInWords(), notYet) : "none in the scene"});
+    result.push_back({false, "suns' discs",
+                      sun_discs > 0 ? fmt::format("{} in the scene: {}", sun_discs, notYet)
+                                    : "no directional light has an angle"});
+    result.push_back({false, "environment",
+                      environment.empty()
+                          ? "none in the scene"
+                          : fmt::format("{}: no path draws it yet; the reference does", environment)});
     return result;
 }
 

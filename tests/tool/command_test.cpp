@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The built program as users and scripts see it: exit codes, what is on stdout, what is on stderr.
+#include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <set>
 
 namespace diptych {
@@ -67,9 +69,9 @@ TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
     const Folder folder;
     for (const std::string option :
          {"--path reference", "--assign tiled", "--assign clustered", "--assign per_object", "--time 1",
-          "--frames 2", "--env sky.exr", "--ambient 0.1,0.1,0.1", "--light-cutoff 0.1",
-          "--area-lights representative", "--shadows pcf", "--shadows evsm", "--shadows clipmap",
-          "--shadow-lights 1", "--msaa 4", "--haze on"})
+          "--frames 2", "--ambient 0.1,0.1,0.1", "--light-cutoff 0.1", "--area-lights representative",
+          "--shadows pcf", "--shadows evsm", "--shadows clipmap", "--shadow-lights 1", "--msaa 4",
+          "--haze on"})
         for (const std::string command : {"compare ", "render ", "plan "})
             EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
     EXPECT_TRUE(runTool(folder, "render --heat").failedOver("--heat is not built yet"));
@@ -91,6 +93,54 @@ TEST(Command, BadInputIsNamed) {
         EXPECT_TRUE(runTool(folder, command + "--camera 99").failedOver("--camera"));
         EXPECT_TRUE(runTool(folder, command + "--lights disco:3").failedOver("disco"));
         EXPECT_TRUE(runTool(folder, command + "--device nosuchdevice").failedOver("--device"));
+    }
+    EXPECT_FALSE(fs::exists(folder / "diptych-report"));
+    EXPECT_FALSE(fs::exists(folder / "diptych-render"));
+}
+
+// Read, and not drawn by these paths yet: the report says so of each.
+TEST(Command, AreaLightsAndTheEnvironmentAreNoted) {
+    const Folder folder;
+    folder.write("unlit.gltf", triangle);
+    folder.write("lights.json", R"({"lights": [{"type": "rect", "position": [0, 2, 0]},
+        {"type": "directional", "angle": 0.0093, "intensity": 2}]})");
+    const Image sky(4, 2, 3, 1.0f);
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    const std::string options = " unlit.gltf --size 16x9 --runs 0 --lights lights.json --env sky.exr";
+    Json report = parsed(runTool(folder, "compare --json" + options));
+    ASSERT_EQ(report["frames"].size(), 2u);
+    for (const Json& frame : report["frames"]) {
+        const std::string path = frame["path"];
+        EXPECT_EQ(frame["notes"],
+                  (Json{"1 area light (1 rect): not drawn by " + path + " yet: the reference has it",
+                        "1 sun's disc: not drawn by " + path + " yet: the reference has it",
+                        "environment sky.exr: not drawn by " + path + " yet: the reference has it"}));
+        EXPECT_EQ(frame["counters"]["lights"], 1) << "the sun of the file, and no other";
+        EXPECT_EQ(frame["settings"]["env"], "sky.exr");
+    }
+    // Neither an area light nor an environment is helped out by the sun of a scene without light.
+    for (const std::string light : {" --env sky.exr --ibl-intensity 0.5", " --lights rect.json"}) {
+        folder.write("rect.json", R"({"lights": [{"type": "rect"}]})");
+        report = parsed(runTool(folder, "render -o x.png --json unlit.gltf --size 16x9 --runs 0" + light));
+        EXPECT_EQ(report["frames"][0]["counters"]["lights"], 0) << light;
+    }
+    const Json plan = parsed(runTool(folder, "plan --json unlit.gltf --lights lights.json --env sky.exr"));
+    std::map<std::string, std::string> leftOut;
+    for (const Json& line : plan["scenes"][0]["left_out"]) leftOut[line["what"]] = line["why"];
+    for (const char* what : {"area lights", "suns' discs", "environment"})
+        EXPECT_NE(leftOut[what].find("no path draws"), std::string::npos) << what << ": " << leftOut[what];
+    EXPECT_EQ(plan["scenes"][0]["lights"], 2);
+}
+
+TEST(Command, AnEnvironmentThatCannotBeReadIsNamed) {
+    const Folder folder;
+    folder.write("sky.exr", "not an EXR");
+    for (const std::string command : {"compare ", "render ", "plan "}) {
+        EXPECT_TRUE(runTool(folder, command + "--env none.exr").failedOver("none.exr: no such file"));
+        EXPECT_TRUE(runTool(folder, command + "--env sky.exr").failedOver("sky.exr: is no picture"));
+        EXPECT_TRUE(
+            runTool(folder, command + "--ibl-intensity 2").failedOver("has no meaning without --env"));
+        EXPECT_TRUE(runTool(folder, command + "--env sky.exr --ibl-intensity -1").failedOver("at least 0"));
     }
     EXPECT_FALSE(fs::exists(folder / "diptych-report"));
     EXPECT_FALSE(fs::exists(folder / "diptych-render"));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/requirements.h"
 
+#include "compare/undrawn.h"
+
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -157,6 +159,52 @@ TEST(Requirements, LightsAreCountedByKind) {
     EXPECT_EQ(r.directional_lights, 1u);
     EXPECT_EQ(r.point_lights, 1u);
     EXPECT_EQ(r.spot_lights, 2u);
+    EXPECT_EQ(r.areaLights(), 0u);
+    EXPECT_EQ(r.sun_discs, 0u);
+    EXPECT_EQ(r.lights(), 4u);
+}
+
+// No path draws them yet: each says so, and no other line changes.
+TEST(Requirements, AreaLightsDiscsOfSunsAndEnvironmentAreLeftOut) {
+    Scene scene = plainScene();
+    const auto before = of(scene).lines();
+    for (const char* what : {"area lights", "suns' discs", "environment"})
+        EXPECT_EQ(line(before, what).why.find("no path"), std::string::npos) << what;
+    for (const LightKind kind : {LightKind::tube, LightKind::rect, LightKind::tube, LightKind::disc}) {
+        scene.lights.emplace_back().kind = kind;
+    }
+    scene.lights.emplace_back().kind = LightKind::directional;
+    scene.lights.back().angle = 0.01f;
+    scene.environment = Environment{"sky.exr", Image(2, 1, 3)};
+    const Requirements r = of(scene);
+    EXPECT_EQ(r.rect_lights, 1u);
+    EXPECT_EQ(r.disc_lights, 1u);
+    EXPECT_EQ(r.tube_lights, 2u);
+    EXPECT_EQ(r.sun_discs, 1u);
+    EXPECT_EQ(r.lights(), 5u);
+    EXPECT_EQ(r.areaLightsInWords(), "4 area lights (1 rect, 1 disc, 2 tube)");
+    const auto after = r.lines();
+    for (const char* what : {"area lights", "suns' discs", "environment"}) {
+        EXPECT_FALSE(line(after, what).modelled) << what;
+        EXPECT_NE(line(after, what).why.find("no path draws"), std::string::npos) << line(after, what).why;
+    }
+    EXPECT_NE(line(after, "environment").why.find("sky.exr"), std::string::npos);
+    EXPECT_TRUE(line(after, "directional lights").modelled);
+}
+
+TEST(Requirements, APathSaysWhatLightItLeavesOut) {
+    Requirements needs;
+    EXPECT_TRUE(undrawnLight(Path::deferred, needs).empty());
+    needs.rect_lights = needs.tube_lights = 1;
+    needs.sun_discs = 1;
+    needs.environment = "sky.exr";
+    const std::vector<std::string> expected{
+        "2 area lights (1 rect, 1 tube): not drawn by deferred yet: the reference has them",
+        "1 sun's disc: not drawn by deferred yet: the reference has it",
+        "environment sky.exr: not drawn by deferred yet: the reference has it"};
+    EXPECT_EQ(undrawnLight(Path::deferred, needs), expected);
+    EXPECT_EQ(undrawnLight(Path::forward_plus, needs).size(), 3u);
+    EXPECT_TRUE(undrawnLight(Path::reference, needs).empty()) << "it draws all";
 }
 
 TEST(Requirements, LinesSayWhy) {

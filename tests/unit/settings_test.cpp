@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -173,7 +174,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"camera", "0"},      {"lights", "point:3"},    {"lights", "none"},
         {"seed", "9"},        {"env", "none"},          {"shadows", "off"},
         {"haze", "off"},      {"sort", "off"},          {"msaa", "1"},
-        {"spp", "1"},         {"ibl-intensity", "1"},
+        {"spp", "1"},         {"ibl-intensity", "1"},   {"env", "sky.exr"},
     };
     for (const auto& [option, value] : built) {
         Settings s;
@@ -192,8 +193,8 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         {"size", "5x16385"},
         {"size", "-1x5"},
         {"time", "2"},
-        {"env", "sky.exr"},
         {"ibl-intensity", "2"},
+        {"ibl-intensity", "-1"},
         {"ambient", "0,0.1,0"},
         {"light-cutoff", "0.01"},
         {"pixel-lights", "8"},
@@ -217,6 +218,26 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         set(s, option, value);
         const std::string problem = s.problem().value_or("none");
         EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
+    }
+}
+
+TEST(Settings, AnEnvironmentWithoutANameIsNone) {
+    Settings s;
+    s.env = "";
+    EXPECT_EQ(s.problem().value_or("none"), "--env '': names no file; use none");
+}
+
+TEST(Settings, AnEnvironmentGivesItsIntensityAMeaning) {
+    Settings s;
+    s.env = "sky.exr";
+    for (const float intensity : {0.0f, 0.5f, 1.0f, 1e30f}) {
+        s.ibl_intensity = intensity;
+        EXPECT_EQ(s.problem().value_or("none"), "none");
+    }
+    for (const float intensity :
+         {-0.5f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        s.ibl_intensity = intensity;
+        EXPECT_EQ(s.problem().value_or("none").find("--ibl-intensity "), 0u) << intensity;
     }
 }
 

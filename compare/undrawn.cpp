@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "compare/undrawn.h"
+
+#include <fmt/format.h>
+
+namespace diptych {
+
+std::vector<std::string> undrawnLight(Path path, const Requirements& needs) {
+    std::vector<std::string> notes;
+    if (path == Path::reference) return notes;
+    const auto note = [&](const std::string& what, bool one) {
+        notes.push_back(fmt::format("{}: not drawn by {} yet: the reference has {}", what, nameOf(path),
+                                    one ? "it" : "them"));
+    };
+    if (needs.areaLights() > 0) note(needs.areaLightsInWords(), needs.areaLights() == 1);
+    if (needs.sun_discs > 0)
+        note(needs.sun_discs == 1 ? "1 sun's disc" : fmt::format("{} suns' discs", needs.sun_discs),
+             needs.sun_discs == 1);
+    if (!needs.environment.empty()) note("environment " + needs.environment, true);
+    return notes;
+}
+
+}  // namespace diptych

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/frame/settings.h"
+#include "shared/scene/requirements.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What of a scene's light the path does not draw yet, a note each; the reference draws all.
+std::vector<std::string> undrawnLight(Path path, const Requirements& needs);
+
+}  // namespace diptych
