@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 using namespace diptych;
 using Json = nlohmann::json;
@@ -87,6 +88,23 @@ TEST(GltfNode, LightsOfEveryKindDirectionalFirst) {
     EXPECT_EQ(point.position, glm::dvec3(2, 3, 4));
     EXPECT_EQ(point.color, glm::vec3(1, 0.5, 0));
     EXPECT_TRUE(std::isinf(point.range));
+}
+
+// To the bit: its origin and its -Z, whatever a light of extras may have beside them.
+TEST(GltfNode, LightsStandAtTheOriginOfTheirNode) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(-100, 100);
+    for (int i = 0; i < 1000; ++i) {
+        Scene scene;
+        glm::dmat4& m = scene.nodes.emplace_back().parent_from_node;
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 3; ++row) m[column][row] = number(random);
+        scene.lights.emplace_back().node = 0;
+        const Light light = poseAt(scene, 0).lights.at(0);
+        const glm::dvec3 z(m[2]);
+        EXPECT_EQ(light.position, glm::dvec3(m[3]));
+        EXPECT_EQ(light.direction, -z / glm::length(z));
+    }
 }
 
 TEST(GltfNode, Cameras) {
