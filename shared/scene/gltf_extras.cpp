@@ -120,10 +120,13 @@ void hangLights(const LightExtras& extras, std::size_t index, const std::vector<
     for (const LightExtras::Hung& hung : found->second.lights) {
         Light light = hung.light;
         light.node = hung.node < 0 ? -1 : place[static_cast<std::size_t>(hung.node)];
-        if (hung.node >= 0 && light.node < 0)
+        if (hung.node >= 0 && light.node < 0) {
             notes.add(fmt::format("{}: node: {} is not in the scene: left out", hung.who, hung.node));
-        else
-            scene.lights.push_back(std::move(light));
+            continue;
+        }
+        if (light.name.empty() && light.node >= 0)
+            light.name = scene.nodes[static_cast<std::size_t>(light.node)].name;
+        scene.lights.push_back(std::move(light));
     }
 }
 

@@ -46,13 +46,14 @@ TEST(GltfExtras, OnANodeTheyStandInItsSpace) {
                        {{"type", "rect"}, {"node", 1}, {"direction", {0, 1, 0}}, {"axis", {1, 0, 0}}}});
     const double s = std::sqrt(0.5);
     f.json["nodes"] = {{{"mesh", 0}, {"children", {1}}, {"translation", {10, 0, 0}}},
-                       {{"rotation", {0, 0, s, s}}, {"scale", {2, 4, 8}}}};
+                       {{"rotation", {0, 0, s, s}}, {"scale", {2, 4, 8}}, {"name", "lamp"}}};
     const Scene scene = f.load();
     EXPECT_TRUE(scene.notes.empty()) << scene.notes.front();
     const Pose pose = poseAt(scene, 0);
     ASSERT_EQ(pose.lights.size(), 3u);
     const Light &rect = pose.lights[0], &tube = pose.lights[1], &turned = pose.lights[2];
     EXPECT_EQ(rect.node, -1);
+    EXPECT_EQ(rect.name, "lamp");
     expectNear(rect.position, {10, 0, 0}, "position");
     expectNear(rect.direction, {0, 0, -1}, "direction");
     expectNear(rect.axis, {0, 1, 0}, "axis");
