@@ -33,8 +33,12 @@ double lambda(double alpha, double cosine) {
 }
 
 // Schlick 1994, "An Inexpensive BRDF Model".
-glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double v_dot_h) {
-    return f0 + (glm::dvec3(f90) - f0) * std::pow(std::clamp(1 - v_dot_h, 0.0, 1.0), 5);
+double schlick(double v_dot_h) {
+    const double x = std::clamp(1 - v_dot_h, 0.0, 1.0);
+    return square(square(x)) * x;
+}
+glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double weight) {
+    return f0 + (glm::dvec3(f90) - f0) * weight;
 }
 
 }  // namespace
@@ -47,7 +51,8 @@ Brdf::Brdf(const Surface& s)
       metallic_(s.metallic),
       dielectric_f90_(s.dielectric_f90),
       alpha_(square(std::max(s.roughness, least_roughness))),
-      n_dot_v_(std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0)) {}
+      n_dot_v_(std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0)),
+      lambda_v_(lambda(alpha_, n_dot_v_)) {}
 
 Reflected Brdf::operator()(const glm::dvec3& to_light) const {
     const double n_dot_l = std::min(glm::dot(normal_, to_light), 1.0);
@@ -56,13 +61,13 @@ Reflected Brdf::operator()(const glm::dvec3& to_light) const {
     const double length = glm::length(sum);
     const glm::dvec3 half = length > 1e-12 ? sum / length : normal_;
     const double n_dot_h = std::min(glm::dot(normal_, half), 1.0);
-    const double v_dot_h = glm::dot(to_viewer_, half);
+    const double weight = schlick(glm::dot(to_viewer_, half));
 
     // Height-correlated masking and shadowing; Heitz 2014, equation 99.
-    const double masking = 1 / (1 + lambda(alpha_, n_dot_v_) + lambda(alpha_, n_dot_l));
+    const double masking = 1 / (1 + lambda_v_ + lambda(alpha_, n_dot_l));
     const double lobe = distribution(alpha_, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
-    const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, v_dot_h);
-    const glm::dvec3 metal = fresnel(albedo_, 1, v_dot_h);
+    const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, weight);
+    const glm::dvec3 metal = fresnel(albedo_, 1, weight);
     // A dielectric is a Lambertian base that gets what its layer does not reflect.
     const double base = 1 - std::max({layer.r, layer.g, layer.b});
     return {albedo_ * ((1 - metallic_) * base * n_dot_l / std::numbers::pi),

@@ -21,7 +21,7 @@ public:
 private:
     glm::dvec3 normal_, to_viewer_;
     glm::dvec3 albedo_, dielectric_f0_;
-    double metallic_, dielectric_f90_, alpha_, n_dot_v_;
+    double metallic_, dielectric_f90_, alpha_, n_dot_v_, lambda_v_;
 };
 
 }  // namespace diptych::reference

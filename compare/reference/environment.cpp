@@ -2,8 +2,8 @@
 #include "compare/reference/environment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 
 namespace diptych::reference {
@@ -15,92 +15,139 @@ std::size_t at(int i) {
     return static_cast<std::size_t>(i);
 }
 
-// The first entry beyond u, and how far u is on the way to it.
+// The first entry beyond u of the last one, and how far u is on the way to it.
 struct Found {
-    int index;
+    std::size_t index;
     double within;
 };
-Found find(const double* cumulative, int count, double u) {
-    const double* end = cumulative + count;
-    const double target = u * end[-1];
-    const double* entry = std::min(std::upper_bound(cumulative, end, target), end - 1);
+Found find(const double* cumulative, std::size_t count, double u) {
+    const double target = u * cumulative[count - 1];
+    const double* entry = std::min(std::upper_bound(cumulative, cumulative + count, target), cumulative + count - 1);
     const double before = entry == cumulative ? 0 : entry[-1];
     const double width = *entry - before;
-    return {static_cast<int>(entry - cumulative), width > 0 ? (target - before) / width : 0.5};
+    return {static_cast<std::size_t>(entry - cumulative), width > 0 ? std::clamp((target - before) / width, 0.0, 1.0) : 0.5};
 }
+
+// Some 11 degrees a side.
+constexpr int mostAcross = 32, mostDown = 16;
 
 }  // namespace
 
-// The density of a pixel follows the brightest of what bilinear interpolation shows within it, so that nowhere
-// where there is light it is 0.
+// The weight of a pixel is the mean of what bilinear interpolation shows within it: nowhere where there is light it
+// is 0.
 EnvironmentLight::EnvironmentLight(const Environment& environment, double factor)
-    : image_(environment.radiance), factor_(factor) {
+    : image_(environment.radiance),
+      factor_(factor),
+      across_(std::min(mostAcross, image_.width)),
+      down_(std::min(mostDown, image_.height)) {
     const int width = image_.width, height = image_.height;
-    rows_.resize(at(height));
-    columns_.resize(image_.pixels());
-    weight_.resize(image_.pixels());
     const auto brightness = [&](int x, int y) {
-        return std::max({texel(x, y, 0), texel(x, y, 1), texel(x, y, 2)});
+        const glm::dvec3 color = texel(x, y);
+        return std::max({color.r, color.g, color.b});
     };
-    double sum = 0;
-    for (int y = 0; y < height; ++y) {
-        const double solid = std::cos(pi * y / height) - std::cos(pi * (y + 1) / height);
-        double row = 0;
+    for (int y = 0; y < height; ++y)
+        solid_.push_back(2 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height)));
+    weight_.resize(image_.pixels());
+    for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            double largest = 0;
+            constexpr std::array<double, 3> share{0.125, 0.75, 0.125};
+            double mean = 0;
             for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) largest = std::max(largest, brightness(x + dx, y + dy));
-            weight_[at(y * width + x)] = largest * solid;
-            row += largest * solid;
-            columns_[at(y * width + x)] = row;
+                for (int dx = -1; dx <= 1; ++dx)
+                    mean += share[at(dx + 1)] * share[at(dy + 1)] * brightness(x + dx, y + dy);
+            weight_[at(y) * at(width) + at(x)] = mean * solid_[at(y)];
         }
-        sum += row;
-        rows_[at(y)] = sum;
-    }
-    if (sum > 0)
-        for (double& w : weight_) w /= sum;
+    for (int j = 0; j < down_; ++j)
+        for (int i = 0; i < across_; ++i) {
+            const int x = i * width / across_, y = j * height / down_;
+            Block block{x, y, (i + 1) * width / across_ - x, (j + 1) * height / down_ - y, {}, {}, {}};
+            block.middle = directionOf(x + block.width / 2.0, y + block.height / 2.0);
+            double sum = 0;
+            for (int row = 0; row < block.height; ++row) {
+                double along = 0;
+                for (int column = 0; column < block.width; ++column) {
+                    along += weight_[at(y + row) * at(width) + at(x + column)];
+                    block.columns.push_back(along);
+                }
+                sum += along;
+                block.rows.push_back(sum);
+            }
+            brightness_ += sum;
+            blocks_.push_back(std::move(block));
+        }
 }
 
 // Columns go round; rows beyond a pole are those before it, half a turn on.
-double EnvironmentLight::texel(int x, int y, int c) const {
+glm::dvec3 EnvironmentLight::texel(int x, int y) const {
     const int width = image_.width, height = image_.height;
     if (y < 0 || y >= height) {
-        y = y < 0 ? -1 - y : 2 * height - 1 - y;
+        y = std::clamp(y < 0 ? -1 - y : 2 * height - 1 - y, 0, height - 1);
         x += width / 2;
     }
-    return double{image_.at((x % width + width) % width, std::clamp(y, 0, height - 1), c)};
+    while (x < 0) x += width;
+    while (x >= width) x -= width;
+    const float* p = image_.pixel(at(y) * at(width) + at(x));
+    return {double{p[0]}, double{p[1]}, double{p[2]}};
+}
+
+glm::dvec3 EnvironmentLight::directionOf(double x, double y) const {
+    const double azimuth = 2 * pi * x / image_.width - pi, polar = pi * y / image_.height;
+    return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
 glm::dvec3 EnvironmentLight::radiance(const glm::dvec3& d) const {
     const double x = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * image_.width - 0.5;
     const double y = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi * image_.height - 0.5;
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const double fx = x - x0, fy = y - y0;
-    glm::dvec3 sum(0);
-    for (int c = 0; c < 3; ++c)
-        sum[c] = (texel(x0, y0, c) * (1 - fx) + texel(x0 + 1, y0, c) * fx) * (1 - fy) +
-                 (texel(x0, y0 + 1, c) * (1 - fx) + texel(x0 + 1, y0 + 1, c) * fx) * fy;
-    return sum * factor_;
+    const double left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
+    const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
+    return ((texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
+            (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy) *
+           factor_;
 }
 
-glm::dvec3 EnvironmentLight::sample(const glm::dvec2& u) const {
-    const int width = image_.width, height = image_.height;
-    const Found row = find(rows_.data(), height, u.y);
-    const Found column = find(columns_.data() + at(row.index) * at(width), width, u.x);
+EnvironmentLight::Pixel EnvironmentLight::pixelOf(const glm::dvec3& d) const {
+    const double x = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * image_.width;
+    const double y = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi * image_.height;
+    return {std::clamp(static_cast<int>(x), 0, image_.width - 1), std::clamp(static_cast<int>(y), 0, image_.height - 1)};
+}
+
+// The block whose first pixel is the last at or before it.
+std::size_t EnvironmentLight::blockOf(Pixel pixel) const {
+    const int i = ((pixel.x + 1) * across_ - 1) / image_.width, j = ((pixel.y + 1) * down_ - 1) / image_.height;
+    return at(j) * at(across_) + at(i);
+}
+
+EnvironmentLight::Sampler::Sampler(const EnvironmentLight& light,
+                                   const std::function<double(const glm::dvec3&)>& weight)
+    : light_(light) {
+    double sum = 0;
+    for (const Block& block : light.blocks_) {
+        if (block.rows.back() > 0) sum += block.rows.back() * weight(block.middle);
+        cumulative_.push_back(sum);
+    }
+}
+
+glm::dvec3 EnvironmentLight::Sampler::operator()(const glm::dvec2& u) const {
+    const Found chosen = find(cumulative_.data(), cumulative_.size(), u.x);
+    const Block& block = light_.blocks_[chosen.index];
+    const Found row = find(block.rows.data(), block.rows.size(), u.y);
+    const Found column =
+        find(block.columns.data() + row.index * at(block.width), at(block.width), chosen.within);
     // Within a row by solid angle, which is even in the cosine.
-    const double top = std::cos(pi * row.index / height), bottom = std::cos(pi * (row.index + 1) / height);
-    const double cosine = top + (bottom - top) * row.within, sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    const double azimuth = 2 * pi * (column.index + column.within) / width - pi;
-    return {sine * std::sin(azimuth), cosine, -sine * std::cos(azimuth)};
+    const double y = block.y + static_cast<double>(row.index), x = block.x + static_cast<double>(column.index) + column.within;
+    const double top = std::cos(pi * y / light_.image_.height), bottom = std::cos(pi * (y + 1) / light_.image_.height);
+    return light_.directionOf(x, std::acos(std::clamp(top + (bottom - top) * row.within, -1.0, 1.0)) / pi *
+                                     light_.image_.height);
 }
 
-double EnvironmentLight::density(const glm::dvec3& d) const {
-    const int width = image_.width, height = image_.height;
-    const int x = static_cast<int>((std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * width);
-    const int y = static_cast<int>(std::acos(std::clamp(d.y, -1.0, 1.0)) / pi * height);
-    const int row = std::clamp(y, 0, height - 1), column = std::clamp(x, 0, width - 1);
-    const double solid = 2 * pi / width * (std::cos(pi * row / height) - std::cos(pi * (row + 1) / height));
-    return weight_[at(row) * at(width) + at(column)] / solid;
+double EnvironmentLight::Sampler::density(const glm::dvec3& direction) const {
+    const Pixel pixel = light_.pixelOf(direction);
+    const std::size_t index = light_.blockOf(pixel);
+    const double share = cumulative_[index] - (index > 0 ? cumulative_[index - 1] : 0);
+    const double all = light_.blocks_[index].rows.back();
+    if (!(share > 0)) return 0;
+    return share / cumulative_.back() * light_.weight_[at(pixel.y) * at(light_.image_.width) + at(pixel.x)] / all /
+           light_.solid_[at(pixel.y)];
 }
 
 }  // namespace diptych::reference

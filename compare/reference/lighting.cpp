@@ -3,6 +3,7 @@
 
 #include "compare/reference/punctual.h"
 #include "compare/reference/sampling.h"
+#include "shared/scene/axes.h"
 
 #include <glm/geometric.hpp>
 
@@ -95,11 +96,11 @@ private:
     const Open& open_;
 };
 
-// Sixteen independent sequences, twice as long each time, until their means agree: estimate(round, index). `whole`:
+// Eight independent sequences, twice as long each time, until their means agree: estimate(round, index). `whole`:
 // what the confidence is relative to, where the mean is smaller.
 template <class Estimate>
 Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first, double whole) {
-    constexpr std::size_t count = 16;
+    constexpr std::size_t count = 8;
     std::array<Reflected, count> sums;
     std::uint64_t done = 0;
     for (std::uint64_t next = first;; next *= 2) {
@@ -115,28 +116,21 @@ Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint6
     }
 }
 
-// Directions around the normal and around the mirror's, drawn by the BRDF's own lobes.
+// Directions that the specular lobe mirrors: half vectors by D (n.h), Walter et al. 2007, equation 35.
 class LobeSampler {
 public:
-    explicit LobeSampler(const Brdf& brdf) : brdf_(brdf) {
-        const glm::dvec3& n = brdf.normal();
-        const glm::dvec3 a = std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-        x_ = glm::normalize(glm::cross(n, a));
-        y_ = glm::cross(n, x_);
-    }
+    explicit LobeSampler(const Brdf& brdf)
+        : brdf_(brdf), x_(perpendicularTo(brdf.normal())), y_(glm::cross(brdf.normal(), x_)) {}
 
-    glm::dvec3 diffuse(const glm::dvec2& u) const { return around(std::sqrt(1 - u.x), u.y); }
-    double diffuseDensity(const glm::dvec3& l) const {
-        return std::max(glm::dot(brdf_.normal(), l), 0.0) / std::numbers::pi;
-    }
-
-    // Half vectors by D (n.h), Walter et al. 2007, equation 35.
-    glm::dvec3 specular(const glm::dvec2& u) const {
+    glm::dvec3 operator()(const glm::dvec2& u) const {
         const double alpha2 = brdf_.alpha() * brdf_.alpha();
-        const glm::dvec3 h = around(std::sqrt((1 - u.x) / (1 + (alpha2 - 1) * u.x)), u.y);
+        const double cosine = std::sqrt((1 - u.x) / (1 + (alpha2 - 1) * u.x));
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * u.y;
+        const glm::dvec3 h =
+            x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + brdf_.normal() * cosine;
         return glm::normalize(2 * glm::dot(brdf_.toViewer(), h) * h - brdf_.toViewer());
     }
-    double specularDensity(const glm::dvec3& l) const {
+    double density(const glm::dvec3& l) const {
         const glm::dvec3 h = glm::normalize(l + brdf_.toViewer());
         const double n_dot_h = glm::dot(brdf_.normal(), h), v_dot_h = std::abs(glm::dot(brdf_.toViewer(), h));
         if (!(n_dot_h > 0) || !(v_dot_h > 0)) return 0;
@@ -146,11 +140,6 @@ public:
     }
 
 private:
-    glm::dvec3 around(double cosine, double turn) const {
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * turn;
-        return x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + brdf_.normal() * cosine;
-    }
-
     const Brdf& brdf_;
     glm::dvec3 x_, y_;
 };
@@ -214,28 +203,34 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     const Shaded shaded(brdf, leaves, emitter.far, open);
     const std::size_t places = shaded.places();
     std::size_t seen = 0, ignored = 0;
-    constexpr std::uint64_t pilot = 4;
+    constexpr std::uint64_t pilot = 2;
     for (std::uint64_t i = 0; i < pilot; ++i) shaded.estimate(~seed, i, false, seen);
     const bool mostly_open = 2 * seen > pilot * places;
     const Shading visible = untilConfident(
         [&](std::size_t round, std::uint64_t index) {
-            return shaded.estimate(seed * 16 + round, index, mostly_open, ignored);
+            return shaded.estimate(seed * 8 + round, index, mostly_open, ignored);
         },
         places, std::max<std::uint64_t>(1, 8 / places), whole.value.size());
     return {visible.reflected * radiance, (visible.uncertainty + whole.error) * brightest};
 }
 
-// Three ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally Combining
-// Sampling Techniques for Monte Carlo Rendering").
+// Two ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally Combining
+// Sampling Techniques for Monte Carlo Rendering"): what is bright and reflected, by blocks of the picture, and what
+// the specular lobe, which may be narrower than a block, mirrors.
 Shading Lighting::fromEnvironment(const Brdf& brdf, const Open& open, std::uint64_t seed) const {
     const LobeSampler lobes(brdf);
+    const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle) {
+        // A block that the horizon cuts, or that a lobe grazes, has more to show than its middle: some 11 degrees.
+        constexpr double reach = 0.2;
+        const double cosine = std::max(glm::dot(brdf.normal(), middle) + reach, 0.0);
+        return brdf(middle).size() + 0.02 * cosine;
+    });
     const auto value = [&](const glm::dvec3& l) -> Reflected {
         const Reflected f = brdf(l);
         if (!(f.size() > 0) || (open && !open(l, infinity))) return {};
-        const double density = lobes.diffuseDensity(l) + lobes.specularDensity(l) + environment_->density(l);
-        return f * environment_->radiance(l) * (1 / density);
+        return f * environment_->radiance(l) * (1 / (lobes.density(l) + bright.density(l)));
     };
-    std::array<std::array<glm::dvec2, 3>, 16> turns;
+    std::array<std::array<glm::dvec2, 2>, 8> turns;
     Random random = randomOf(seed, 0);
     for (auto& round : turns)
         for (glm::dvec2& turn : round) {
@@ -245,10 +240,11 @@ Shading Lighting::fromEnvironment(const Brdf& brdf, const Open& open, std::uint6
     return untilConfident(
         [&](std::size_t round, std::uint64_t index) {
             const auto& turn = turns[round];
-            return value(lobes.diffuse(evenly(index, turn[0]))) + value(lobes.specular(evenly(index, turn[1]))) +
-                   value(environment_->sample(evenly(index, turn[2])));
+            Reflected sum = value(lobes(evenly(index, turn[0])));
+            if (bright.all() > 0) sum += value(bright(evenly(index, turn[1])));
+            return sum;
         },
-        3, 4, 0);
+        2, 8, 0);
 }
 
 }  // namespace diptych::reference

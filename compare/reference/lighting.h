@@ -18,11 +18,12 @@
 
 namespace diptych::reference {
 
-// What integrals without shadows are taken to, relative to themselves.
-inline constexpr double quadratureError = 1e-7;
+// What integrals without shadows are taken to, relative to themselves: the change by the last halving of their cells,
+// which is a thousand times the error where the integrand is smooth.
+inline constexpr double quadratureError = 2e-6;
 // What sampling goes on to, relative to what is sampled: half the 95 % confidence interval. And where it ends all
 // the same: the pixel's uncertainty says so.
-inline constexpr double samplingError = 5e-3;
+inline constexpr double samplingError = 0.01;
 inline constexpr std::uint32_t mostSamples = 65536;
 
 // Whether light comes through from `distance` metres in a direction; infinite: from beyond everything.
