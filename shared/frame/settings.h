@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Everything that may change a pixel of a Frame, described once: the command line, the JSON that every
-// report prints, equality and (later) sweeps all walk Settings::fields().
+// report prints, equality and sweeps all walk Settings::fields().
 #pragma once
 
 #include <cstdint>
@@ -69,17 +69,21 @@ struct Settings {
 };
 
 // How a setting is called on the command line ("--" + option, in JSON with _ for -) and what it does.
+// What a sweep of speed against accuracy tries of it: nothing (a scene's content, which the truth depends on,
+// is no such choice), "all" values of an enumeration or switch, or these words for set(), separated by commas;
+// of a size, parts of the given one.
 struct Field {
     std::string_view option;
     std::string_view help;
+    std::string_view sweep = {};
 };
 
 template <class Self, class Visit> void Settings::fields(Self& s, Visit&& visit) {
-    visit(Field{"path", "deferred, forward_plus or reference"}, s.path);
-    visit(Field{"assign", "how lights are chosen for a pixel"}, s.assign);
-    visit(Field{"prepass", "depth pre-pass of the forward+ path"}, s.prepass);
-    visit(Field{"gbuffer", "encoding of the deferred path's G-buffer"}, s.gbuffer);
-    visit(Field{"size", "picture size, WxH"}, s.size);
+    visit(Field{"path", "deferred, forward_plus or reference", "all"}, s.path);
+    visit(Field{"assign", "how lights are chosen for a pixel", "all"}, s.assign);
+    visit(Field{"prepass", "depth pre-pass of the forward+ path", "on,off"}, s.prepass);
+    visit(Field{"gbuffer", "encoding of the deferred path's G-buffer", "all"}, s.gbuffer);
+    visit(Field{"size", "picture size, WxH", "1/4,1/2,3/4"}, s.size);
     visit(Field{"camera", "index, name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\""}, s.camera);
     visit(Field{"time", "animation time, seconds"}, s.time);
     visit(Field{"env", "lat-long environment, .exr or .hdr, or none"}, s.env);
@@ -87,21 +91,50 @@ template <class Self, class Visit> void Settings::fields(Self& s, Visit&& visit)
     visit(Field{"ambient", "constant ambient radiance R,G,B"}, s.ambient);
     visit(Field{"lights", "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights"}, s.lights);
     visit(Field{"seed", "seed of the light rig"}, s.seed);
-    visit(Field{"light-cutoff", "luminance at which a light without a range ends"}, s.light_cutoff);
-    visit(Field{"pixel-lights", "lights shaded per pixel with --assign per_object"}, s.pixel_lights);
-    visit(Field{"area-lights", "how area lights are evaluated"}, s.area_lights);
-    visit(Field{"shadows", "shadow technique"}, s.shadows);
-    visit(Field{"shadow-lights", "local lights that cast shadows"}, s.shadow_lights);
-    visit(Field{"evsm-precision", "moments' format"}, s.evsm_precision);
-    visit(Field{"evsm-exponent", "warp exponent"}, s.evsm_exponent);
-    visit(Field{"evsm-bleed", "light-bleeding reduction, 0 to 1"}, s.evsm_bleed);
-    visit(Field{"evsm-min-variance", "smallest variance"}, s.evsm_min_variance);
-    visit(Field{"msaa", "samples per pixel, 1 or 4"}, s.msaa);
-    visit(Field{"sort", "sort transparent draws"}, s.sort);
+    visit(Field{"light-cutoff", "luminance at which a light without a range ends", "0,1e-4,1e-3,1e-2"},
+          s.light_cutoff);
+    visit(Field{"pixel-lights", "lights shaded per pixel with --assign per_object", "0,1,2,4,8"}, s.pixel_lights);
+    visit(Field{"area-lights", "how area lights are evaluated", "all"}, s.area_lights);
+    visit(Field{"shadows", "shadow technique", "all"}, s.shadows);
+    visit(Field{"shadow-lights", "local lights that cast shadows", "0,1,4"}, s.shadow_lights);
+    visit(Field{"evsm-precision", "moments' format", "fp32,fp16"}, s.evsm_precision);
+    visit(Field{"evsm-exponent", "warp exponent", "5,10,20,40"}, s.evsm_exponent);
+    visit(Field{"evsm-bleed", "light-bleeding reduction, 0 to 1", "0,0.2,0.5"}, s.evsm_bleed);
+    visit(Field{"evsm-min-variance", "smallest variance", "0,1e-6,1e-4"}, s.evsm_min_variance);
+    visit(Field{"msaa", "samples per pixel, 1 or 4", "1,4"}, s.msaa);
+    visit(Field{"sort", "sort transparent draws", "all"}, s.sort);
     visit(Field{"haze", "participating medium"}, s.haze);
     visit(Field{"spp", "samples per pixel of the reference"}, s.spp);
     visit(Field{"reference-mode", "what the reference shades"}, s.reference_mode);
 }
+
+// Two Settings whose swept values are crossed; all others are tried one at a time. "*": every other one.
+struct SweepPair {
+    std::string_view a, b;
+};
+inline constexpr SweepPair sweepPairs[] = {
+    {"path", "*"},
+    {"gbuffer", "size"},
+    {"msaa", "gbuffer"},
+    {"msaa", "size"},
+    {"assign", "light-cutoff"},
+    {"assign", "pixel-lights"},
+    {"shadows", "shadow-lights"},
+    {"shadows", "evsm-precision"},
+    {"shadows", "evsm-exponent"},
+    {"shadows", "evsm-bleed"},
+    {"shadows", "evsm-min-variance"},
+};
+
+// The words of Field::sweep for set(), in order; of a size as parts of `given`'s. Empty: it is not swept.
+std::vector<std::string> sweptValues(const Settings& given, std::string_view option);
+// "1/2" of a size is that part of `given`'s, each side rounded and at least 1; any other word stays.
+std::string wordsFor(const Settings& given, std::string_view option, const std::string& word);
+
+// Why a path does not read a Setting, "deferred has no depth pre-pass"; empty where it does.
+std::string_view unreadBecause(Path path, std::string_view option);
+// The same with what its path does not read at its usual value: equal where they are one picture.
+Settings readSettings(const Settings& settings);
 
 // The values of an enumeration by name, in order: "automatic" is written auto.
 template <class E> const std::vector<std::pair<E, std::string_view>>& enumNames();

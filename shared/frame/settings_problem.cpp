@@ -38,6 +38,25 @@ constexpr Fixed fixed[] = {
     {"reference-mode", needs_reference},
 };
 
+// Settings that change no bit of what a path draws.
+struct Unread {
+    std::string_view option;
+    Path path;
+    std::string_view why;
+};
+constexpr std::string_view only_reference = "the reference alone takes samples of what it shades";
+constexpr Unread unread[] = {
+    {"assign", Path::reference, "the reference evaluates every light"},
+    {"prepass", Path::deferred, "deferred has no depth pre-pass"},
+    {"prepass", Path::reference, "the reference has no depth pre-pass"},
+    {"gbuffer", Path::forward_plus, "forward_plus has no G-buffer"},
+    {"gbuffer", Path::reference, "the reference has no G-buffer"},
+    {"spp", Path::deferred, only_reference},
+    {"spp", Path::forward_plus, only_reference},
+    {"reference-mode", Path::deferred, only_reference},
+    {"reference-mode", Path::forward_plus, only_reference},
+};
+
 // What the reference can, or has alone.
 constexpr std::string_view in_reference[] = {"shadows", "spp", "reference-mode"};
 
@@ -74,6 +93,20 @@ std::optional<std::string> Settings::problem() const {
             return fmt::format("--{} {} {}; use {}", setting.option, value, setting.why, expected);
     }
     return std::nullopt;
+}
+
+std::string_view unreadBecause(Path path, std::string_view option) {
+    for (const Unread& row : unread)
+        if (row.path == path && row.option == option) return row.why;
+    return {};
+}
+
+Settings readSettings(const Settings& settings) {
+    Settings read = settings;
+    const Settings usual;
+    for (const Unread& row : unread)
+        if (row.path == settings.path) set(read, row.option, valueOf(usual, row.option));
+    return read;
 }
 
 }  // namespace diptych
