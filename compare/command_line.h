@@ -45,6 +45,7 @@ struct Options {
     bool update_baseline = false;
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
+    std::string grid;                  // tradeoff: a file or JSON; empty: what is usual
 };
 
 // `words` as the shell gives them, without the program's name. Every option of the tool's contract parses;

@@ -15,7 +15,8 @@ const Command commands[] = {
      "diptych render helmet.glb --path deferred --debug normals -o normals.png", true},
     {"diff", "Compares any two EXR, PNG, HDR or PFM images, whoever rendered them",
      "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference", true},
-    {"tradeoff", "Time against error over many Settings", "diptych tradeoff helmet.glb", false},
+    {"tradeoff", "Draws a scene under many Settings: time against error of each, and the Pareto front",
+     "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff", true},
     {"choose", "The path and Settings for an error budget or a time budget",
      "diptych choose helmet.glb --max-ms 8", false},
     {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
@@ -229,6 +230,14 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
         addFiles(app, options,
                  "X.exr: every channel; X.png: the picture; else a folder for both (diptych-render)");
         app.add_flag("--list-scenes", options.list_scenes, "name the built-in scenes and end");
+    } else if (command == "tradeoff") {
+        addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
+        app.add_option("--grid", options.grid,
+                       "the Settings to try: { \"settings\": { \"gbuffer\": [\"compact\", \"full\"], "
+                       "\"size\": [\"1/2\"] } } "
+                       "is every combination, a list of such one after the other (each by itself, and "
+                       "declared pairs)")
+            ->type_name("FILE.json|JSON");
     } else {
         addFiles(app, options,
                  command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");

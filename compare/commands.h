@@ -21,6 +21,7 @@ int runCommand(const Options& options);
 int runCompare(const Options& options);
 int runRender(const Options& options);
 int runDiff(const Options& options);
+int runTradeoff(const Options& options);
 int runPlan(const Options& options);
 int runDevices(const Options& options);
 

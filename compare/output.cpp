@@ -43,7 +43,8 @@ nlohmann::json ourJson(const fs::path& file) {
 }
 
 bool isPlainName(const fs::path& name) {
-    constexpr const char* endings[] = {".png", ".exr", ".html", ".xml", ".json", ".values.js", ".section.js"};
+    constexpr const char* endings[] = {".png", ".exr", ".html",      ".xml",       ".json",
+                                       ".csv", ".svg", ".values.js", ".section.js"};
     return name.filename() == name && std::ranges::any_of(endings, [&](const char* ending) {
                return name.native().ends_with(ending) && !name.stem().empty() && name.native().front() != '.';
            });

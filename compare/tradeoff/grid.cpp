@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/grid.h"
+
+#include "shared/text/json_shape.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string textOf(const Json& json) {
+    return oneLine(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::string textIn(const std::string& file) {
+    if (std::filesystem::is_directory(file)) throw std::runtime_error("is a folder");
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (!stream.is_open()) throw std::runtime_error("cannot be read");
+    return text;
+}
+
+// A key that stands twice in an object would be taken once, without a word.
+Json parse(const std::string& text) {
+    if (jsonShape(text).depth > json_depth)
+        throw std::runtime_error(fmt::format("nests deeper than {}", json_depth));
+    std::vector<std::set<std::string>> open;
+    std::string twice;
+    const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
+        if (event == Json::parse_event_t::object_start) open.emplace_back();
+        if (event == Json::parse_event_t::object_end) open.pop_back();
+        if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second)
+            twice = parsed.get<std::string>();
+        return true;
+    };
+    Json json;
+    try {
+        json = Json::parse(text, watch);
+    } catch (const Json::parse_error& error) {
+        throw std::runtime_error(fmt::format("is not JSON at byte {}", error.byte));
+    } catch (const Json::out_of_range&) {
+        throw std::runtime_error("a number beyond a double's range");
+    }
+    if (!twice.empty()) throw std::runtime_error(fmt::format("\"{}\" stands twice", oneLine(twice)));
+    return json;
+}
+
+// The option of a Setting that may be swept.
+std::string optionOf(const std::string& key) {
+    std::string option, all, key_ = key;
+    std::ranges::replace(key_, '_', '-');
+    bool content = false;
+    const Settings usual;
+    Settings::fields(usual, [&](const Field& field, const auto&) {
+        if (field.option == key_ && !field.sweep.empty()) option = key_;
+        if (field.option == key_ && field.sweep.empty()) content = true;
+        if (!field.sweep.empty()) all += (all.empty() ? "" : ", ") + std::string(field.option);
+    });
+    if (content)
+        throw std::runtime_error(fmt::format(
+            "\"{}\": is no choice between speed and accuracy; --{} says it for every row", key, key_));
+    if (option.empty())
+        throw std::runtime_error(fmt::format("\"{}\": no such setting; there are {}", oneLine(key), all));
+    return option;
+}
+
+// A word of the command line, or JSON as reports print it.
+std::string valueFrom(const std::string& key, const std::string& option, const Json& json,
+                      const Settings& given) {
+    Settings settings = given;
+    if (json.is_string())
+        set(settings, option, wordsFor(given, option, json.get<std::string>()));
+    else
+        settings = settingsFromJson(Json::object({{key, json}}).dump(), given);
+    return valueOf(settings, option);
+}
+
+Grid gridOf(const Json& json, const Settings& given) {
+    if (!json.is_object() || !json.contains("settings") || !json["settings"].is_object())
+        throw std::runtime_error(textOf(json) + " is no object with \"settings\", an object");
+    for (const auto& [key, value] : json.items())
+        if (key != "settings")
+            throw std::runtime_error(fmt::format("\"{}\": unknown beside \"settings\"", oneLine(key)));
+    Grid grid;
+    for (const auto& [key, json_values] : json["settings"].items()) {
+        const std::string option = optionOf(key);
+        const Json list = json_values.is_array() ? json_values : Json::array({json_values});
+        if (list.empty()) throw std::runtime_error(fmt::format("\"{}\": no value", key));
+        if (std::ranges::any_of(grid, [&](const auto& axis) { return axis.first == option; }))
+            throw std::runtime_error(fmt::format("\"{}\": stands twice", key));
+        std::vector<std::string> words;
+        for (const Json& value : list)
+            if (std::string word = valueFrom(key, option, value, given); std::ranges::count(words, word) == 0)
+                words.push_back(std::move(word));
+        grid.emplace_back(option, std::move(words));
+    }
+    return grid;
+}
+
+}  // namespace
+
+std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given) {
+    const bool isText = fileOrText.starts_with('{') || fileOrText.starts_with('[');
+    const std::string name = isText ? "--grid" : "--grid " + fileOrText;
+    try {
+        const Json json = parse(isText ? fileOrText : textIn(fileOrText));
+        std::vector<Grid> grids;
+        if (!json.is_array()) return {gridOf(json, given)};
+        for (const Json& one : json) grids.push_back(gridOf(one, given));
+        if (grids.empty()) throw std::runtime_error("asks for nothing");
+        return grids;
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(name + ": " + error.what());
+    }
+}
+
+}  // namespace diptych

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compare/tradeoff/plan.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What --grid says, a file or the JSON itself (it begins with { or [): { "settings": { "gbuffer": ["compact",
+// "full"], "size": ["1/2", "320x180"] } } is every combination of these, a list of such one after the other.
+// A value may stand without brackets. Throws std::runtime_error, one line that names the file and what in it
+// is wrong.
+std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given);
+
+}  // namespace diptych

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/html.h"
+
+#include "compare/report/page.h"
+#include "compare/report/text.h"
+#include "compare/tradeoff/page/page.h"
+#include "compare/tradeoff/plot.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+std::string hiddenUnless(bool shown) {
+    return shown ? "" : " hidden";
+}
+
+std::string again(const char* what, const std::string& command) {
+    return fmt::format(
+        "<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy</button></p>",
+        what, markup(command));
+}
+
+std::string spreadText(const Spread& spread) {
+    return spread.low < spread.value || spread.high > spread.value
+               ? fmt::format("{} ({} to {})", number(spread.value), number(spread.low), number(spread.high))
+               : number(spread.value);
+}
+
+std::string header(const Tradeoff& tradeoff) {
+    const Size& size = tradeoff.given.size;
+    std::vector<std::string> cameras;
+    for (const CameraRow& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
+    return fmt::format(
+        "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} Settings "
+        "at {}x{} "
+        "on {} ({}), {} timed frames each; {}; errors of lit against the reference</p></header>\n",
+        markup(tradeoff.scene), tradeoff.rows.size(), size.width, size.height, markup(tradeoff.device.name),
+        markup(tradeoff.device.driver), tradeoff.runs, markup(fmt::format("{}", fmt::join(cameras, "; "))));
+}
+
+std::string switches() {
+    std::string out = "<div class=\"switches\"><span class=\"soft\">Error</span><span class=\"buttons\">";
+    for (std::size_t i = 0; i < errorFigures.size(); ++i)
+        out += fmt::format(
+            "<button type=\"button\" data-shows=\"{}\" aria-pressed=\"{}\"{} title=\"{}\">{}</button>",
+            errorFigures[i].name, i == 0, i == 0 ? " class=\"on\"" : "", markup(errorFigures[i].means),
+            markup(errorFigures[i].title));
+    return out +
+           "</span><span class=\"soft\">filled: on the front, which nothing beats in both; bars: least to "
+           "most "
+           "of the timed frames, and of the cameras</span></div>\n";
+}
+
+std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
+    std::string out;
+    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
+        out += fmt::format("<div data-figure=\"{}\"{}>{}</div>", errorFigures[figure].name,
+                           hiddenUnless(figure == 0), tradeoffPlot(tradeoff, figure, path, PlotPlace::page));
+    return out;
+}
+
+std::string pictures(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    std::string out = "<div class=\"pictures\">";
+    for (const auto& [file, words] : {std::pair{row.picture, "lit"},
+                                      {tradeoff.reference_picture, "reference"},
+                                      {row.errors_map, "FLIP: black 0, pale 1"}})
+        out += fmt::format(
+            "<figure><img loading=\"lazy\" src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>",
+            markup(file), words, words);
+    return out + "</div>";
+}
+
+std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
+    const TradeoffRow& row = tradeoff.rows[index];
+    const Spread time = timeOf(row);
+    std::string out = fmt::format(
+        "<article class=\"row-card\" data-row=\"{0}\"{1}><h3>{2}</h3><p class=\"soft\">row {0}</p>{3}<dl>"
+        "<dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
+        index + 1, hiddenUnless(shown), markup(inWords(choicesOf(row.settings, tradeoff.given))),
+        pictures(tradeoff, row), time.value, time.low, time.high);
+    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
+        out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorFigures[figure].title),
+                           spreadText(errorOf(row, figure)));
+    out += fmt::format("<dt>memory</dt><dd>{}</dd><dt>per pixel</dt><dd>{}</dd>", bytes(memoryOf(row)),
+                       bytes(bytesOf(row).gbuffer_per_pixel));
+    for (const PassTime& pass : passesOf(row))
+        out += fmt::format("<dt>{}</dt><dd>{:.3g} ms</dd>", markup(pass.name), pass.ms);
+    out += "</dl>";
+    for (const std::string& warning : row.warnings)
+        out += fmt::format("<p class=\"warn\">{}</p>", markup(warning));
+    const std::string comparing = comparingCommand(tradeoff, row);
+    return out + again("Measure it again", measuringCommand(tradeoff, row)) +
+           again("Its picture", renderingCommand(tradeoff, row)) +
+           (comparing.empty() ? "" : again("Its errors, beside the other path's", comparing)) +
+           "</article>\n";
+}
+
+std::string plots(const Tradeoff& tradeoff) {
+    const std::vector<std::size_t> front = frontOf(tradeoff, 0);
+    const std::size_t first = front.empty() ? 0 : front.front();
+    std::string out = "<div class=\"plots\"><div class=\"drawn\"><div class=\"box\">" +
+                      plotsOf(tradeoff, {}) + "</div><div class=\"each\">";
+    for (const Path path : pathsOf(tradeoff))
+        out += fmt::format("<div class=\"box\"><h3>{}</h3>{}</div>", nameOf(path), plotsOf(tradeoff, path));
+    out += "</div></div><div class=\"box\">";
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) out += card(tradeoff, i, i == first);
+    return out + "</div></div>\n";
+}
+
+std::string numberCell(double value, const std::string& text) {
+    return fmt::format("<td class=\"n\" data-value=\"{}\">{}</td>", std::isfinite(value) ? value : 1e300,
+                       markup(text));
+}
+
+std::string table(const Tradeoff& tradeoff) {
+    std::string out =
+        "<h2>Every row</h2>\n<div class=\"box scroll rows\"><table><thead><tr><th><button "
+        "type=\"button\">row</button>"
+        "</th><th><button type=\"button\">settings</button></th>";
+    std::vector<std::string> heads{"ms", "least", "most"};
+    for (const ErrorFigure& figure : errorFigures) heads.emplace_back(figure.title);
+    heads.emplace_back("memory");
+    for (const std::string& head : heads)
+        out += fmt::format("<th class=\"n\"><button type=\"button\">{}</button></th>", markup(head));
+    out +=
+        "<th><button type=\"button\">front</button></th><th><button "
+        "type=\"button\">command</button></th></tr>"
+        "</thead>\n<tbody>";
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
+        const TradeoffRow& row = tradeoff.rows[i];
+        const Spread time = timeOf(row);
+        out +=
+            fmt::format("<tr data-row=\"{0}\"><td>{0}</td><td><i class=\"swatch {1}\"></i>{2}</td>", i + 1,
+                        nameOf(row.settings.path), markup(inWords(choicesOf(row.settings, tradeoff.given))));
+        for (const double ms : {time.value, time.low, time.high})
+            out += numberCell(ms, fmt::format("{:.4g}", ms));
+        std::vector<std::string> fronts;
+        for (std::size_t f = 0; f < errorFigures.size(); ++f) {
+            out += numberCell(row.errors[f], number(row.errors[f]));
+            if (std::ranges::count(frontOf(tradeoff, f), i) > 0) fronts.emplace_back(errorFigures[f].title);
+        }
+        out += numberCell(static_cast<double>(memoryOf(row)), bytes(memoryOf(row)));
+        out += fmt::format(
+            "<td>{}</td><td><span class=\"again\"><code>{}</code><button type=\"button\" "
+            "data-do=\"copy\">copy</button></span></td></tr>\n",
+            markup(fmt::format("{}", fmt::join(fronts, ", "))), markup(measuringCommand(tradeoff, row)));
+    }
+    return out + "</tbody></table></div>\n";
+}
+
+std::string skips(const Tradeoff& tradeoff) {
+    if (tradeoff.skips.empty()) return {};
+    std::string out = "<h2>Not drawn, and why</h2>\n<div class=\"box skips\"><dl>";
+    for (const SkipGroup& group : groupsOf(tradeoff.skips))
+        out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(group.reason),
+                           markup(fmt::format("{}", fmt::join(group.tried, ", "))));
+    return out + "</dl></div>\n";
+}
+
+std::string how(const Tradeoff& tradeoff) {
+    std::string out =
+        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul>"
+        "<li>Time is that of a whole frame, unsplit, from culling to linear lit, the scene already uploaded: "
+        "the median "
+        "of the timed frames after one that is not counted, and of several cameras the mean of theirs. "
+        "Passes come "
+        "from a separate, profiled run.</li>"
+        "<li>Errors are of lit, linear, over the pixels that show a surface in the reference: "
+        "the mean of "
+        "HDR-FLIP; root of the mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the mean "
+        "luminance). Of "
+        "several cameras all pixels count alike.</li>"
+        "<li>A row of another size is enlarged to the reference's between pixel centres, bilinearly; where "
+        "the nearest "
+        "pixel is background, it is background.</li>";
+    for (const std::string& line : howItWent(tradeoff)) out += "<li>" + markup(line) + "</li>";
+    for (const std::string& line : tradeoff.notes) out += "<li>" + markup(line) + "</li>";
+    out += "</ul></div>\n<footer><p>";
+    for (const char* file : {"tradeoff.json", "tradeoff.csv"})
+        out += fmt::format("<a href=\"{0}\">{0}</a> ", file);
+    for (std::size_t f = 0; f < errorFigures.size(); ++f)
+        out += fmt::format("<a href=\"{0}\">{0}</a> ", plotName(f, {}));
+    return out + "</p></footer>\n";
+}
+
+}  // namespace
+
+std::string tradeoffHtml(const Tradeoff& tradeoff) {
+    return fmt::format(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, {}</title>\n"
+        "<style>{}{}{}</style></head>\n<body>\n{}{}{}{}{}{}<script>{}</script>\n</body></html>\n",
+        markup(tradeoff.scene), pageStyle, plotStyle, tradeoffStyle, header(tradeoff), switches(),
+        plots(tradeoff), table(tradeoff), skips(tradeoff), how(tradeoff), tradeoffScript);
+}
+
+}  // namespace diptych

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compare/tradeoff/tradeoff.h"
+
+#include <string>
+
+namespace diptych {
+
+// index.html of a sweep: one page without external resources, readable from file://.
+std::string tradeoffHtml(const Tradeoff& tradeoff);
+
+}  // namespace diptych

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "compare/output.h"
+#include "compare/tradeoff/tradeoff.h"
+#include "compare/version.h"
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const std::vector<Choice>& choices) {
+    Json json = Json::object();
+    for (const auto& [option, value] : choices) json[option] = value;
+    return json;
+}
+
+// By number, from 1, as the table and the page have them.
+Json numbersOf(const std::vector<std::size_t>& rows) {
+    Json json = Json::array();
+    for (const std::size_t row : rows) json.push_back(row + 1);
+    return json;
+}
+
+Json frontsOf(const Tradeoff& tradeoff) {
+    Json fronts = Json::array();
+    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
+        const auto add = [&](std::optional<Path> path) {
+            fronts.push_back({{"error", errorFigures[figure].name},
+                              {"path", path ? Json(nameOf(*path)) : Json(nullptr)},
+                              {"rows", numbersOf(frontOf(tradeoff, figure, path))}});
+        };
+        add({});
+        for (const Path path : pathsOf(tradeoff)) add(path);
+    }
+    return fronts;
+}
+
+}  // namespace
+
+std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string>& files) {
+    Json rows = Json::array(), skips = Json::array(), figures = Json::array();
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
+        const TradeoffRow& row = tradeoff.rows[i];
+        Json json{{"row", i + 1}, {"differs", jsonOf(choicesOf(row.settings, tradeoff.given))}};
+        json.update(jsonOf(row));
+        json["measure"] = measuringCommand(tradeoff, row);
+        json["render"] = renderingCommand(tradeoff, row);
+        const std::string comparing = comparingCommand(tradeoff, row);
+        json["compare"] = comparing.empty() ? Json(nullptr) : Json(comparing);
+        rows.push_back(std::move(json));
+    }
+    for (const SweepSkip& skip : tradeoff.skips)
+        skips.push_back({{"tried", jsonOf(skip.tried)}, {"reason", skip.reason}});
+    for (const ErrorFigure& figure : errorFigures)
+        figures.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
+    const SweepCost& cost = tradeoff.cost;
+    const Json json{
+        {"schema", 1},
+        {"software", softwareName},
+        {"commit", commitName()},
+        {"device",
+         {{"name", tradeoff.device.name},
+          {"driver", tradeoff.device.driver},
+          {"type", tradeoff.device.type}}},
+        {"scene", tradeoff.scene},
+        {"cameras", tradeoff.cameras},
+        {"runs", tradeoff.runs},
+        {"settings", Json::parse(toJson(tradeoff.given))},
+        {"reference",
+         {{"settings", Json::parse(toJson(tradeoff.reference))}, {"picture", tradeoff.reference_picture}}},
+        {"errors", figures},
+        {"rows", rows},
+        {"fronts", frontsOf(tradeoff)},
+        {"skipped", skips},
+        {"notes", tradeoff.notes},
+        {"rows_kept", tradeoff.kept},
+        {"first_row_ms", {{"first", tradeoff.first_ms}, {"again", tradeoff.again_ms}}},
+        {"cost_ms",
+         {{"whole", cost.whole},
+          {"reading", cost.reading},
+          {"reference", cost.reference},
+          {"drawing", cost.drawing},
+          {"beyond", cost.beyond()}}},
+        {"files", files}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace diptych

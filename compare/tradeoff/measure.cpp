@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/measure.h"
+
+#include "compare/measurement.h"
+#include "compare/report/text.h"
+#include "compare/tradeoff/upsample.h"
+#include "compare/truth.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int widestThumbnail = 480;  // pixels: a card of the page
+
+double knownOrInfinite(double value) {
+    return std::isfinite(value) ? value : infinity;
+}
+
+// lit and what tells the background of it.
+RenderOptions drawingOptions(const RenderOptions& options) {
+    RenderOptions drawing = options;
+    drawing.channels = drawing.asked = {lit, ids};
+    drawing.twice = drawing.through_gbuffer = false;
+    return drawing;
+}
+
+Image8 small(Image8 image) {
+    while (image.width > widestThumbnail) image = halfSize(image);
+    return image;
+}
+
+void warn(TradeoffRow& row, const Frame& frame) {
+    const auto add = [&](std::uint64_t count, const char* what) {
+        if (count > 0) row.warnings.push_back(fmt::format("{}: {} {}", cameraTitle(frame), count, what));
+    };
+    add(frame.counters.nonfinite_pixels, "pixel(s) of lit are NaN or infinite");
+    add(frame.counters.overflowed_lists, "light list(s) overflowed: lights are missing");
+    add(frame.counters.unreproduced_pixels, "pixel(s) of the capture are not the timed pipeline's");
+}
+
+}  // namespace
+
+Truth drawTruths(Renderer& renderer, const Settings& given, const std::vector<std::string>& cameras,
+                 const PictureChoice& choice, const RenderOptions& options) {
+    RenderOptions drawing = drawingOptions(options);
+    drawing.runs = 0;
+    Truth truth;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const double from = static_cast<double>(i), all = static_cast<double>(cameras.size());
+        drawing.progress = options.progress.part(from / all, (from + 1) / all);
+        Settings settings = referenceSettings(given);
+        settings.camera = cameras[i];
+        truth.frames.push_back(renderer.draw(settings, drawing));
+    }
+    const Frame& first = truth.frames.front();
+    truth.exposure = exposureFor(choice, &first.channels.at(lit), coverage(first, first));
+    return truth;
+}
+
+RelativeErrors relativeErrors(std::vector<double> errors) {
+    if (errors.empty()) return {};
+    double squares = 0;
+    for (const double e : errors) squares += e * e;
+    const auto count = static_cast<double>(errors.size());
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count));
+    const auto nth = errors.begin() + std::max<std::ptrdiff_t>(rank, 1) - 1;
+    std::nth_element(errors.begin(), nth, errors.end());
+    return {knownOrInfinite(std::sqrt(squares / count)), knownOrInfinite(*nth)};
+}
+
+FrameErrors errorsOf(const Frame& truth, const Frame& frame) {
+    const Image &reference = truth.channels.at(lit), &test = frame.channels.at(lit);
+    const Coverage covered = coverage(truth, truth);  // the same pixels for every row
+    const DebugMode& mode = debugMode(lit);
+    FrameErrors result;
+    const PixelError error(mode.metric, mode.kind, reference, covered);
+    for (std::size_t i = 0; i < reference.pixels(); ++i)
+        if (covered.covered[i]) result.pixels.push_back(error(test.pixel(i), reference.pixel(i)));
+    const Measurement measurement({mode.metric, mode.kind, false, &reference, &test, &covered});
+    const HdrFlipResult& flip = *measurement.flip();
+    result.flip = flip.error;
+    result.flip_pixels = flip.pixels;
+    result.flip_sum = flip.mean * static_cast<double>(flip.pixels);
+    const RelativeErrors relative = relativeErrors(result.pixels);
+    result.errors = {knownOrInfinite(flip.mean), relative.rmse, relative.p99};
+    return result;
+}
+
+Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
+    const Frame* frames[] = {&frame};
+    return small(picture(debugMode(lit), frame, scaleFor(debugMode(lit), exposure, frames)));
+}
+
+MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth& truth,
+                       const RenderOptions& options) {
+    RenderOptions drawing = drawingOptions(options);
+    MeasuredRow measured;
+    TradeoffRow& row = measured.row;
+    row.settings = settings;
+    row.settings.camera = truth.frames.front().settings.camera;
+    std::vector<double> pixels;
+    double flipSum = 0, flipPixels = 0;
+    for (std::size_t i = 0; i < truth.frames.size(); ++i) {
+        const Frame& reference = truth.frames[i];
+        const double from = static_cast<double>(i), all = static_cast<double>(truth.frames.size());
+        drawing.progress = options.progress.part(from / all, (from + 1) / all);
+        Settings seen = settings;
+        seen.camera = reference.settings.camera;
+        Frame frame = renderer.draw(seen, drawing);
+        row.drawing_ms += frame.made_in_ms;
+        warn(row, frame);
+        CameraRow camera{cameraTitle(frame), frame.time, frame.passes, frame.bytes, {}, 0};
+        frame = upsampled(std::move(frame), reference.settings.size);
+        const FrameErrors errors = errorsOf(reference, frame);
+        camera.errors = errors.errors;
+        camera.pixels = errors.pixels.size();
+        row.cameras.push_back(std::move(camera));
+        pixels.insert(pixels.end(), errors.pixels.begin(), errors.pixels.end());
+        flipSum += errors.flip_sum;
+        flipPixels += static_cast<double>(errors.flip_pixels);
+        if (i > 0) continue;
+        measured.picture = thumbnail(frame, truth.exposure);
+        measured.errors = small(errorPicture(errors.flip, 1));
+    }
+    const RelativeErrors relative = relativeErrors(std::move(pixels));
+    row.errors = {flipPixels > 0 ? knownOrInfinite(flipSum / flipPixels) : 0, relative.rmse, relative.p99};
+    if (truth.frames.size() == 1) row.errors = row.cameras.front().errors;
+    return measured;
+}
+
+}  // namespace diptych

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compare/metrics/channel.h"
+#include "compare/picture.h"
+#include "compare/render.h"
+#include "compare/tradeoff/row.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What all rows of a sweep are measured against.
+struct Truth {
+    std::vector<Frame> frames;  // one a camera
+    Exposure exposure;          // of every picture
+};
+
+Truth drawTruths(Renderer& renderer, const Settings& given, const std::vector<std::string>& cameras,
+                 const PictureChoice& choice, const RenderOptions& options);
+
+// RMSE and 99th percentile (nearest rank) of relative errors, each a pixel's.
+struct RelativeErrors {
+    double rmse = 0, p99 = 0;
+};
+RelativeErrors relativeErrors(std::vector<double> errors);
+
+// Errors of a Frame that is as large as its truth; `pixels` gets each covered pixel's relative error.
+struct FrameErrors {
+    Errors errors{};
+    std::vector<double> pixels;
+    Image flip;  // of every pixel
+    double flip_sum = 0;
+    std::uint64_t flip_pixels = 0;
+};
+FrameErrors errorsOf(const Frame& truth, const Frame& frame);
+
+struct MeasuredRow {
+    TradeoffRow row;
+    Image8 picture, errors;  // of the first camera
+};
+// Draws and times the Settings from every camera of the truth. `options`: runs, said, progress.
+MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth& truth,
+                       const RenderOptions& options);
+
+// lit as the pages show it, not wider than a card.
+Image8 thumbnail(const Frame& frame, const Exposure& exposure);
+
+}  // namespace diptych

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// The files beside this one, as they stand in the page of a sweep; embedded at build time.
+#pragma once
+
+namespace diptych {
+
+extern const char* const plotStyle;  // of every plot, in the page and by itself
+extern const char* const tradeoffStyle;
+extern const char* const tradeoffScript;
+
+}  // namespace diptych

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/plot.h"
+
+#include "compare/report/text.h"
+#include "compare/tradeoff/log_axis.h"
+#include "compare/tradeoff/page/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+// Of the drawing, in its own units.
+constexpr double width = 720, height = 440, left = 74, right = 16, top = 32, bottom = 56;
+constexpr double lane = 26;  // of errors that no logarithm shows
+
+std::string at(double value) {
+    return fmt::format("{:.1f}", value);
+}
+
+class Plot {
+public:
+    Plot(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path)
+        : tradeoff_(tradeoff),
+          figure_(figure),
+          path_(path),
+          rows_(rowsOf(tradeoff, path)),
+          front_(frontOf(tradeoff, figure, path)),
+          time_(timesOf()),
+          error_(errorsOf()) {
+        for (const std::size_t row : rows_) {
+            const double error = errorOf(tradeoff.rows[row], figure).value;
+            zeros_ = zeros_ || !(error > 0);
+            infinities_ = infinities_ || !std::isfinite(error);
+        }
+    }
+
+    std::string svg(PlotPlace place) const {
+        const bool file = place == PlotPlace::file;
+        const std::string title =
+            fmt::format("{} over time, {}{}", errorFigures[figure_].title, tradeoff_.scene,
+                        path_ ? ", " + std::string(nameOf(*path_)) : "");
+        std::string out = fmt::format(
+            "<svg class=\"tradeoff\" viewBox=\"0 0 {:.0f} {:.0f}\" {}role=\"{}\" aria-label=\"{}\">", width,
+            height, file ? "xmlns=\"http://www.w3.org/2000/svg\" " : "", file ? "img" : "group",
+            markup(title));
+        if (file)
+            out += fmt::format(
+                "<title>{}</title><style>{}</style><rect class=\"paper\" width=\"100%\" height=\"100%\"/>",
+                markup(title), plotStyle);
+        out += axes() + frontLine();
+        for (const bool front : {false, true})  // the front on top
+            for (const std::size_t row : rows_)
+                if ((std::ranges::count(front_, row) > 0) == front) out += point(row, front, file);
+        if (!path_) out += legend();
+        return out + "</svg>\n";
+    }
+
+private:
+    std::vector<double> timesOf() const {
+        std::vector<double> all;
+        for (const std::size_t row : rows_) {
+            const Spread time = timeOf(tradeoff_.rows[row]);
+            all.insert(all.end(), {time.value, time.low, time.high});
+        }
+        return all;
+    }
+    std::vector<double> errorsOf() const {
+        std::vector<double> all;
+        for (const std::size_t row : rows_) {
+            const Spread error = errorOf(tradeoff_.rows[row], figure_);
+            all.insert(all.end(), {error.value, error.high});
+            if (error.value > 0) all.push_back(error.low);
+        }
+        return all;
+    }
+    double x(double time) const { return left + time_.place(time) * (width - left - right); }
+    double y(double error) const {
+        const double low = height - bottom - (zeros_ ? lane : 0), high = top + (infinities_ ? lane : 0);
+        if (!(error > 0)) return zeros_ ? height - bottom - lane / 2 : low;
+        if (!std::isfinite(error)) return top + lane / 2;
+        return low - error_.place(error) * (low - high);
+    }
+
+    std::string axes() const {
+        const double foot = height - bottom;
+        std::string out, texts;
+        const auto line = [&](const char* kind, double x1, double y1, double x2, double y2) {
+            out += fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", kind, at(x1),
+                               at(y1), at(x2), at(y2));
+        };
+        const auto text = [&](const char* kind, double tx, double ty, const std::string& words) {
+            texts += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>", kind, at(tx), at(ty),
+                                 markup(words));
+        };
+        for (const Tick& tick : time_.ticks()) {
+            line(tick.text.empty() ? "minor" : "grid", x(tick.value), top, x(tick.value), foot);
+            text("tick middle", x(tick.value), foot + 20, tick.text);
+        }
+        for (const Tick& tick : error_.ticks()) {
+            line(tick.text.empty() ? "minor" : "grid", left, y(tick.value), width - right, y(tick.value));
+            text("tick end", left - 8, y(tick.value) + 4, tick.text);
+        }
+        if (zeros_) {
+            line("gap", left, foot - lane, width - right, foot - lane);
+            text("tick end", left - 8, y(0) + 4, "0");
+        }
+        if (infinities_) {
+            line("gap", left, top + lane, width - right, top + lane);
+            text("tick end", left - 8, top + lane / 2 + 4, "\u221e");
+        }
+        line("axis", left, foot, width - right, foot);
+        line("axis", left, top, left, foot);
+        text("name middle", (left + width - right) / 2, height - 9, "time of a frame, ms");
+        texts +=
+            fmt::format("<text class=\"name middle\" transform=\"translate(18 {}) rotate(-90)\">{}</text>",
+                        at((top + foot) / 2), markup(errorFigures[figure_].title));
+        return "<g>" + out + texts + "</g>";
+    }
+
+    // What is reached at most that time: less error only at the next point.
+    std::string frontLine() const {
+        if (front_.empty()) return {};
+        std::string line;
+        for (const std::size_t row : front_) {
+            const double px = x(timeOf(tradeoff_.rows[row]).value),
+                         py = y(tradeoff_.rows[row].errors[figure_]);
+            line += line.empty() ? fmt::format("M{} {}V{}", at(px), at(top), at(py))
+                                 : fmt::format("H{}V{}", at(px), at(py));
+        }
+        return fmt::format("<path class=\"front\" d=\"{}H{}\"/>", line, at(width - right));
+    }
+
+    std::string point(std::size_t index, bool front, bool file) const {
+        const TradeoffRow& row = tradeoff_.rows[index];
+        const Spread time = timeOf(row), error = errorOf(row, figure_);
+        const double px = x(time.value), py = y(error.value);
+        const std::string words = fmt::format(
+            "row {}: {}; {:.4g} ms, {} {}{}", index + 1, inWords(choicesOf(row.settings, tradeoff_.given)),
+            time.value, errorFigures[figure_].title, number(error.value), front ? ", on the front" : "");
+        std::string out = fmt::format(
+            "<g class=\"point {}{}\" data-row=\"{}\"{}>", nameOf(row.settings.path), front ? " best" : "",
+            index + 1,
+            file ? "" : fmt::format(" tabindex=\"0\" role=\"button\" aria-label=\"{}\"", markup(words)));
+        if (file) out += "<title>" + markup(words) + "</title>";
+        out += fmt::format("<path class=\"bar\" d=\"M{} {}H{}", at(x(time.low)), at(py), at(x(time.high)));
+        if (error.low < error.value || error.high > error.value)
+            out += fmt::format("M{} {}V{}", at(px), at(y(error.low)), at(y(error.high)));
+        return out + "\"/>" + mark(row.settings.path, px, py, front ? 6 : 4.5) +
+               fmt::format("<circle class=\"hit\" cx=\"{}\" cy=\"{}\" r=\"11\"/></g>", at(px), at(py));
+    }
+
+    // Told by shape as well as by colour.
+    static std::string mark(Path path, double px, double py, double r) {
+        if (path == Path::deferred)
+            return fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", at(px), at(py),
+                               at(r));
+        return fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+                           at(px - 0.9 * r), at(py - 0.9 * r), at(1.8 * r), at(1.8 * r));
+    }
+
+    std::string legend() const {
+        std::string out;
+        double px = width - right - 8;
+        for (const Path path : pathsOf(tradeoff_)) {
+            const std::string name(nameOf(path));
+            px -= 10.0 * static_cast<double>(name.size()) + 22;
+            out += fmt::format("<g class=\"point {}\">{}<text class=\"tick\" x=\"{}\" y=\"{}\">{}</text></g>",
+                               name, mark(path, px, top - 17, 4.5), at(px + 9), at(top - 12), name);
+        }
+        return out;
+    }
+
+    const Tradeoff& tradeoff_;
+    const std::size_t figure_;
+    const std::optional<Path> path_;
+    const std::vector<std::size_t> rows_, front_;
+    const LogAxis time_, error_;
+    bool zeros_ = false, infinities_ = false;
+};
+
+}  // namespace
+
+std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path,
+                         PlotPlace place) {
+    return Plot(tradeoff, figure, path).svg(place);
+}
+
+std::string plotName(std::size_t figure, std::optional<Path> path) {
+    return fmt::format("{}{}.svg", errorFigures[figure].name, path ? "." + std::string(nameOf(*path)) : "");
+}
+
+}  // namespace diptych

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compare/tradeoff/tradeoff.h"
+
+#include <optional>
+#include <string>
+
+namespace diptych {
+
+// Error over time of the rows of one path, or of all, as SVG: a point a row with error bars, the Pareto front
+// a step line. Both axes are logarithmic; errors of 0, and infinite ones, have a lane of their own. A file by
+// itself has its style and titles; in the page both come from there.
+enum class PlotPlace { file, page };
+std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path,
+                         PlotPlace place);
+
+// "flip.svg", "flip.deferred.svg"
+std::string plotName(std::size_t figure, std::optional<Path> path);
+
+}  // namespace diptych

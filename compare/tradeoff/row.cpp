@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/row.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+double mean(const TradeoffRow& row, Value&& value) {
+    double sum = 0;
+    for (const CameraRow& camera : row.cameras) sum += value(camera);
+    return row.cameras.empty() ? 0 : sum / static_cast<double>(row.cameras.size());
+}
+
+Json jsonOf(const Errors& errors) {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        json[std::string(errorFigures[i].name)] = std::isfinite(errors[i]) ? Json(errors[i]) : Json(nullptr);
+    return json;
+}
+
+Errors errorsFrom(const Json& json) {
+    Errors errors{};
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const Json& value = json.at(std::string(errorFigures[i].name));
+        errors[i] = value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+    }
+    return errors;
+}
+
+Json jsonOf(const std::vector<PassTime>& passes) {
+    Json json = Json::array();
+    for (const PassTime& pass : passes) json.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    return json;
+}
+
+Json jsonOf(const CameraRow& camera) {
+    const FrameTime& time = camera.time;
+    return {{"camera", camera.camera},
+            {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
+            {"passes", jsonOf(camera.passes)},
+            {"bytes",
+             {{"images", camera.bytes.images},
+              {"buffers", camera.bytes.buffers},
+              {"gbuffer_per_pixel", camera.bytes.gbuffer_per_pixel}}},
+            {"errors", jsonOf(camera.errors)},
+            {"pixels", camera.pixels}};
+}
+
+CameraRow cameraFrom(const Json& json) {
+    CameraRow camera;
+    camera.camera = json.at("camera");
+    const Json &ms = json.at("ms"), &bytes = json.at("bytes");
+    camera.time = {ms.at("median"), ms.at("min"), ms.at("max"), ms.at("runs")};
+    for (const Json& pass : json.at("passes")) camera.passes.push_back({pass.at("name"), pass.at("ms")});
+    camera.bytes = {bytes.at("images"), bytes.at("buffers"), bytes.at("gbuffer_per_pixel")};
+    camera.errors = errorsFrom(json.at("errors"));
+    camera.pixels = json.at("pixels");
+    return camera;
+}
+
+}  // namespace
+
+Spread timeOf(const TradeoffRow& row) {
+    return {mean(row, [](const CameraRow& c) { return c.time.median; }),
+            mean(row, [](const CameraRow& c) { return c.time.min; }),
+            mean(row, [](const CameraRow& c) { return c.time.max; })};
+}
+
+Spread errorOf(const TradeoffRow& row, std::size_t figure) {
+    Spread spread{row.errors[figure], row.errors[figure], row.errors[figure]};
+    for (const CameraRow& camera : row.cameras) {
+        spread.low = std::min(spread.low, camera.errors[figure]);
+        spread.high = std::max(spread.high, camera.errors[figure]);
+    }
+    return spread;
+}
+
+std::vector<PassTime> passesOf(const TradeoffRow& row) {
+    std::vector<PassTime> passes;
+    for (const CameraRow& camera : row.cameras)
+        for (const PassTime& pass : camera.passes) {
+            const double share = pass.ms / static_cast<double>(row.cameras.size());
+            const auto known = std::ranges::find(passes, pass.name, &PassTime::name);
+            if (known != passes.end())
+                known->ms += share;
+            else
+                passes.push_back({pass.name, share});
+        }
+    return passes;
+}
+
+FrameBytes bytesOf(const TradeoffRow& row) {
+    FrameBytes most;
+    for (const CameraRow& camera : row.cameras)
+        if (camera.bytes.images + camera.bytes.buffers >= most.images + most.buffers) most = camera.bytes;
+    return most;
+}
+
+std::uint64_t memoryOf(const TradeoffRow& row) {
+    const FrameBytes bytes = bytesOf(row);
+    return bytes.images + bytes.buffers;
+}
+
+Json jsonOf(const TradeoffRow& row) {
+    Json cameras = Json::array();
+    for (const CameraRow& camera : row.cameras) cameras.push_back(jsonOf(camera));
+    const Spread time = timeOf(row);
+    const FrameBytes bytes = bytesOf(row);
+    return {{"settings", Json::parse(toJson(row.settings))},
+            {"ms", {{"median", time.value}, {"min", time.low}, {"max", time.high}}},
+            {"passes", jsonOf(passesOf(row))},
+            {"bytes",
+             {{"images", bytes.images},
+              {"buffers", bytes.buffers},
+              {"gbuffer_per_pixel", bytes.gbuffer_per_pixel}}},
+            {"errors", jsonOf(row.errors)},
+            {"cameras", cameras},
+            {"drawing_ms", row.drawing_ms},
+            {"picture", row.picture},
+            {"error_picture", row.errors_map},
+            {"warnings", row.warnings}};
+}
+
+TradeoffRow tradeoffRowFrom(const Json& json) {
+    TradeoffRow row;
+    row.settings = settingsFromJson(json.at("settings").dump());
+    for (const Json& camera : json.at("cameras")) row.cameras.push_back(cameraFrom(camera));
+    row.errors = errorsFrom(json.at("errors"));
+    row.drawing_ms = json.at("drawing_ms");
+    row.picture = json.at("picture");
+    row.errors_map = json.at("error_picture");
+    row.warnings = json.at("warnings").get<std::vector<std::string>>();
+    return row;
+}
+
+}  // namespace diptych

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What a sweep measures of one Settings.
+#pragma once
+
+#include "shared/frame/frame.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// Of lit against the reference, over the pixels that show a surface there: the same for every row.
+struct ErrorFigure {
+    std::string_view name, title, means;
+};
+inline constexpr std::array errorFigures{
+    ErrorFigure{"flip", "FLIP", "mean HDR-FLIP, 0 to 1"},
+    ErrorFigure{"relative_rmse", "relative RMSE", "root of the mean squared relative error"},
+    ErrorFigure{"relative_p99", "relative p99", "99th percentile of the relative error, nearest rank"},
+};
+using Errors = std::array<double, errorFigures.size()>;
+
+struct CameraRow {
+    std::string camera;  // its title: "default view"
+    FrameTime time;
+    std::vector<PassTime> passes;
+    FrameBytes bytes;
+    Errors errors{};
+    std::uint64_t pixels = 0;  // that the errors are over
+};
+
+struct TradeoffRow {
+    Settings settings;  // its camera is the first one
+    std::vector<CameraRow> cameras;
+    Errors errors{};           // of all cameras' pixels together
+    double drawing_ms = 0;     // wall clock of drawing and timing
+    std::string picture{};     // its file
+    std::string errors_map{};  // file of the picture of FLIP
+    std::vector<std::string> warnings{};
+};
+
+struct Spread {
+    double value = 0, low = 0, high = 0;
+};
+// The mean over cameras of the medians, of the least and of the greatest times, ms.
+Spread timeOf(const TradeoffRow& row);
+// Of all cameras together, and the least and greatest of one camera's.
+Spread errorOf(const TradeoffRow& row, std::size_t figure);
+// The mean over cameras, ms; names in the first camera's order.
+std::vector<PassTime> passesOf(const TradeoffRow& row);
+// The most that a camera takes, and images and buffers of it together.
+FrameBytes bytesOf(const TradeoffRow& row);
+std::uint64_t memoryOf(const TradeoffRow& row);
+
+// Every number with all its digits; an error that is infinite is null.
+nlohmann::ordered_json jsonOf(const TradeoffRow& row);
+// The way back; throws std::runtime_error or nlohmann's exception where it is none.
+TradeoffRow tradeoffRowFrom(const nlohmann::ordered_json& json);
+
+}  // namespace diptych

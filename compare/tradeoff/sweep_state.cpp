@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/sweep_state.h"
+
+#include "compare/output.h"
+#include "shared/image/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* keyFile = "key.json";
+
+std::string textOf(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// Null where there is none or it is not whole.
+Json readJson(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const Json json = Json::parse(stream, nullptr, false);
+    return json.is_object() ? json : Json();
+}
+
+std::string nameOf(const Settings& settings) {
+    return fingerprint(toJson(settings, -1));
+}
+
+}  // namespace
+
+std::string fingerprint(std::string_view bytes) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return fmt::format("{:016x}", hash);
+}
+
+std::string fingerprint(const Truth& truth) {
+    std::string all;
+    for (const Frame& frame : truth.frames)
+        for (const auto& [mode, image] : frame.channels)
+            all += fingerprint(
+                {reinterpret_cast<const char*>(image.data.data()), image.data.size() * sizeof(float)});
+    return fingerprint(all);
+}
+
+fs::path SweepState::folderOf(const fs::path& out) {
+    fs::path path = fs::absolute(out).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    return path.parent_path() / fmt::format(".{}.sweep", path.filename().string());
+}
+
+SweepState::SweepState(const fs::path& out, const Json& key) : folder_(folderOf(out)) {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw std::runtime_error(writingFailed(folder_, error.value()));
+    lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0) throw std::runtime_error(writingFailed(folder_, errno));
+    // Where locks are unknown there is none.
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw std::runtime_error(
+            fmt::format("{}: another diptych sweeps to the same -o; wait for it, or write to another place",
+                        folder_.string()));
+    const Json there = readJson(folder_ / keyFile);
+    if (there == key) return;
+    const bool holdsOthers =
+        std::any_of(fs::directory_iterator(folder_), fs::directory_iterator(),
+                    [](const auto& e) { return !isTemporaryOf(keyFile, e.path().filename().string()); });
+    if (holdsOthers && !isOurMark(folder_ / keyFile))
+        throw std::runtime_error(folder_.string() +
+                                 ": is there and was not written by diptych; move it away");
+    renewed_ = holdsOthers;
+    clear();
+    writeFile(folder_ / keyFile, textOf(key));
+}
+
+SweepState::~SweepState() {
+    if (lock_ >= 0) ::close(lock_);
+}
+
+// The key goes last: without it what is left would be nobody's.
+void SweepState::clear() {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+        if (entry.path().filename() != keyFile) files.push_back(entry.path());
+    std::error_code ignored;
+    for (const fs::path& file : files) fs::remove(file, ignored);
+    fs::remove(folder_ / keyFile, ignored);
+}
+
+std::optional<TradeoffRow> SweepState::find(const Settings& settings) const {
+    const Json json = readJson(folder_ / (nameOf(settings) + ".json"));
+    if (json.is_null()) return {};
+    try {
+        TradeoffRow row = tradeoffRowFrom(json);
+        const bool whole = row.settings == settings && fs::exists(folder_ / row.picture) &&
+                           fs::exists(folder_ / row.errors_map);
+        return whole ? std::optional(std::move(row)) : std::nullopt;
+    } catch (const std::exception&) {  // not what was written: measured again
+        return {};
+    }
+}
+
+void SweepState::keep(MeasuredRow& measured) {
+    TradeoffRow& row = measured.row;
+    const std::string name = nameOf(row.settings);
+    row.picture = name + ".png";
+    row.errors_map = name + ".flip.png";
+    writePng(folder_ / row.picture, measured.picture);
+    writePng(folder_ / row.errors_map, measured.errors);
+    writeFile(folder_ / (name + ".json"), textOf(jsonOf(row)));
+}
+
+void SweepState::remove() {
+    clear();
+    ::rmdir(folder_.c_str());
+}
+
+}  // namespace diptych

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/tradeoff.h"
+
+#include "compare/command_words.h"
+#include "compare/tradeoff/pareto.h"
+#include "compare/truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace diptych {
+namespace {
+
+// Every camera of the sweep, where it is not the default alone.
+std::vector<std::string> withCameras(std::vector<std::string> words, const Tradeoff& tradeoff) {
+    if (tradeoff.cameras.size() < 2) return words;
+    std::vector<std::string> cameras;
+    for (const std::string& camera : tradeoff.cameras) {
+        cameras.emplace_back("--camera=" + camera);
+    }
+    return with(std::move(words), cameras);
+}
+
+// What a command is given so that its truth is the sweep's: what of the row that would change is in the grid.
+struct AgainstTruth {
+    Settings settings;
+    std::string grid;
+    bool sameTruth = true;  // the grid is empty
+};
+
+AgainstTruth againstTruth(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    AgainstTruth against{row.settings, {}, true};
+    nlohmann::ordered_json swept = nlohmann::ordered_json::object();
+    const Settings& given = tradeoff.given;
+    Settings::fields(given, [&](const Field& field, const auto&) {
+        const std::string value = valueOf(row.settings, field.option), usual = valueOf(given, field.option);
+        Settings other = given;
+        set(other, field.option, value);
+        if (referenceSettings(other) == referenceSettings(given)) return;
+        set(against.settings, field.option, usual);
+        if (unreadBecause(row.settings.path, field.option).empty()) swept[std::string(field.option)] = value;
+    });
+    against.sameTruth = swept.empty();
+    against.grid = nlohmann::ordered_json{{"settings", swept}}.dump();
+    if (tradeoff.cameras.size() > 1) against.settings.camera.clear();
+    return against;
+}
+
+}  // namespace
+
+std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        if (!path || tradeoff.rows[i].settings.path == *path) rows.push_back(i);
+    return rows;
+}
+
+std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path) {
+    const std::vector<std::size_t> rows = rowsOf(tradeoff, path);
+    std::vector<TimeError> points;
+    for (const std::size_t i : rows)
+        points.push_back({timeOf(tradeoff.rows[i]).value, tradeoff.rows[i].errors[figure]});
+    std::vector<std::size_t> front;
+    for (const std::size_t i : paretoFront(points)) front.push_back(rows[i]);
+    return front;
+}
+
+std::vector<Path> pathsOf(const Tradeoff& tradeoff) {
+    std::vector<Path> paths;
+    for (const auto& [path, name] : enumNames<Path>())
+        if (!rowsOf(tradeoff, path).empty()) paths.push_back(path);
+    return paths;
+}
+
+std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    const AgainstTruth against = againstTruth(tradeoff, row);
+    std::vector<std::string> words = wordsOf("tradeoff", tradeoff.scene, against.settings);
+    words = with(withCameras(std::move(words), tradeoff), "--grid", against.grid);
+    if (tradeoff.runs != 5) words = with(std::move(words), "--runs", fmt::format("{}", tradeoff.runs));
+    return shellLine(words);
+}
+
+std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    const AgainstTruth against = againstTruth(tradeoff, row);
+    if (!against.sameTruth) return {};
+    return shellLine(with(withCameras(wordsOf("compare", tradeoff.scene, against.settings), tradeoff),
+                          "--baseline", "reference"));
+}
+
+std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    Settings settings = row.settings;
+    if (tradeoff.cameras.size() > 1) settings.camera.clear();
+    return shellLine(withCameras(wordsOf("render", tradeoff.scene, settings), tradeoff));
+}
+
+}  // namespace diptych

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/upsample.h"
+
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+constexpr float background = -1;  // material_id
+
+// Where a pixel's centre of the new picture lies among the centres of the old one, along one axis.
+struct Between {
+    int low = 0, high = 0, nearest = 0;
+    double part = 0;  // of the way from low to high
+};
+
+std::vector<Between> betweenCentres(int from, int to) {
+    std::vector<Between> all(static_cast<std::size_t>(to));
+    for (int i = 0; i < to; ++i) {
+        const double edge = (i + 0.5) * from / to;  // in old pixels, from the first one's edge
+        const double centre = std::clamp(edge - 0.5, 0.0, from - 1.0);
+        Between& b = all[static_cast<std::size_t>(i)];
+        b.low = static_cast<int>(centre);
+        b.high = std::min(b.low + 1, from - 1);
+        b.nearest = std::clamp(static_cast<int>(edge), 0, from - 1);
+        b.part = centre - b.low;
+    }
+    return all;
+}
+
+const Image& channelOf(const Frame& frame, gpu::uint mode) {
+    const auto found = frame.channels.find(static_cast<int>(mode));
+    if (found == frame.channels.end())
+        throw std::runtime_error(frame.name + ": has no " +
+                                 std::string(debugMode(static_cast<int>(mode)).name) + " to be enlarged");
+    return found->second;
+}
+
+class Enlarger {
+public:
+    Enlarger(const Image& lit, const Image& ids) : lit_(lit), ids_(ids) {}
+
+    void put(const Between& x, const Between& y, float* lit, float& id) const {
+        id = ids_.at(x.nearest, y.nearest);
+        if (id == background) return;  // lit stays 0 there, as in every channel
+        std::array<double, 3> sum{};
+        double weights = 0;
+        for (const auto& [row, down] : {std::pair{y.low, 1 - y.part}, {y.high, y.part}})
+            for (const auto& [column, right] : {std::pair{x.low, 1 - x.part}, {x.high, x.part}}) {
+                const double weight = down * right;
+                if (weight == 0 || ids_.at(column, row) == background) continue;
+                for (int c = 0; c < 3; ++c)
+                    sum[static_cast<std::size_t>(c)] += weight * double{lit_.at(column, row, c)};
+                weights += weight;
+            }
+        for (std::size_t c = 0; c < 3; ++c) lit[c] = static_cast<float>(sum[c] / weights);
+    }
+
+private:
+    const Image& lit_;
+    const Image& ids_;
+};
+
+}  // namespace
+
+Frame upsampled(Frame frame, const Size& size) {
+    const Image lit = channelOf(frame, gpu::DEBUG_lit), ids = channelOf(frame, gpu::DEBUG_material_id);
+    if (frame.settings.size == size) return frame;
+    const Enlarger enlarger(lit, ids);
+    const std::vector<Between> columns = betweenCentres(lit.width, size.width),
+                               rows = betweenCentres(lit.height, size.height);
+    Image newLit(size.width, size.height, 3), newIds(size.width, size.height, 1);
+    for (std::size_t y = 0, i = 0; y < rows.size(); ++y)
+        for (std::size_t x = 0; x < columns.size(); ++x, ++i)
+            enlarger.put(columns[x], rows[y], newLit.pixel(i), newIds.data[i]);
+    frame.channels.clear();
+    frame.channels[static_cast<int>(gpu::DEBUG_lit)] = std::move(newLit);
+    frame.channels[static_cast<int>(gpu::DEBUG_material_id)] = std::move(newIds);
+    frame.settings.size = size;
+    return frame;
+}
+
+}  // namespace diptych
