@@ -120,7 +120,6 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
 
 TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
     const std::pair<std::vector<std::string>, const char*> later[] = {
-        {{"tradeoff", "a.glb", "--lights", "point:9"}, "tradeoff"},
         {{"choose", "--max-error", "0.1"}, "choose"},
         {{"choose", "--max-ms", "4", "--max-bytes", "100"}, "choose"},
         {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Enlarging, and the errors of a row.
+#include "compare/tradeoff/measure.h"
+#include "compare/tradeoff/upsample.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/unit/test_pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
+
+// lit is grey, of these values; a negative one is background.
+Frame frameOf(int width, int height, const std::vector<float>& values) {
+    Frame frame;
+    frame.name = "deferred";
+    frame.settings.size = {width, height};
+    frame.channels[lit] = Image(width, height, 3);
+    frame.channels[ids] = Image(width, height, 1);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        frame.channels[ids].data[i] = values[i] < 0 ? -1.0f : static_cast<float>(i);
+        for (int c = 0; c < 3; ++c) frame.channels[lit].pixel(i)[c] = std::max(values[i], 0.0f);
+    }
+    return frame;
+}
+
+std::vector<float> rowOf(const Image& image, int y) {
+    std::vector<float> row;
+    for (int x = 0; x < image.width; ++x) row.push_back(image.at(x, y, 0));
+    return row;
+}
+
+TEST(TradeoffUpsample, IsBilinearBetweenPixelCentres) {
+    // Two pixels to four: centres of the new at -0.25 (clamped), 0.25, 0.75 and 1.25 (clamped) of the old.
+    const Frame wide = upsampled(frameOf(2, 1, {0, 8}), {4, 1});
+    EXPECT_EQ(rowOf(wide.channels.at(lit), 0), (std::vector<float>{0, 2, 6, 8}));
+    EXPECT_EQ(rowOf(wide.channels.at(ids), 0), (std::vector<float>{0, 0, 1, 1}));
+    EXPECT_EQ(wide.settings.size, (Size{4, 1}));
+    // Three to four: new centres at 0.375, 1.125, 1.875, 2.625 in old pixels from the edge.
+    const Frame odd = upsampled(frameOf(3, 1, {0, 16, 32}), {4, 1});
+    EXPECT_EQ(rowOf(odd.channels.at(lit), 0), (std::vector<float>{0, 10, 22, 32}));
+    const Frame tall = upsampled(frameOf(2, 2, {0, 8, 16, 24}), {4, 4});
+    EXPECT_EQ(rowOf(tall.channels.at(lit), 1), (std::vector<float>{4, 6, 10, 12}));
+}
+
+TEST(TradeoffUpsample, BackgroundNeitherDarkensNorGrows) {
+    const Frame wide = upsampled(frameOf(3, 1, {8, -1, 4}), {6, 1});
+    EXPECT_EQ(rowOf(wide.channels.at(lit), 0), (std::vector<float>{8, 8, 0, 0, 4, 4}));
+    EXPECT_EQ(rowOf(wide.channels.at(ids), 0), (std::vector<float>{0, 0, -1, -1, 2, 2}));
+}
+
+TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
+    const Frame frame = frameOf(2, 2, {1, -1, 3, 0.1f});
+    const Frame same = upsampled(frame, {2, 2});
+    EXPECT_EQ(same.channels.at(lit).data, frame.channels.at(lit).data);
+    Frame without = frame;
+    without.channels.erase(ids);
+    EXPECT_THROW(upsampled(without, {4, 4}), std::runtime_error);
+}
+
+// What compare says of the same pictures.
+TEST(TradeoffErrors, AreThoseOfTheReport) {
+    const Image truth = noise(40, 30, 1), test = noise(40, 30, 2);
+    Frame a = frameOf(40, 30, std::vector<float>(1200, 1)), b = a;
+    a.channels[lit] = truth;
+    b.channels[lit] = test;
+    for (std::size_t i = 0; i < 300; ++i) a.channels[ids].data[i] = b.channels[ids].data[i] = -1;
+    const FrameErrors errors = errorsOf(a, b);
+    const ChannelStats stats =
+        channelStats(Metric::relative, ChannelKind::color, truth, test, coverage(a, b));
+    EXPECT_EQ(errors.pixels.size(), 900u);
+    EXPECT_DOUBLE_EQ(errors.errors[1], stats.rmse);
+    EXPECT_DOUBLE_EQ(errors.errors[2], stats.p99);
+    EXPECT_GT(errors.errors[0], 0.1);
+    EXPECT_LT(errors.errors[0], 1);
+    const FrameErrors none = errorsOf(a, a);
+    EXPECT_EQ(none.errors, (Errors{0, 0, 0}));
+}
+
+TEST(TradeoffErrors, ArePixelsThatTheReferenceShows) {
+    const Frame truth = frameOf(2, 1, {1, -1}), more = frameOf(2, 1, {1, 5}), less = frameOf(2, 1, {-1, -1});
+    EXPECT_EQ(errorsOf(truth, more).errors[1], 0) << "beyond the reference's silhouette nothing is counted";
+    EXPECT_EQ(errorsOf(truth, more).pixels.size(), 1u);
+    EXPECT_EQ(errorsOf(truth, less).errors[1], 1) << "a surface that is missing is all wrong";
+}
+
+TEST(TradeoffErrors, ANanIsInfinite) {
+    const Frame truth = frameOf(2, 1, {1, 1});
+    Frame broken = truth;
+    broken.channels[lit].data[0] = nan;
+    const FrameErrors errors = errorsOf(truth, broken);
+    EXPECT_TRUE(std::isinf(errors.errors[1]));
+    EXPECT_GT(errors.errors[0], 0);
+}
+
+TEST(TradeoffErrors, PercentilesAreTheNearestRank) {
+    std::vector<double> errors;
+    for (int i = 1; i <= 200; ++i) errors.push_back(i);
+    EXPECT_EQ(relativeErrors(errors).p99, 198);
+    EXPECT_DOUBLE_EQ(relativeErrors({3, 4}).rmse, std::sqrt(12.5));
+    EXPECT_EQ(relativeErrors({}).rmse, 0);
+}
+
+}  // namespace
+}  // namespace diptych
