@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Signals, other programs, and disks that are truly full or read-only.
 #include "tests/tool/faults.h"
+#include "tests/tool/running.h"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/file.h>
 
 #include <chrono>
@@ -11,65 +11,10 @@
 #include <thread>
 #include <vector>
 
-extern char** environ;
-
 namespace diptych {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
-
-// The tool beside the test, its stderr in a file.
-class Running {
-public:
-    Running(const Folder& folder, std::vector<std::string> words) : error_(folder / ".stderr") {
-        words.insert(words.begin(), DIPTYCH_PROGRAM);
-        std::vector<char*> argv;
-        for (std::string& word : words) argv.push_back(word.data());
-        argv.push_back(nullptr);
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
-        posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-        posix_spawn_file_actions_addopen(&actions, 2, error_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-        EXPECT_EQ(::posix_spawn(&process_, DIPTYCH_PROGRAM, &actions, nullptr, argv.data(), environ), 0);
-        posix_spawn_file_actions_destroy(&actions);
-    }
-    ~Running() {
-        if (process_ <= 0) return;
-        ::kill(process_, SIGKILL);
-        wait();
-    }
-    Running(const Running&) = delete;
-    Running& operator=(const Running&) = delete;
-
-    pid_t process() const { return process_; }
-    std::string err() const { return contentsOf(error_); }
-    bool ended() {
-        const pid_t ended = process_ > 0 ? ::waitpid(process_, &status_, WNOHANG) : 0;
-        if (ended > 0) process_ = 0;
-        return process_ == 0;
-    }
-    int wait() {
-        if (process_ > 0) ::waitpid(process_, &status_, 0);
-        process_ = 0;
-        return status_;
-    }
-
-private:
-    pid_t process_ = 0;
-    int status_ = 0;
-    fs::path error_;
-};
-
-// `true` within a time that only a hanging program exceeds.
-template <typename Condition>
-bool soon(Condition condition) {
-    for (const Clock::time_point end = Clock::now() + 60s; Clock::now() < end;
-         std::this_thread::sleep_for(2ms))
-        if (condition()) return true;
-    return false;
-}
 
 const std::vector<std::string> longWork{
     "render", "builtin:gallery", "-v", "--size", "1920x1080", "--runs", "5000", "-o", "r"};

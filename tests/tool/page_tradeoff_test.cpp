@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The page of a sweep in a browser.
+#include "tests/tool/page_maker.h"
+
+namespace diptych {
+namespace {
+
+Visit visitSweep(const Folder& folder, const std::string& script, int width = 1200) {
+    const Ran ran = runTool(folder, "tradeoff builtin:triangle --size 32x24 --runs 2 -q -o t");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return visit(folder, folder / "t/index.html", script, "", width);
+}
+
+TEST(PageTradeoff, PointingFocusAndTapShowTheRowAndItsCommand) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const Visit seen = visitSweep(folder, R"(
+  const shown = () => $$('.row-card').filter(card => card.offsetHeight > 0).map(card => card.dataset.row);
+  const point = row => $(`[data-figure=flip]:not([hidden]) .point[data-row="${row}"]`);
+  const told = { first: shown() };
+  point(2).dispatchEvent(new PointerEvent('pointerover', { bubbles: true })); told.hovered = shown();
+  $('.plots svg .axis').dispatchEvent(new PointerEvent('pointerover', { bubbles: true })); told.left = shown();
+  point(3).focus(); told.focused = shown();
+  point(4).dispatchEvent(new MouseEvent('click', { bubbles: true })); told.tapped = shown();
+  await until(() => $$('.row-card:not([hidden]) img').every(image => image.complete && image.naturalWidth));
+  told.pictures = $$('.row-card:not([hidden]) img').map(image => image.naturalWidth);
+  told.command = $('.row-card:not([hidden]) code').textContent;
+  told.inTable = $('.rows tr.on').dataset.row;
+  told.label = point(2).getAttribute('aria-label');
+  $('.row-card:not([hidden]) [data-do=copy]').click(); await wait(50);
+  told.copied = getSelection().toString();
+  $('.rows tbody tr').click(); told.byLine = shown();
+  tell(told);)");
+    EXPECT_EQ(seen.console, "");
+    using nlohmann::json;
+    const json& told = seen.told;
+    ASSERT_TRUE(told.is_object()) << told;
+    ASSERT_EQ(told["first"].size(), 1u) << "one card, from the start";
+    EXPECT_EQ(told["hovered"], json{"2"});
+    EXPECT_EQ(told["left"], told["first"]) << "what is only pointed at does not stay";
+    EXPECT_EQ(told["focused"], json{"3"});
+    EXPECT_EQ(told["tapped"], json{"4"});
+    EXPECT_EQ(told["pictures"], (json{32, 32, 32}));
+    EXPECT_EQ(told["command"].get<std::string>().find("diptych tradeoff "), 0u);
+    EXPECT_EQ(told["inTable"], "4");
+    EXPECT_NE(told["label"].get<std::string>().find("row 2: deferred"), std::string::npos);
+    EXPECT_EQ(told["copied"], told["command"]);
+    EXPECT_EQ(told["byLine"], json{"1"});
+}
+
+TEST(PageTradeoff, AnotherErrorAndAnotherOrder) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const Visit seen = visitSweep(folder, R"(
+  const plots = () => $$('svg.tradeoff').filter(svg => svg.getBoundingClientRect().height > 0).map(svg => svg.getAttribute('aria-label').split(' over')[0]);
+  const told = { plots: plots(), width: document.documentElement.scrollWidth };
+  $('[data-shows=relative_p99]').click(); told.others = plots();
+  const column = head => $$('.rows tbody tr').map(row => +row.cells[[...$$('.rows th')].indexOf(head)].dataset.value);
+  const head = $$('.rows th').find(th => th.textContent === 'FLIP');
+  head.querySelector('button').click(); told.up = column(head);
+  head.querySelector('button').click(); told.down = column(head);
+  told.sorted = head.getAttribute('aria-sort');
+  tell(told);)",
+                                  390);
+    EXPECT_EQ(seen.console, "");
+    using nlohmann::json;
+    const json& told = seen.told;
+    ASSERT_TRUE(told.is_object()) << told;
+    EXPECT_EQ(told["plots"], (json{"FLIP", "FLIP", "FLIP"})) << "together, and each path";
+    EXPECT_EQ(told["others"], (json{"relative p99", "relative p99", "relative p99"}));
+    EXPECT_LE(told["width"], 500) << "no wider than a phone, or than the narrowest window of the browser";
+    std::vector<double> up = told["up"], down = told["down"];
+    EXPECT_TRUE(std::ranges::is_sorted(up));
+    EXPECT_TRUE(std::ranges::is_sorted(down, std::greater<>()));
+    EXPECT_GT(up.size(), 10u);
+    EXPECT_LT(up.front(), up.back());
+    EXPECT_EQ(told["sorted"], "descending");
+}
+
+}  // namespace
+}  // namespace diptych
