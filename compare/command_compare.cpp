@@ -158,7 +158,7 @@ int runCompare(const Options& options) {
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
-    KeptReferences kept(folder);
+    KeptReferences kept(folder, true);
     Drawn drawn = draw(options, settings, device, kept, progress);
     const ReportDevice here = reportDevice(device);
     std::string updated;

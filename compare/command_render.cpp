@@ -176,7 +176,7 @@ int runRender(const Options& options) {
                 {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
                 {"frames", Json::array()}};
     // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
-    KeptReferences kept(output.path);
+    KeptReferences kept(output.path, output.kind == OutputKind::folder);
     const std::vector<Frame> frames = drawAll(options, settings, device, kept, progress);
     for (const Frame& frame : frames) {
         result["frames"].push_back(jsonOf(frame));

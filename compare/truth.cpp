@@ -133,6 +133,8 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
 fs::path KeptReferences::next() {
     // A folder's name may end in a slash.
     const fs::path output = output_.has_filename() ? output_ : output_.parent_path();
+    std::error_code ignored;  // what cannot be made is said by who writes there
+    if (is_folder_ && output.has_parent_path()) fs::create_directories(output.parent_path(), ignored);
     files_.push_back(output.parent_path() /
                      fmt::format(".{}.reference-{}", output.filename().string(), files_.size() + 1));
     sayWhenInterrupted(fmt::format("what is done of the reference is kept in {}: the same command goes on from there",

@@ -32,12 +32,15 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
 // on from when the same command is given again.
 class KeptReferences {
 public:
-    explicit KeptReferences(std::filesystem::path output) : output_(std::move(output)) {}
+    // The folders above an output that is one itself are made, as they are for it.
+    KeptReferences(std::filesystem::path output, bool isFolder)
+        : output_(std::move(output)), is_folder_(isFolder) {}
     std::filesystem::path next();  // for one reference more, in the command's order
     void remove();                 // the command has made its output
 
 private:
     std::filesystem::path output_;
+    bool is_folder_;
     std::vector<std::filesystem::path> files_;
 };
 
