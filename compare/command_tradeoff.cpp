@@ -80,7 +80,7 @@ public:
         : options_(options),
           plan_(plan),
           folder_(folderOf(options)),
-          references_(folder_),
+          references_(folder_, true),
           progress_(progressOutput(options)),
           device_(deviceOptions(options)) {
         say(options, "on " + device_.info().name);
