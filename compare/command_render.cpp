@@ -154,12 +154,23 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const std::v
     return places;
 }
 
+// What was asked for and the path does not read.
+void noteUnread(const Options& options) {
+    const Settings &asked = options.settings, usual;
+    Settings::fields(asked, [&](const Field& field, const auto&) {
+        const std::string_view why = unreadBecause(asked.path, field.option);
+        if (!why.empty() && valueOf(asked, field.option) != valueOf(usual, field.option))
+            note(options, fmt::format("--{} is not used: {}", field.option, why));
+    });
+}
+
 }  // namespace
 
 int runRender(const Options& options) {
     if (options.list_scenes) return listScenes(options);
     const std::vector<Settings> settings = plan(options, {options.settings.path});
     checkChannels(options);
+    noteUnread(options);
     const Output output = outputIn(options);
     const std::size_t count = settings.size() * options.scenes.size();
     if (count > 1 && output.kind != OutputKind::folder)

@@ -45,12 +45,16 @@ struct Unread {
     std::string_view why;
 };
 constexpr std::string_view only_reference = "the reference alone takes samples of what it shades";
+constexpr std::string_view not_blended = "no path blends yet";
 constexpr Unread unread[] = {
     {"assign", Path::reference, "the reference evaluates every light"},
     {"prepass", Path::deferred, "deferred has no depth pre-pass"},
     {"prepass", Path::reference, "the reference has no depth pre-pass"},
     {"gbuffer", Path::forward_plus, "forward_plus has no G-buffer"},
     {"gbuffer", Path::reference, "the reference has no G-buffer"},
+    {"sort", Path::deferred, not_blended},
+    {"sort", Path::forward_plus, not_blended},
+    {"sort", Path::reference, "the reference blends by depth"},
     {"spp", Path::deferred, only_reference},
     {"spp", Path::forward_plus, only_reference},
     {"reference-mode", Path::deferred, only_reference},
