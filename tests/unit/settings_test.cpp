@@ -3,6 +3,7 @@
 
 #include "shared/frame/debug_modes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -175,6 +176,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"seed", "9"},        {"env", "none"},          {"shadows", "off"},
         {"haze", "off"},      {"sort", "off"},          {"msaa", "1"},
         {"spp", "1"},         {"ibl-intensity", "1"},   {"env", "sky.exr"},
+        {"path", "reference"},
     };
     for (const auto& [option, value] : built) {
         Settings s;
@@ -185,7 +187,6 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
 
 TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
     const std::pair<const char*, const char*> rest[] = {
-        {"path", "reference"},
         {"assign", "tiled"},
         {"assign", "clustered"},
         {"assign", "per_object"},
@@ -219,6 +220,27 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         const std::string problem = s.problem().value_or("none");
         EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
     }
+}
+
+TEST(Settings, TheReferenceHasMoreThanThePaths) {
+    Settings s;
+    s.path = Path::reference;
+    for (const Shadows shadows : {Shadows::pcf, Shadows::evsm, Shadows::clipmap, Shadows::off}) {
+        s.shadows = shadows;
+        EXPECT_EQ(s.problem().value_or("none"), "none");
+    }
+    s.spp = 4;
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--spp 4: --reference-mode surface shades one sample; use --reference-mode scene");
+    s.reference_mode = ReferenceMode::scene;
+    EXPECT_EQ(s.problem().value_or("none"), "none");
+    for (const int spp : {0, -1, 65537}) {
+        s.spp = spp;
+        EXPECT_EQ(s.problem().value_or("none"), fmt::format("--spp {}: 1 to 65536", spp));
+    }
+    s.spp = 1;
+    s.path = Path::deferred;
+    EXPECT_EQ(s.problem().value_or("none"), "--reference-mode scene has no meaning without --path reference; use surface");
 }
 
 TEST(Settings, AnEnvironmentWithoutANameIsNone) {
