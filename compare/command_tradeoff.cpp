@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace diptych {
@@ -131,7 +132,7 @@ public:
         state.remove();
         progress_.wipe();
         if (options_.json) fmt::print("{}", json);
-        if (prints()) fmt::print("{}{}\n", tradeoffEnd(tradeoff_), (folder_ / "index.html").string());
+        if (prints()) print(tradeoffEnd(tradeoff_) + (folder_ / "index.html").string() + "\n");
         return 0;
     }
 
@@ -162,7 +163,9 @@ private:
         }
     }
 
+    // Whoever reads may have gone: what was asked for is the folder, and that is finished.
     void print(const std::string& line) {
+        if (std::ferror(stdout)) return;
         progress_.wipe();
         fmt::print("{}", line);
         std::fflush(stdout);

@@ -36,6 +36,12 @@ Json readJson(const fs::path& file) {
 std::string nameOf(const Settings& settings) {
     return fingerprint(toJson(settings, -1));
 }
+std::string pictureOf(const Settings& settings) {
+    return nameOf(settings) + ".png";
+}
+std::string errorsOf(const Settings& settings) {
+    return nameOf(settings) + ".flip.png";
+}
 
 }  // namespace
 
@@ -103,7 +109,8 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings) const {
     if (json.is_null()) return {};
     try {
         TradeoffRow row = tradeoffRowFrom(json);
-        const bool whole = row.settings == settings && fs::exists(folder_ / row.picture) &&
+        const bool whole = row.settings == settings && row.picture == pictureOf(settings) &&
+                           row.errors_map == errorsOf(settings) && fs::exists(folder_ / row.picture) &&
                            fs::exists(folder_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
     } catch (const std::exception&) {  // not what was written: measured again
@@ -113,12 +120,11 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings) const {
 
 void SweepState::keep(MeasuredRow& measured) {
     TradeoffRow& row = measured.row;
-    const std::string name = nameOf(row.settings);
-    row.picture = name + ".png";
-    row.errors_map = name + ".flip.png";
+    row.picture = pictureOf(row.settings);
+    row.errors_map = errorsOf(row.settings);
     writePng(folder_ / row.picture, measured.picture);
     writePng(folder_ / row.errors_map, measured.errors);
-    writeFile(folder_ / (name + ".json"), textOf(jsonOf(row)));
+    writeFile(folder_ / (nameOf(row.settings) + ".json"), textOf(jsonOf(row)));
 }
 
 void SweepState::remove() {

@@ -1,47 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Sweeps through the whole program: what they leave, what their commands do, and how they go on.
-#include "shared/frame/settings.h"
+// Sweeps through the whole program: what they leave, and what their commands do.
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
+#include "tests/tool/sweep.h"
 
 #include <sys/file.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <csignal>
-#include <map>
 #include <set>
 
 namespace diptych {
 namespace {
-
-using Json = nlohmann::json;
-
-Json readJson(const fs::path& file) {
-    return Json::parse(contentsOf(file), nullptr, false);
-}
-
-// A row without what two runs may time differently.
-Json untimed(Json row) {
-    for (const char* key : {"ms", "passes", "drawing_ms"}) row.erase(key);
-    for (Json& camera : row["cameras"])
-        for (const char* key : {"ms", "passes"}) camera.erase(key);
-    return row;
-}
-
-Json untimedRows(const Json& tradeoff) {
-    Json rows = Json::array();
-    for (const Json& row : tradeoff["rows"]) rows.push_back(untimed(row));
-    return rows;
-}
 
 // "diptych WORDS" as it is printed, through the shell.
 Ran runPrinted(const Folder& folder, const std::string& command, const std::string& more) {
     EXPECT_TRUE(command.starts_with("diptych ")) << command;
     return runTool(folder, command.substr(8) + " " + more);
 }
-
-constexpr const char* sweep = "tradeoff builtin:triangle --size 32x24 --runs 2 --json -q -o t ";
 
 TEST(Tradeoff, LeavesTableCsvJsonPlotsPageAndPictures) {
     const Folder folder;
@@ -138,118 +113,6 @@ TEST(Tradeoff, EveryRowIsReproducedByItsCommand) {
     EXPECT_GT(compared, 1u);
 }
 
-// ---- Going on
-
-const std::vector<std::string> longSweep{
-    "tradeoff",
-    "builtin:triangle",
-    "--size",
-    "64x48",
-    "--runs",
-    "60",
-    "-o",
-    "t",
-    "--grid",
-    R"([{"settings": {"path": ["deferred", "forward_plus"], "size": ["1/2", "1/1"]}}, {"settings": {"prepass": "off"}}])"};
-
-std::string shellWords(const std::vector<std::string>& words) {
-    std::string line;
-    for (const std::string& word : words) line += "'" + word + "' ";
-    return line;
-}
-
-// Rows that the sweep keeps, by their Settings.
-std::map<std::string, Json> keptIn(const fs::path& state) {
-    std::map<std::string, Json> rows;
-    std::error_code ignored;
-    for (fs::directory_iterator entry(state, ignored), end; !ignored && entry != end;
-         entry.increment(ignored))
-        if (entry->path().extension() == ".json" && entry->path().filename() != "key.json" &&
-            entry->path().filename().string().front() != '.')
-            if (const Json row = readJson(entry->path()); row.is_object()) rows[row["settings"].dump()] = row;
-    return rows;
-}
-
-// Starts the sweep and lets `signal` end it once `count` rows are kept. Returns those that were.
-std::map<std::string, Json> cut(const Folder& folder, std::size_t count, int signal,
-                                std::string* said = nullptr) {
-    Running tool(folder, longSweep);
-    EXPECT_TRUE(soon([&] { return tool.ended() || keptIn(folder / ".t.sweep").size() >= count; }));
-    EXPECT_FALSE(tool.ended()) << "too fast to be cut: " << tool.err();
-    ::kill(tool.process(), signal);
-    EXPECT_TRUE(soon([&] { return tool.ended(); }));
-    if (said) *said = tool.err();
-    return keptIn(folder / ".t.sweep");
-}
-
-TEST(Tradeoff, ASweepKilledAtAnyRowGoesOnToTheSameTable) {
-    const Folder folder;
-    ASSERT_EQ(runTool(folder, shellWords(longSweep) + "-q").code, 0);
-    const Json whole = readJson(folder / "t/tradeoff.json");
-    ASSERT_EQ(whole["rows"].size(), 5u);
-    for (std::size_t count = 0; count < 5; ++count) {
-        fs::remove_all(folder / "t");
-        const std::map<std::string, Json> kept = cut(folder, count, SIGKILL);
-        ASSERT_GE(kept.size(), count);
-        EXPECT_FALSE(fs::exists(folder / "t")) << "nothing half done under its name";
-        const Ran ran = runTool(folder, shellWords(longSweep) + "-q");
-        ASSERT_EQ(ran.code, 0) << ran.err;
-        const Json resumed = readJson(folder / "t/tradeoff.json");
-        EXPECT_EQ(untimedRows(resumed), untimedRows(whole)) << count;
-        EXPECT_EQ(resumed["rows_kept"], kept.size());
-        std::size_t same = 0;
-        for (const Json& row : resumed["rows"])
-            if (const auto known = kept.find(row["settings"].dump()); known != kept.end()) {
-                ++same;
-                EXPECT_EQ(row["ms"], known->second["ms"]) << "times of rows measured before are kept";
-                EXPECT_EQ(row["cameras"], known->second["cameras"]);
-            }
-        EXPECT_EQ(same, kept.size());
-        EXPECT_FALSE(fs::exists(folder / ".t.sweep"));
-        EXPECT_TRUE(leftoversIn(folder.path()).empty());
-    }
-}
-
-TEST(Tradeoff, CtrlCSaysHowItGoesOn) {
-    const Folder folder;
-    std::string said;
-    cut(folder, 1, SIGINT, &said);
-    EXPECT_NE(said.find("the same command goes on from there"), std::string::npos) << said;
-    EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
-    EXPECT_TRUE(fs::exists(folder / ".t.sweep/key.json"));
-}
-
-TEST(Tradeoff, AnotherSweepStartsAnew) {
-    const Folder folder;
-    cut(folder, 2, SIGKILL);
-    std::vector<std::string> other = longSweep;
-    other[5] = "2";  // runs
-    const Ran ran = runTool(folder, shellWords(other));
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    EXPECT_NE(ran.err.find("anew"), std::string::npos) << ran.err;
-    const Json tradeoff = readJson(folder / "t/tradeoff.json");
-    EXPECT_EQ(tradeoff["rows_kept"], 0);
-    for (const Json& row : tradeoff["rows"]) EXPECT_EQ(row["cameras"][0]["ms"]["runs"], 2);
-}
-
-TEST(Tradeoff, ARecordThatIsNotWholeIsMeasuredAgain) {
-    const Folder folder;
-    ASSERT_GE(cut(folder, 3, SIGKILL).size(), 3u);
-    std::size_t damaged = 0;
-    for (const auto& entry : fs::directory_iterator(folder / ".t.sweep")) {
-        const std::string name = entry.path().filename().string();
-        if (!name.ends_with(".json") || name == "key.json" || name.front() == '.' || damaged == 2) continue;
-        if (damaged++ == 0)
-            std::ofstream(entry.path()) << contentsOf(entry.path()).substr(0, 100);
-        else
-            fs::remove(entry.path().parent_path() / (entry.path().stem().string() + ".png"));
-    }
-    ASSERT_EQ(damaged, 2u);
-    const std::size_t whole = keptIn(folder / ".t.sweep").size();  // of those one lacks its picture
-    ASSERT_EQ(runTool(folder, shellWords(longSweep) + "-q").code, 0);
-    EXPECT_EQ(readJson(folder / "t/tradeoff.json")["rows_kept"], whole - 1);
-}
-
 TEST(Tradeoff, TwoToOnePlaceAreRefusedAndWhatIsNotOursIsLeft) {
     const Folder folder;
     fs::create_directories(folder / ".t.sweep");
@@ -282,6 +145,16 @@ TEST(Tradeoff, WhatItCannotDoIsOneLine) {
             runTool(folder, std::string("tradeoff builtin:triangle --size 16x12 ") + words).failedOver(fault))
             << words;
     EXPECT_FALSE(fs::exists(folder / "diptych-tradeoff"));
+}
+
+// Who reads the rows goes after the first: the folder is made all the same.
+TEST(Tradeoff, AClosedPipeDoesNotEndIt) {
+    const Folder folder;
+    const Ran ran = runShell(
+        folder, "'" DIPTYCH_PROGRAM "' " + shellWords(longSweep) + " | head -n 2 | wc -l", folder.path());
+    EXPECT_EQ(ran.out, "2\n") << ran.err;
+    ASSERT_TRUE(soon([&] { return fs::exists(folder / "t/tradeoff.json"); }));
+    EXPECT_EQ(readJson(folder / "t/tradeoff.json")["rows"].size(), 5u);
 }
 
 TEST(Tradeoff, ReplacesItsOwnFolder) {

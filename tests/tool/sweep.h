@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Sweeps for the tests to run.
+#pragma once
+
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+using Json = nlohmann::json;
+
+inline Json readJson(const fs::path& file) {
+    return Json::parse(contentsOf(file), nullptr, false);
+}
+
+inline constexpr const char* sweep = "tradeoff builtin:triangle --size 32x24 --runs 2 --json -q -o t ";
+
+// Long enough to be cut short at any row.
+inline const std::vector<std::string> longSweep{
+    "tradeoff",
+    "builtin:triangle",
+    "--size",
+    "64x48",
+    "--runs",
+    "60",
+    "-o",
+    "t",
+    "--grid",
+    R"([{"settings": {"path": ["deferred", "forward_plus"], "size": ["1/2", "1/1"]}}, {"settings": {"prepass": "off"}}])"};
+
+inline std::string shellWords(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) line += "'" + word + "' ";
+    return line;
+}
+
+}  // namespace diptych
