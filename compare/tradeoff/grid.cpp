@@ -121,7 +121,7 @@ std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given
         if (grids.empty()) throw std::runtime_error("asks for nothing");
         return grids;
     } catch (const std::runtime_error& error) {
-        throw std::runtime_error(name + ": " + error.what());
+        throw std::runtime_error(name + ": " + oneLine(error.what(), 350));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <stdexcept>
 
 namespace diptych {
@@ -66,6 +67,35 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
         EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     }
     EXPECT_NE(faultOf(std::string(100000, '[')).find("nests deeper"), std::string::npos);
+}
+
+// Bytes changed, taken out and put in: a plan comes out, or one line that says why not.
+TEST(TradeoffGrid, WhateverItHoldsIsPlannedOrRefused) {
+    const std::string sound =
+        R"([{"settings": {"gbuffer": ["compact", "full"], "size": ["1/2", "8x4", [8, 4]], "msaa": [1, 4]}},
+            {"settings": {"sort": [true, "off"], "light_cutoff": [0.001, "0e-2"]}}])";
+    const std::string pieces[] = {"[", "]", "{", "}", "\"", "\\n",  "\\u0000", "1e999",
+                                  "/", "0", "-", ",", ":",  "\xff", "null"};
+    std::mt19937 random(3);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+    int planned = 0, refused = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        std::string text = sound;
+        for (std::size_t change = below(4); change > 0; --change)
+            text.replace(
+                below(text.size()), below(4),
+                below(2) ? pieces[below(std::size(pieces))] : std::string(1, static_cast<char>(below(256))));
+        try {
+            planSweep({}, readGrids("[" + text.substr(1), {}));
+            ++planned;
+        } catch (const std::runtime_error& error) {
+            const std::string what = error.what();
+            ASSERT_TRUE(what.find('\n') == std::string::npos && what.size() < 400) << text << "\n" << what;
+            ++refused;
+        }
+    }
+    EXPECT_GT(planned, 1000);
+    EXPECT_GT(refused, 1000);
 }
 
 }  // namespace
