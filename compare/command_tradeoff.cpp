@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ranges>
 #include <stdexcept>
 
 namespace diptych {
@@ -75,6 +76,11 @@ double weightOf(const Settings& settings) {
     return static_cast<double>(settings.size.width) * settings.size.height;
 }
 
+// Timed frames of a row when it is drawn; the others follow once all are.
+int firstVisit(const Options& options) {
+    return (options.runs + 1) / 2;
+}
+
 class Sweep {
 public:
     Sweep(const Options& options, const SweepPlan& plan)
@@ -121,8 +127,10 @@ public:
                  "what a sweep that was cut short left is of another scene, device or Settings: anew");
         sayWhenInterrupted(fmt::format("the rows so far are kept in {}: the same command goes on from there",
                                        SweepState::folderOf(folder_).string()));
-        measure(renderer, truth, state, stage.part(truthDone, 0.98));
-        timeAgain(renderer, truth);
+        const double drawn =
+            truthDone + (0.98 - truthDone) * 0.7;  // captures and errors are in the first visit
+        measure(renderer, truth, state, stage.part(truthDone, drawn));
+        timeAgain(renderer, truth, state, stage.part(drawn, 0.98));
         checkValidation(device_);
         stage.at(0.98, "write");
         tradeoff_.cost.whole = msSince(start_);
@@ -153,6 +161,7 @@ private:
                 tradeoff_.rows.push_back(std::move(*kept));
             } else {
                 RenderOptions render = renderOptions(options_);
+                render.runs = firstVisit(options_);
                 render.progress = stage.part(from, done / all);
                 MeasuredRow measured = measureRow(renderer, settings, truth, render);
                 tradeoff_.cost.drawing += measured.row.drawing_ms;
@@ -171,14 +180,23 @@ private:
         std::fflush(stdout);
     }
 
-    // The first row once more: a device that throttles, or a busy machine, shows.
-    void timeAgain(Renderer& renderer, const Truth& truth) {
-        if (tradeoff_.rows.size() < 2) return;
+    // The other half of the frames, the last row first: a device that slows down does so for all alike.
+    void timeAgain(Renderer& renderer, const Truth& truth, SweepState& state, const Stage& stage) {
         RenderOptions render = renderOptions(options_);
-        const MeasuredRow again = measureRow(renderer, tradeoff_.rows.front().settings, truth, render);
-        tradeoff_.cost.drawing += again.row.drawing_ms;
-        tradeoff_.first_ms = timeOf(tradeoff_.rows.front()).value;
-        tradeoff_.again_ms = timeOf(again.row).value;
+        render.runs = options_.runs - firstVisit(options_);
+        if (render.runs == 0) return;
+        double all = 0, done = 0;
+        for (const TradeoffRow& row : tradeoff_.rows) all += weightOf(row.settings);
+        for (TradeoffRow& row : tradeoff_.rows | std::views::reverse) {
+            const double from = done / all;
+            done += weightOf(row.settings);
+            if (row.cameras.front().visits.size() > 1) continue;
+            render.progress = stage.part(from, done / all);
+            const double before = row.drawing_ms;
+            diptych::timeAgain(renderer, row, truth, render);
+            tradeoff_.cost.drawing += row.drawing_ms - before;
+            state.renew(row);
+        }
     }
 
     const Options& options_;

@@ -158,7 +158,7 @@ public:
         drawTimed(passes);
         lit_ = readLit(passes, images);
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
-        capture(passes, images);
+        if (!options_.channels.empty()) capture(passes, images);
         frame_.asked = options_.asked;
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -18,7 +18,8 @@ namespace diptych {
 class Device;
 
 struct RenderOptions {
-    std::vector<int> channels;     // debug modes; a forward-only one is left out of a deferred Frame
+    // Debug modes; a forward-only one is left out of a deferred Frame. Empty: it is timed, and nothing else.
+    std::vector<int> channels;
     std::vector<int> asked;        // of these, Frame::asked; empty: all
     int runs = 5;                  // timed frames; 0: no times, no profile
     bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding

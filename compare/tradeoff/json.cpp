@@ -54,6 +54,7 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
     for (const ErrorFigure& figure : errorFigures)
         figures.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
     const SweepCost& cost = tradeoff.cost;
+    const std::optional<Spread> drift = driftOf(tradeoff);
     const Json json{
         {"schema", 1},
         {"software", softwareName},
@@ -74,7 +75,8 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
         {"skipped", skips},
         {"notes", tradeoff.notes},
         {"rows_kept", tradeoff.kept},
-        {"first_row_ms", {{"first", tradeoff.first_ms}, {"again", tradeoff.again_ms}}},
+        {"second_visit",
+         drift ? Json{{"median", drift->value}, {"min", drift->low}, {"max", drift->high}} : Json(nullptr)},
         {"cost_ms",
          {{"whole", cost.whole},
           {"reading", cost.reading},

@@ -117,7 +117,7 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth
         Frame frame = renderer.draw(seen, drawing);
         row.drawing_ms += frame.made_in_ms;
         warn(row, frame);
-        CameraRow camera{cameraTitle(frame), frame.time, frame.passes, frame.bytes, {}, 0};
+        CameraRow camera{cameraTitle(frame), {frame.time}, frame.passes, frame.bytes, {}, 0};
         frame = upsampled(std::move(frame), reference.settings.size);
         const FrameErrors errors = errorsOf(reference, frame);
         camera.errors = errors.errors;
@@ -134,6 +134,21 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth
     row.errors = {flipPixels > 0 ? knownOrInfinite(flipSum / flipPixels) : 0, relative.rmse, relative.p99};
     if (truth.frames.size() == 1) row.errors = row.cameras.front().errors;
     return measured;
+}
+
+void timeAgain(Renderer& renderer, TradeoffRow& row, const Truth& truth, const RenderOptions& options) {
+    RenderOptions timing = options;
+    timing.channels.clear();
+    timing.asked.clear();
+    for (std::size_t i = 0; i < truth.frames.size(); ++i) {
+        const double from = static_cast<double>(i), all = static_cast<double>(truth.frames.size());
+        timing.progress = options.progress.part(from / all, (from + 1) / all);
+        Settings seen = row.settings;
+        seen.camera = truth.frames[i].settings.camera;
+        const Frame frame = renderer.draw(seen, timing);
+        row.drawing_ms += frame.made_in_ms;
+        row.cameras[i].visits.push_back(frame.time);
+    }
 }
 
 }  // namespace diptych

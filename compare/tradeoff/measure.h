@@ -40,9 +40,13 @@ struct MeasuredRow {
     TradeoffRow row;
     Image8 picture, errors;  // of the first camera
 };
-// Draws and times the Settings from every camera of the truth. `options`: runs, said, progress.
+// Draws and times the Settings from every camera of the truth: a first visit. `options`: runs, said,
+// progress.
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth& truth,
                        const RenderOptions& options);
+
+// One visit more, of `options.runs` frames.
+void timeAgain(Renderer& renderer, TradeoffRow& row, const Truth& truth, const RenderOptions& options);
 
 // lit as the pages show it, not wider than a card.
 Image8 thumbnail(const Frame& frame, const Exposure& exposure);

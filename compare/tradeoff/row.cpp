@@ -39,10 +39,16 @@ Json jsonOf(const std::vector<PassTime>& passes) {
     return json;
 }
 
+Json jsonOf(const FrameTime& time) {
+    return {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}};
+}
+
 Json jsonOf(const CameraRow& camera) {
-    const FrameTime& time = camera.time;
+    Json visits = Json::array();
+    for (const FrameTime& visit : camera.visits) visits.push_back(jsonOf(visit));
     return {{"camera", camera.camera},
-            {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
+            {"ms", jsonOf(timeOf(camera))},
+            {"visits", visits},
             {"passes", jsonOf(camera.passes)},
             {"bytes",
              {{"images", camera.bytes.images},
@@ -55,8 +61,9 @@ Json jsonOf(const CameraRow& camera) {
 CameraRow cameraFrom(const Json& json) {
     CameraRow camera;
     camera.camera = json.at("camera");
-    const Json &ms = json.at("ms"), &bytes = json.at("bytes");
-    camera.time = {ms.at("median"), ms.at("min"), ms.at("max"), ms.at("runs")};
+    const Json& bytes = json.at("bytes");
+    for (const Json& visit : json.at("visits"))
+        camera.visits.push_back({visit.at("median"), visit.at("min"), visit.at("max"), visit.at("runs")});
     for (const Json& pass : json.at("passes")) camera.passes.push_back({pass.at("name"), pass.at("ms")});
     camera.bytes = {bytes.at("images"), bytes.at("buffers"), bytes.at("gbuffer_per_pixel")};
     camera.errors = errorsFrom(json.at("errors"));
@@ -66,10 +73,24 @@ CameraRow cameraFrom(const Json& json) {
 
 }  // namespace
 
+FrameTime timeOf(const CameraRow& camera) {
+    if (camera.visits.empty()) return {};
+    FrameTime time = camera.visits.front();
+    time.median = 0;
+    time.runs = 0;
+    for (const FrameTime& visit : camera.visits) {
+        time.median += visit.median / static_cast<double>(camera.visits.size());
+        time.min = std::min(time.min, visit.min);
+        time.max = std::max(time.max, visit.max);
+        time.runs += visit.runs;
+    }
+    return time;
+}
+
 Spread timeOf(const TradeoffRow& row) {
-    return {mean(row, [](const CameraRow& c) { return c.time.median; }),
-            mean(row, [](const CameraRow& c) { return c.time.min; }),
-            mean(row, [](const CameraRow& c) { return c.time.max; })};
+    return {mean(row, [](const CameraRow& c) { return timeOf(c).median; }),
+            mean(row, [](const CameraRow& c) { return timeOf(c).min; }),
+            mean(row, [](const CameraRow& c) { return timeOf(c).max; })};
 }
 
 Spread errorOf(const TradeoffRow& row, std::size_t figure) {

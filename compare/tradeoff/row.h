@@ -25,8 +25,8 @@ inline constexpr std::array errorFigures{
 using Errors = std::array<double, errorFigures.size()>;
 
 struct CameraRow {
-    std::string camera;  // its title: "default view"
-    FrameTime time;
+    std::string camera;             // its title: "default view"
+    std::vector<FrameTime> visits;  // the frames timed at once
     std::vector<PassTime> passes;
     FrameBytes bytes;
     Errors errors{};
@@ -42,6 +42,10 @@ struct TradeoffRow {
     std::string errors_map{};  // file of the picture of FLIP
     std::vector<std::string> warnings{};
 };
+
+// Of all visits: the mean of their medians, so that each counts alike; the least and greatest time, all
+// frames.
+FrameTime timeOf(const CameraRow& camera);
 
 struct Spread {
     double value = 0, low = 0, high = 0;

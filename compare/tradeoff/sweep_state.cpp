@@ -124,6 +124,10 @@ void SweepState::keep(MeasuredRow& measured) {
     row.errors_map = errorsOf(row.settings);
     writePng(folder_ / row.picture, measured.picture);
     writePng(folder_ / row.errors_map, measured.errors);
+    renew(row);
+}
+
+void SweepState::renew(const TradeoffRow& row) {
     writeFile(folder_ / (nameOf(row.settings) + ".json"), textOf(jsonOf(row)));
 }
 

@@ -24,7 +24,8 @@ public:
 
     bool isRenewed() const { return renewed_; }  // there were rows of another key
     std::optional<TradeoffRow> find(const Settings& settings) const;
-    void keep(MeasuredRow& measured);  // names the row's pictures
+    void keep(MeasuredRow& measured);    // names the row's pictures
+    void renew(const TradeoffRow& row);  // of one that is kept
     // Of a kept row, under a name of the folder.
     std::filesystem::path operator/(const std::string& file) const { return folder_ / file; }
     void remove();  // all of it: the sweep is done

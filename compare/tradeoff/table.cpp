@@ -42,12 +42,12 @@ std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
     if (tradeoff.kept > 0)
         lines.push_back(fmt::format("{} of {} rows were measured by a run that was cut short, with its times",
                                     tradeoff.kept, tradeoff.rows.size()));
-    if (tradeoff.again_ms > 0 && tradeoff.first_ms > 0)
+    if (const std::optional<Spread> drift = driftOf(tradeoff))
         lines.push_back(
-            fmt::format("row 1 was timed again at the end: {:.4g} ms, {:+.1f} % of before; differences of "
-                        "time as small as "
-                        "that say nothing",
-                        tradeoff.again_ms, 100 * (tradeoff.again_ms / tradeoff.first_ms - 1)));
+            fmt::format("half of the frames were timed at the end, the last row first: they took {:.3g} of "
+                        "the time of the first "
+                        "half ({:.3g} to {:.3g}); a row that is faster by less than that may not be",
+                        drift->value, drift->low, drift->high));
     return lines;
 }
 
@@ -59,6 +59,8 @@ std::string tradeoffEnd(const Tradeoff& tradeoff) {
         out += fmt::format("front of time and {}: row {}\n", errorFigures[figure].title,
                            numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", ")));
     }
+    if (driftOf(tradeoff))
+        out += "note: times above are of a row's first visit; those of the files are of all its frames\n";
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         for (const std::string& warning : tradeoff.rows[i].warnings)
             out += fmt::format("warning: row {}: {}\n", i + 1, warning);

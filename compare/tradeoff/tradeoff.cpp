@@ -66,6 +66,22 @@ std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, s
     return front;
 }
 
+std::optional<Spread> driftOf(const Tradeoff& tradeoff) {
+    std::vector<double> ratios;
+    for (const TradeoffRow& row : tradeoff.rows) {
+        double first = 0, second = 0;
+        for (const CameraRow& camera : row.cameras) {
+            if (camera.visits.size() < 2) return {};
+            first += camera.visits[0].median;
+            second += camera.visits[1].median;
+        }
+        if (first > 0) ratios.push_back(second / first);
+    }
+    if (ratios.empty()) return {};
+    std::ranges::sort(ratios);
+    return Spread{ratios[ratios.size() / 2], ratios.front(), ratios.back()};
+}
+
 std::vector<Path> pathsOf(const Tradeoff& tradeoff) {
     std::vector<Path> paths;
     for (const auto& [path, name] : enumNames<Path>())

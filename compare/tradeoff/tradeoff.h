@@ -33,8 +33,6 @@ struct Tradeoff {
     std::vector<std::string> notes;
     std::string reference_picture;
     std::size_t kept = 0;  // rows that an earlier run measured
-    // The first row, timed once more at the end: what the device's speed did meanwhile. 0: it was not.
-    double first_ms = 0, again_ms = 0;
     SweepCost cost;
 };
 
@@ -42,6 +40,10 @@ struct Tradeoff {
 std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> path);
 std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path = {});
 std::vector<Path> pathsOf(const Tradeoff& tradeoff);  // that have rows, in the enumeration's order
+
+// The time of the second visit of a row over that of the first: the median row's, the least and the greatest;
+// what the device's speed did meanwhile. Nothing where there was one visit.
+std::optional<Spread> driftOf(const Tradeoff& tradeoff);
 
 // Commands for a shell: the row measured again by itself; its picture; its errors beside those of the other
 // path, channel by channel: empty where its own reference would be another, for its size.

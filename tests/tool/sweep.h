@@ -26,7 +26,7 @@ inline const std::vector<std::string> longSweep{
     "--size",
     "64x48",
     "--runs",
-    "60",
+    "300",
     "-o",
     "t",
     "--grid",
