@@ -9,6 +9,7 @@
 #include "compare/reference/sampling.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/scene/axes.h"
 
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
@@ -82,8 +83,9 @@ public:
         Surface s;
         s.position = value(gpu::DEBUG_position, pixel);
         s.to_viewer = rays.toViewer(s.position);
-        s.normal = value(gpu::DEBUG_normals, pixel);
-        s.geometric_normal = value(gpu::DEBUG_geometric_normal, pixel);
+        // A unit vector in float32 is off by up to 1e-7, which 1 - (n.h)^2 at a highlight does not forgive.
+        s.normal = unitOr(value(gpu::DEBUG_normals, pixel), s.to_viewer);
+        s.geometric_normal = unitOr(value(gpu::DEBUG_geometric_normal, pixel), s.to_viewer);
         s.albedo = value(gpu::DEBUG_albedo, pixel);
         s.metallic = value(gpu::DEBUG_metallic, pixel).x;
         s.roughness = value(gpu::DEBUG_roughness, pixel).x;
