@@ -74,6 +74,13 @@ Output outputOf(const fs::path& out) {
                     out.string(), out.extension().string()));
 }
 
+fs::path besideOutput(const fs::path& out, const std::string& what) {
+    fs::path path = fs::absolute(out).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    path = path.parent_path() / fmt::format(".{}.{}", path.filename().string(), what);
+    return out.is_absolute() ? path : path.lexically_proximate(fs::current_path());
+}
+
 bool isOurMark(const fs::path& file) {
     return ourJson(file).is_object();
 }

@@ -19,6 +19,9 @@ struct Output {
 // is one whatever its ending. Throws std::runtime_error naming -o for any other ending.
 Output outputOf(const std::filesystem::path& out);
 
+// ".NAME.what" beside an output: where what is done of it is kept until it is whole.
+std::filesystem::path besideOutput(const std::filesystem::path& out, const std::string& what);
+
 // Every JSON, EXR and PNG of ours says so: what to look for, and what to write.
 inline constexpr const char* softwareName = "diptych";
 

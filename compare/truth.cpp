@@ -3,7 +3,7 @@
 
 #include "compare/interruption.h"
 #include "compare/metrics/channel.h"
-#include "compare/metrics/order.h"
+#include "compare/output.h"
 #include "compare/reference/reference.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -131,12 +131,9 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
 }
 
 fs::path KeptReferences::next() {
-    // A folder's name may end in a slash.
-    const fs::path output = output_.has_filename() ? output_ : output_.parent_path();
+    files_.push_back(besideOutput(output_, fmt::format("reference-{}", files_.size() + 1)));
     std::error_code ignored;  // what cannot be made is said by who writes there
-    if (is_folder_ && output.has_parent_path()) fs::create_directories(output.parent_path(), ignored);
-    files_.push_back(output.parent_path() /
-                     fmt::format(".{}.reference-{}", output.filename().string(), files_.size() + 1));
+    if (is_folder_ && files_.back().has_parent_path()) fs::create_directories(files_.back().parent_path(), ignored);
     sayWhenInterrupted(fmt::format("what is done of the reference is kept in {}: the same command goes on from there",
                                    files_.back().string()));
     return files_.back();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/checkpoint.h"
 
+#include "compare/reference/key.h"
 #include "shared/image/atomic_file.h"
 
 #include <cerrno>
@@ -29,10 +30,6 @@ std::uint64_t sumOf(std::uint64_t number, std::span<const float> values) {
 }
 
 }  // namespace
-
-void Key::add(std::span<const std::byte> bytes) {
-    for (const std::byte byte : bytes) value_ = (value_ ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
-}
 
 Checkpoint::Checkpoint(std::filesystem::path file, std::uint64_t key, std::size_t floats)
     : file_(std::move(file)), floats_(floats) {

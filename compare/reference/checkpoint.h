@@ -11,26 +11,6 @@
 
 namespace diptych::reference {
 
-// A hash of what decides a picture (FNV-1a of 64 bits; Fowler, Noll and Vo 1991): a file of another one is not gone
-// on from.
-class Key {
-public:
-    void add(std::span<const std::byte> bytes);
-    template <class T>
-    void add(const T& value) {
-        add(std::as_bytes(std::span(&value, 1)));
-    }
-    template <class T>
-    void addAll(const std::vector<T>& values) {
-        add(values.size());
-        add(std::as_bytes(std::span(values)));
-    }
-    std::uint64_t value() const { return value_; }
-
-private:
-    std::uint64_t value_ = 0xcbf29ce484222325u;
-};
-
 // Records of floats, numbered, each with a checksum: however the program ends, what is whole in the file counts. From
 // any thread.
 class Checkpoint {

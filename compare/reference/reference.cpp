@@ -3,6 +3,7 @@
 
 #include "compare/reference/checkpoint.h"
 #include "compare/reference/geometry.h"
+#include "compare/reference/key.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/material.h"
 #include "compare/reference/pixel_rays.h"

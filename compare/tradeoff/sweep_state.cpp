@@ -2,6 +2,7 @@
 #include "compare/tradeoff/sweep_state.h"
 
 #include "compare/output.h"
+#include "compare/reference/key.h"
 #include "shared/image/atomic_file.h"
 
 #include <fcntl.h>
@@ -46,24 +47,20 @@ std::string errorsOf(const Settings& settings) {
 }  // namespace
 
 std::string fingerprint(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return fmt::format("{:016x}", hash);
+    reference::Key key;
+    key.add(std::as_bytes(std::span(bytes)));
+    return fmt::format("{:016x}", key.value());
 }
 
 std::string fingerprint(const Truth& truth) {
-    std::string all;
+    reference::Key key;
     for (const Frame& frame : truth.frames)
-        for (const auto& [mode, image] : frame.channels)
-            all += fingerprint(
-                {reinterpret_cast<const char*>(image.data.data()), image.data.size() * sizeof(float)});
-    return fingerprint(all);
+        for (const auto& [mode, image] : frame.channels) key.addAll(image.data);
+    return fmt::format("{:016x}", key.value());
 }
 
 fs::path SweepState::folderOf(const fs::path& out) {
-    fs::path path = fs::absolute(out).lexically_normal();
-    if (!path.has_filename()) path = path.parent_path();
-    return path.parent_path() / fmt::format(".{}.sweep", path.filename().string());
+    return besideOutput(out, "sweep");
 }
 
 SweepState::SweepState(const fs::path& out, const Json& key) : folder_(folderOf(out)) {
