@@ -25,21 +25,27 @@ Reflected through(const Brdf& brdf, const Patch::Point& point) {
 }
 
 // A cell is split as long as the mirror image of the viewer could hide in it: as it is wider than the lobe there. A
-// turn of the light by an angle turns the half vector by that over 2 v.h.
-bool mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
+// turn of the light by an angle turns the half vector by that over 2 v.h. And as long as it is wide itself: of a
+// light that reaches far away, what is near is a small part of the cell and most of what arrives.
+Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     const auto direction = [&](double u, double v) { return glm::normalize(patch.at(u, v).place); };
-    const glm::dvec3 middle = direction((cell.u0 + cell.u1) / 2, (cell.v0 + cell.v1) / 2);
+    const double u = (cell.u0 + cell.u1) / 2, v = (cell.v0 + cell.v1) / 2;
+    const glm::dvec3 middle = direction(u, v);
+    const auto from = [&](double at_u, double at_v) { return glm::length(direction(at_u, at_v) - middle); };
     double radius = 0;
-    for (const double u : {cell.u0, cell.u1})
-        for (const double v : {cell.v0, cell.v1})
-            radius = std::max(radius, glm::length(direction(u, v) - middle));
+    for (const double at_u : {cell.u0, cell.u1})
+        for (const double at_v : {cell.v0, cell.v1}) radius = std::max(radius, from(at_u, at_v));
+    const bool u_is_wider =
+        std::max(from(cell.u0, v), from(cell.u1, v)) >= std::max(from(u, cell.v0), from(u, cell.v1));
+    const auto split = [&](bool wanted) { return !wanted ? Split::none : u_is_wider ? Split::u : Split::v; };
+    if (radius > 0.5) return split(true);
     const glm::dvec3 sum = middle + brdf.toViewer();
     const double length = glm::length(sum);
-    if (!(length > 1e-9)) return radius > 0.1;
+    if (!(length > 1e-9)) return split(radius > 0.1);
     const glm::dvec3 half = sum / length;
     const double turn = radius / (2 * std::max(glm::dot(brdf.toViewer(), half), 0.05));
     const double apart = glm::length(glm::cross(brdf.normal(), half));  // sine of the angle from the lobe's middle
-    return turn > std::max(brdf.alpha(), apart - turn);
+    return split(turn > std::max(brdf.alpha(), apart - turn));
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -18,6 +18,11 @@ struct Cell {
         const double u = (u0 + u1) / 2, v = (v0 + v1) / 2;
         return {{{u0, u, v0, v}, {u, u1, v0, v}, {u0, u, v, v1}, {u, u1, v, v1}}};
     }
+    std::array<Cell, 2> halves(bool across_u) const {
+        const double u = (u0 + u1) / 2, v = (v0 + v1) / 2;
+        if (across_u) return {{{u0, u, v0, v1}, {u, u1, v0, v1}}};
+        return {{{u0, u1, v0, v}, {u0, u1, v, v1}}};
+    }
 };
 
 struct Integral {
@@ -41,9 +46,12 @@ Reflected gauss(const Integrand& f, const Cell& cell) {
     return sum * (du * dv);
 }
 
+// A cell that must be split before it is asked, and which way: a lobe that no point of a cell meets would not be
+// missed by it.
+enum class Split { none, u, v };
+
 // Splits a cell into quarters until these together say what it says alone, to within `relative` of the whole's
-// size; cells of which `mustSplit(cell)` is true are split before they are asked (a lobe that no point of a cell
-// meets would not be missed by it). `leaves`, where given, receives the cells at the end and their integrals.
+// size; `mustSplit(cell)` is a Split. `leaves`, where given, receives the cells at the end and their integrals.
 struct Leaf {
     Cell cell;
     Reflected value;
@@ -71,8 +79,9 @@ private:
     static constexpr std::size_t most = 20000;  // cells
 
     void scout(const Cell& cell, int depth) {
-        if (depth < deepest && start_.size() < most / 4 && must_split_(cell)) {
-            for (const Cell& quarter : cell.quarters()) scout(quarter, depth + 1);
+        const Split split = depth < 2 * deepest && start_.size() < most / 4 ? must_split_(cell) : Split::none;
+        if (split != Split::none) {
+            for (const Cell& half : cell.halves(split == Split::u)) scout(half, depth + 1);
             return;
         }
         start_.push_back({cell, gauss(f_, cell)});

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Surfaces, lights and scenes that the tests of the reference hold against what is known of them.
+#pragma once
+
+#include "compare/reference/lighting.h"
+#include "compare/reference/reference.h"
+#include "shared/scene/scene.h"
+#include "shared/scene/view.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace diptych::reference {
+
+constexpr double pi = std::numbers::pi;
+
+// White, and without the dielectric's layer: what it sends is E / pi.
+inline Surface lambertian(const glm::dvec3& normal = {0, 0, 1}, const glm::dvec3& position = {0, 0, 0}) {
+    Surface s;
+    s.position = position;
+    s.normal = s.geometric_normal = s.to_viewer = glm::normalize(normal);
+    s.albedo = glm::dvec3(1);
+    s.dielectric_f90 = 0;
+    return s;
+}
+
+// F = 1 everywhere: what the specular lobe of `roughness` does alone, seen at an angle from the normal +Z.
+inline Surface mirror(double roughness, double angle) {
+    Surface s = lambertian();
+    s.to_viewer = {std::sin(angle), 0, std::cos(angle)};
+    s.metallic = 1;
+    s.roughness = roughness;
+    return s;
+}
+
+inline Light lightOf(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
+    Light light;
+    light.kind = kind;
+    light.position = position;
+    light.direction = glm::normalize(direction);
+    const glm::dvec3 other = std::abs(light.direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    light.axis = glm::normalize(glm::cross(other, light.direction));
+    return light;
+}
+
+inline Shading shadedBy(std::span<const Light> lights, const Surface& surface, const Open& open = {},
+                        std::uint64_t seed = 1) {
+    return Lighting(lights, nullptr, 1, {0, 0, 0})(surface, open, seed);
+}
+inline double reflectedBy(const Light& light, const Surface& surface) {
+    const Shading shading = shadedBy(std::span(&light, 1), surface);
+    EXPECT_LE(shading.uncertainty, 1e-6 * shading.reflected.size());
+    return shading.reflected.diffuse.g + shading.reflected.specular.g;
+}
+inline double irradianceBy(const Light& light, const Surface& surface) {
+    return reflectedBy(light, surface) * pi;
+}
+
+// Lambert's formula for a polygon of radiance 1 seen from the origin, over what of it is above the horizon: half
+// the sum over its edges of the angle each takes, times the cosine of its plane's normal. (Lambert 1760,
+// "Photometria"; Baum, Rushmeier and Winget 1989.) Any outline of a convex body, planar or not, will do.
+inline double lambertIrradiance(const std::vector<glm::dvec3>& outline, const glm::dvec3& n) {
+    std::vector<glm::dvec3> above;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const glm::dvec3 p = outline[i], q = outline[(i + 1) % outline.size()];
+        const double hp = glm::dot(p, n), hq = glm::dot(q, n);
+        if (hp >= 0) above.push_back(p);
+        if ((hp < 0) != (hq < 0)) above.push_back((p * hq - q * hp) / (hq - hp));
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+        const glm::dvec3 p = above[i], q = above[(i + 1) % above.size()], across = glm::cross(p, q);
+        const double size = glm::length(across);
+        if (size > 0) sum += std::atan2(size, glm::dot(p, q)) * glm::dot(across, n) / size;
+    }
+    return std::abs(sum) / 2;
+}
+
+inline std::vector<glm::dvec3> cornersOf(const Light& rect, const glm::dvec3& from = {0, 0, 0}) {
+    const glm::dvec3 x = rect.axis * (double{rect.width} / 2);
+    const glm::dvec3 y = glm::cross(rect.direction, rect.axis) * (double{rect.height} / 2);
+    const glm::dvec3 c = rect.position - from;
+    return {c - x - y, c + x - y, c + x + y, c - x + y};
+}
+
+// A circle, or an arc of it, as a polygon: its area lacks (angle / corners)^2 / 6 of itself, below 2e-8 here.
+inline void addArc(std::vector<glm::dvec3>& outline, const glm::dvec3& centre, const glm::dvec3& x,
+                   const glm::dvec3& y, double from, double to) {
+    constexpr int corners = 20000;
+    for (int i = 0; i <= corners; ++i) {
+        const double t = from + (to - from) * i / corners;
+        outline.push_back(centre + x * std::cos(t) + y * std::sin(t));
+    }
+}
+
+}  // namespace diptych::reference
