@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Both paths against the reference, the reference's two modes against each other, and planted faults on either side.
+#include "compare/diff.h"
+#include "shared/scene/requirements.h"
+#include "tests/image/scenes.h"
+
+namespace diptych::tests {
+namespace {
+
+Frame reference(const Scene& scene, Settings settings, ReferenceMode mode = ReferenceMode::surface) {
+    settings.path = Path::reference;
+    settings.reference_mode = mode;
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    return renderAll(device(), scene, {settings}, options).front();
+}
+
+ChannelStats against(const Frame& truth, const Frame& frame, int mode, const Coverage& covered) {
+    const DebugMode& m = debugMode(mode);
+    return channelStats(m.metric, m.kind, truth.channels.at(mode), frame.channels.at(mode), covered);
+}
+
+std::size_t nonfinite(const Frame& frame) {
+    std::size_t count = 0;
+    for (const auto& [mode, image] : frame.channels)
+        for (const float v : image.data) count += !std::isfinite(v);
+    return count;
+}
+
+// ---- both paths --------------------------------------------------------------------------------------
+
+// 1e-4 relative on 99.9 % of the pixels that show a surface: what float32 shading of a captured surface keeps.
+void expectTruth(const Scene& scene, Settings settings) {
+    settings.gbuffer = GBufferEncoding::full;
+    settings.assign = Assignment::every;
+    const Frame truth = reference(scene, settings);
+    for (const Frame& path : bothPaths(scene, settings)) {
+        const Coverage covered = coverage(truth, path);
+        ASSERT_GT(covered.count, 1000u);
+        for (const int mode : {0, 40, 41}) {
+            const ChannelStats stats = against(truth, path, mode, covered);
+            EXPECT_LE(stats.p999, 1e-4) << path.name << " " << debugMode(mode).name << ", max " << stats.max;
+            EXPECT_EQ(stats.infinite, 0u);
+        }
+    }
+}
+
+TEST(Reference, BothPathsDrawTheGallery) {
+    Settings settings;
+    settings.size = {240, 135};
+    expectTruth(loadScene("builtin:gallery"), settings);
+}
+
+TEST(Reference, BothPathsDrawSponza) {
+    const std::filesystem::path file = assets() / "sponza/Sponza.gltf";
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the gallery proves it";
+    Settings settings;
+    settings.size = {240, 135};
+    settings.lights = "point:12,spot:4";
+    expectTruth(loadScene(file.string()), settings);
+}
+
+// ---- its two modes -----------------------------------------------------------------------------------
+
+// Pixels of which both modes show one place. Coplanar triangles are anyone's, and of triangles of 200 km the raster
+// has the depth to 6e-4 of itself.
+Coverage samePlaces(const Frame& a, const Frame& b) {
+    const Image &depth = a.channels.at(10), &other = b.channels.at(10);
+    const Image &id = a.channels.at(8), &other_id = b.channels.at(8);
+    Coverage same{std::vector<std::uint8_t>(depth.pixels()), 0, true};
+    for (std::size_t i = 0; i < depth.pixels(); ++i) {
+        if (id.data[i] < 0 || id.data[i] != other_id.data[i]) continue;
+        if (std::abs(depth.data[i] - other.data[i]) > 1e-3f * depth.data[i]) continue;
+        same.covered[i] = 1;
+        ++same.count;
+    }
+    return same;
+}
+
+// The raster snaps corners to 1/256 of a pixel: a pixel may be off by what the channel changes by over 1/128 of the
+// way to its neighbours. Of the rest, 1e-4 relative.
+double shareBeyond(const Frame& traced, const Frame& surface, int mode, const Coverage& same) {
+    const Image &truth = traced.channels.at(mode), &image = surface.channels.at(mode);
+    const PixelError error(Metric::relative, debugMode(mode).kind, truth, same);
+    std::size_t beyond = 0;
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            const auto i = static_cast<std::size_t>(y * truth.width + x);
+            if (!same.covered[i]) continue;
+            float size = 0, apart = 0, range = 0;
+            for (int c = 0; c < truth.components; ++c) {
+                size = std::max(size, std::abs(truth.at(x, y, c)));
+                apart = std::max(apart, std::abs(truth.at(x, y, c) - image.at(x, y, c)));
+                for (int v = std::max(y - 1, 0); v <= std::min(y + 1, truth.height - 1); ++v)
+                    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, truth.width - 1); ++u)
+                        range = std::max(range, std::abs(truth.at(u, v, c) - truth.at(x, y, c)));
+            }
+            const double allowed = 1e-4 * std::max(double{size}, error.floor()) + double{range} / 128;
+            beyond += double{apart} > allowed;
+        }
+    return static_cast<double>(beyond) / static_cast<double>(std::max<std::size_t>(same.count, 1));
+}
+
+class BuiltinReference : public testing::TestWithParam<std::string> {};
+
+TEST_P(BuiltinReference, EveryChannelInBothModes) {
+    const Scene scene = loadScene(GetParam());
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {96, 54};
+    const Frame surface = reference(scene, settings), traced = reference(scene, settings, ReferenceMode::scene);
+    for (const Frame* frame : {&surface, &traced})
+        for (const DebugMode& mode : debugModes()) {
+            ASSERT_TRUE(frame->channels.contains(mode.number)) << mode.name;
+            EXPECT_EQ(frame->channels.at(mode.number).components, mode.width) << mode.name;
+        }
+    EXPECT_EQ(nonfinite(surface), 0u);
+    EXPECT_EQ(nonfinite(traced), 0u);
+    // Without textures nothing is filtered: where both see one place they see one surface.
+    const std::size_t shown = coveredPixels(traced);
+    if (!scene.textures.empty() || shown == 0) return;
+    const Coverage same = samePlaces(traced, surface);
+    const double least = GetParam() == "builtin:coplanar" ? 0.85 : 0.98;
+    EXPECT_GE(static_cast<double>(same.count), least * static_cast<double>(shown));
+    for (const int mode : {1, 3, 4, 5, 6, 7, 50})  // of the material
+        EXPECT_LE(against(traced, surface, mode, same).max, 1e-6) << debugMode(mode).name;
+    for (const int mode : {0, 40, 41})
+        EXPECT_LE(shareBeyond(traced, surface, mode, same), 2e-3) << debugMode(mode).name;
+}
+
+TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
+    Scene scene = loadScene("builtin:suns");
+    Settings settings = smallPicture(GBufferEncoding::full);
+    const Frame surface = reference(scene, settings);
+    scene.lights.front().intensity *= 1.01f;
+    const Frame traced = reference(scene, settings, ReferenceMode::scene);
+    EXPECT_GT(shareBeyond(traced, surface, 0, samePlaces(traced, surface)), 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinReference, testing::ValuesIn(builtinScenes()),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+// ---- planted faults ----------------------------------------------------------------------------------
+
+struct Fault {
+    const char* name;
+    void (*plant)(Scene&);
+};
+const Fault faults[] = {
+    {"AFactorOfPi",
+     [](Scene& s) {
+         for (Light& l : s.lights) l.intensity *= gpu::PI;
+     }},
+    {"RoughnessSquaredTwice",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.roughness *= m.roughness;
+     }},
+    {"ALightLeftOut", [](Scene& s) { s.lights.pop_back(); }},
+    {"ANormalFlipped",
+     [](Scene& s) {
+         for (Primitive& p : s.meshes.front().primitives)
+             for (glm::vec3& n : p.normals) n = -n;
+     }},
+};
+
+class ReferenceTwin : public testing::TestWithParam<Fault> {
+protected:
+    // The reference and both paths.
+    static std::vector<Frame> framesOf(const Scene& scene) {
+        Settings settings = smallPicture(GBufferEncoding::full);
+        settings.size = {96, 54};
+        std::vector<Frame> frames{reference(scene, settings)};
+        for (Frame& frame : bothPaths(scene, settings)) frames.push_back(std::move(frame));
+        return frames;
+    }
+    static Report verdict(const std::vector<Frame>& truth, const std::vector<Frame>& drawn, const Scene& scene) {
+        const Requirements needs = requirements(scene, poseAt(scene, 0));
+        const DeviceInfo& info = device().info();
+        return makeTruthReport({truth[0], drawn[1], drawn[2]}, {needs, needs, needs},
+                               {info.name, info.driver, info.type}, {}, {{}}, {{}});
+    }
+    static bool litFails(const Report& report, std::size_t comparison) {
+        for (const ChannelDiff& channel : report.comparisons.at(comparison).channels)
+            if (channel.mode->number == 0) return channel.verdict == Verdict::fail;
+        return false;
+    }
+};
+
+TEST_P(ReferenceTwin, IsSeenOnEitherSide) {
+    static const Scene scene = loadScene("builtin:gallery");
+    static const std::vector<Frame> sound = framesOf(scene);
+    Scene changed = scene;
+    GetParam().plant(changed);
+    const std::vector<Frame> faulty = framesOf(changed);
+    EXPECT_TRUE(verdict(sound, sound, scene).passed()) << "the control";
+    for (const Report& report : {verdict(faulty, sound, scene), verdict(sound, faulty, scene)}) {
+        EXPECT_FALSE(report.passed());
+        EXPECT_TRUE(litFails(report, 0)) << "the first path against the reference";
+        EXPECT_TRUE(litFails(report, 1)) << "the second path against the reference";
+        EXPECT_FALSE(litFails(report, 2)) << "the two paths share the fault";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, ReferenceTwin, testing::ValuesIn(faults),
+                         [](const auto& fault) { return std::string(fault.param.name); });
+
+}  // namespace
+}  // namespace diptych::tests
