@@ -128,10 +128,10 @@ Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint6
             rounds.add(sums[round] * (1.0 / static_cast<double>(next)));
         }
         done = next;
-        const double width =
-            std::max(caution * rounds.halfWidth(), 3 * piece / static_cast<double>(done * count));
-        if (width <= samplingError * std::max(whole, rounds.mean().size()) || done * count * samples >= mostSamples)
-            return {rounds.mean(), width};
+        const double size = rounds.mean().size(), width = caution * rounds.halfWidth();
+        const double unseen = 3 * piece / static_cast<double>(done * count);
+        if (std::max(width, unseen) <= samplingError * std::max(whole, size) || done * count * samples >= mostSamples)
+            return {rounds.mean(), size > 0 ? std::max(width, unseen) : width};
     }
 }
 

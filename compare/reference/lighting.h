@@ -22,7 +22,8 @@ namespace diptych::reference {
 // which is a thousand times the error where the integrand is smooth.
 inline constexpr double quadratureError = 2e-6;
 // What sampling goes on to, relative to what is sampled: half the 95 % confidence interval. And where it ends all
-// the same: the pixel's uncertainty says so.
+// the same: the pixel's uncertainty says so. Of a light that no sample sees no uncertainty is claimed: less than
+// samplingError of it may come through a hole between them.
 inline constexpr double samplingError = 0.01;
 inline constexpr std::uint32_t mostSamples = 65536;
 
