@@ -294,7 +294,7 @@ void addScene(Key& key, const Request& request) {
 
 // Everything that decides a pixel. The version goes up where the reference itself changes what it draws.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 1;
+    constexpr int version = 2;
     Key key;
     key.add(version);
     const View& view = request.view;
@@ -312,7 +312,11 @@ std::uint64_t keyOf(const Request& request) {
         key.add(l.axis);
     }
     key.add(request.environment_factor);
-    if (request.scene.environment) key.addAll(request.scene.environment->radiance.data);
+    if (request.scene.environment) {
+        const Image& sky = request.scene.environment->radiance;
+        key.add(glm::ivec2(sky.width, sky.height));
+        key.addAll(sky.data);
+    }
     if (request.surfaces)
         for (const auto& [mode, image] : *request.surfaces) key.addAll(image.data);
     if (request.mode == ReferenceMode::scene || request.shadows) addScene(key, request);
