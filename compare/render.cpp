@@ -20,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
@@ -178,11 +179,14 @@ private:
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
-    // Light that this path does not draw, and the reference does.
+    // What this path does not draw, or otherwise, and the reference does.
     std::vector<std::string> leftOutNotes() const {
         Pose pose = shot_.pose;
         pose.lights = shot_.lit_by;
-        return undrawnLight(settings_.path, requirements(scene_, pose));
+        const Requirements needs = requirements(scene_, pose);
+        std::vector<std::string> notes = undrawnLight(settings_.path, needs);
+        std::ranges::move(undrawnMotion(settings_.path, needs), std::back_inserter(notes));
+        return notes;
     }
 
     // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
@@ -312,12 +316,13 @@ FrameCamera cameraOf(const View& view) {
 std::vector<Light> litBy(const Scene& scene, const Pose& pose, const Settings& settings) {
     std::vector<Light> lights = pose.lights;
     if (!settings.lights.empty())
-        for (Light& light : makeLights(settings.lights, settings.seed, worldBounds(scene, pose)))
+        for (Light& light : makeLights(settings.lights, settings.seed, boundsAtStart(scene, pose)))
             lights.push_back(std::move(light));
     if (lights.empty() && !scene.environment) {
         // The sun stands behind the default view, whichever camera is chosen, so that it lights what faces
         // it.
-        Pose withoutCameras{pose.instances, {}, {}};
+        Pose withoutCameras = pose;
+        withoutCameras.cameras.clear();
         lights.push_back(defaultSun(makeView(scene, withoutCameras, "", 1, 1).backward()));
     }
     return lights;

@@ -79,14 +79,12 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
     const std::vector<MeshUse> uses = usesOf(model.meshes.size(), scene);
     std::vector<Mesh> meshes(model.meshes.size());
     std::vector<Task> tasks;
-    std::size_t morphed = 0;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const tinygltf::Mesh& file = model.meshes[m];
         meshes[m].name = file.name;
         if (!uses[m].drawn || file.primitives.empty()) continue;
         const std::size_t targets = file.primitives[0].targets.size();
         meshes[m].weights = readWeights(file, targets, fmt::format("mesh {}", m));
-        morphed += targets > 0;
         for (std::size_t p = 0; p < file.primitives.size(); ++p) tasks.push_back({m, p});
     }
     checkSize(model, tasks);
@@ -106,10 +104,6 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
     const std::size_t before = notes.size();
     for (std::vector<std::string>& some : found) std::ranges::move(some, std::back_inserter(notes));
     limitNotes(notes, before, "meshes");
-    if (morphed)
-        notes.push_back(
-            fmt::format("{} mesh{} with morph targets: drawn without them, morphing is not built yet",
-                        morphed, morphed == 1 ? "" : "es"));
     return meshes;
 }
 

@@ -47,6 +47,12 @@ public:
         left_ -= bytes;
         return readNumbers(model, accessor, who);
     }
+    // Channels share keyframes, but every node that they move has its own weights.
+    void holdWeights(std::size_t count, const std::string& who) {
+        const std::size_t bytes = count * sizeof(double);
+        if (bytes > left_) fail(who, fmt::format("{} weights more are too many", count));
+        left_ -= bytes;
+    }
 
 private:
     std::size_t left_;
@@ -61,7 +67,6 @@ public:
 
     void read() {
         std::map<int, int> place;  // of the file's skins in Scene::skins
-        std::size_t skinned = 0;
         const std::size_t before = scene_.notes.size();
         for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
             const tinygltf::Node& file = model_.nodes[n];
@@ -75,13 +80,8 @@ public:
             const auto [at, fresh] = place.emplace(file.skin, static_cast<int>(scene_.skins.size()));
             if (fresh) scene_.skins.push_back(skin(file.skin));
             scene_.nodes[static_cast<std::size_t>(scene_node_[n])].skin = at->second;
-            ++skinned;
         }
         limitNotes(scene_.notes, before, "skins");
-        if (skinned)
-            scene_.notes.push_back(
-                fmt::format("{} skinned mesh{}: drawn in bind pose, skinning is not built yet", skinned,
-                            skinned == 1 ? "" : "es"));
     }
 
 private:
@@ -157,11 +157,9 @@ public:
         const std::size_t before = scene_.notes.size();
         for (std::size_t a = 0; a < model_.animations.size(); ++a) animation(a);
         limitNotes(scene_.notes, before, "animations");
-        const std::size_t count = scene_.animations.size();
-        if (count)
-            scene_.notes.push_back(
-                fmt::format("{} animation{}: the scene is drawn at rest, animation is not built yet", count,
-                            count == 1 ? "" : "s"));
+        if (scene_.animations.size() > 1)
+            scene_.notes.push_back(fmt::format("{} animations: all play at once, later ones win",
+                                               scene_.animations.size()));
     }
 
 private:
@@ -198,6 +196,7 @@ private:
                 const Keyframes& these =
                     known == place.end() ? fresh : result.keyframes[static_cast<std::size_t>(keys)];
                 checkWidth(these, node, part, who);
+                if (part == AnimatedPart::weights) budget_.holdWeights(these.width, who);
                 if (known == place.end()) {
                     place[{channel.sampler, part}] = keys;
                     result.keyframes.push_back(std::move(fresh));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a scene's nodes and vertices move, as glTF 2.0 says it (3.7.2.2, 3.7.3, 3.11): keyframes, skins and
 // morph targets. Everything here has been checked when a scene has been loaded: indices lead somewhere,
-// numbers are finite, arrays are as long as each other asks. Nothing is drawn from it yet but the bind pose.
+// numbers are finite, arrays are as long as each other asks.
 #pragma once
 
 #include <glm/ext/quaternion_double.hpp>

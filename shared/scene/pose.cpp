@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "shared/scene/animation.h"
 #include "shared/scene/axes.h"
+#include "shared/scene/posed.h"
 #include "shared/scene/scene.h"
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace diptych {
 
@@ -16,7 +19,8 @@ namespace {
 
 // Every node's transform, parents in any order, chains of any length: each unresolved ancestor waits on a
 // stack until its own parent is known.
-std::vector<glm::dmat4> worldFromNode(const std::vector<Node>& nodes) {
+std::vector<glm::dmat4> worldFromNode(const std::vector<Node>& nodes,
+                                      const std::vector<glm::dmat4>& parentFromNode) {
     std::vector<glm::dmat4> world(nodes.size());
     std::vector<bool> known(nodes.size(), false);
     std::vector<std::size_t> waiting;
@@ -29,12 +33,18 @@ std::vector<glm::dmat4> worldFromNode(const std::vector<Node>& nodes) {
         for (; !waiting.empty(); waiting.pop_back()) {
             const std::size_t n = waiting.back();
             const Node& node = nodes[n];
-            world[n] = node.parent < 0 ? node.parent_from_node
-                                       : world[static_cast<std::size_t>(node.parent)] * node.parent_from_node;
+            world[n] = node.parent < 0 ? parentFromNode[n]
+                                       : world[static_cast<std::size_t>(node.parent)] * parentFromNode[n];
             known[n] = true;
         }
     }
     return world;
+}
+
+std::vector<glm::dmat4> worldFromNodeAtRest(const std::vector<Node>& nodes) {
+    std::vector<glm::dmat4> parentFromNode;
+    for (const Node& node : nodes) parentFromNode.push_back(node.parent_from_node);
+    return worldFromNode(nodes, parentFromNode);
 }
 
 // A light ignores its node's scale: only where it stands and where it points counts. A node that is
@@ -102,22 +112,74 @@ glm::dvec3 extentOf(const Primitive& primitive) {
     return glm::dvec3(extent);
 }
 
+std::vector<glm::dmat4> worldFromMesh(const Skin& skin, const std::vector<glm::dmat4>& world) {
+    std::vector<glm::dmat4> result;
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+        result.push_back(world[static_cast<std::size_t>(skin.joints[j])] * glm::dmat4(skin.joint_from_mesh[j]));
+    return result;
+}
+
+// The weights of nodes' morph targets, those of a mesh once for all nodes that have no others.
+class Weights {
+public:
+    Weights(const Scene& scene, NodeMotion& motion, Pose& pose)
+        : scene_(scene), motion_(motion), pose_(pose), place_of_mesh_(scene.meshes.size(), unknown) {}
+
+    // Their place in the pose; -1 where all are 0.
+    int placeOf(int index) {
+        const Node& node = scene_.nodes[static_cast<std::size_t>(index)];
+        if (const auto moved = motion_.weights.find(index); moved != motion_.weights.end())
+            return add(std::move(moved->second));
+        if (node.weights >= 0) return addCopy(scene_.weights[static_cast<std::size_t>(node.weights)]);
+        int& place = place_of_mesh_[static_cast<std::size_t>(node.mesh)];
+        if (place == unknown) place = addCopy(scene_.meshes[static_cast<std::size_t>(node.mesh)].weights);
+        return place;
+    }
+
+private:
+    static constexpr int unknown = -2;
+
+    int addCopy(const std::vector<float>& weights) { return add({weights.begin(), weights.end()}); }
+    int add(std::vector<double> weights) {
+        if (std::ranges::all_of(weights, [](double w) { return w == 0; })) return -1;
+        pose_.weights.push_back(std::move(weights));
+        return static_cast<int>(pose_.weights.size()) - 1;
+    }
+
+    const Scene& scene_;
+    NodeMotion& motion_;
+    Pose& pose_;
+    std::vector<int> place_of_mesh_;
+};
+
 }  // namespace
 
 double Bounds::radius() const {
     return empty() ? 0.0 : glm::length(max - min) * 0.5;
 }
 
-Pose poseAt(const Scene& scene, double /*seconds*/) {
-    const std::vector<glm::dmat4> world = worldFromNode(scene.nodes);
+Pose poseAt(const Scene& scene, double seconds) {
+    NodeMotion motion = motionAt(scene, seconds);
+    const std::vector<glm::dmat4> world = worldFromNode(scene.nodes, motion.parent_from_node);
     Pose pose;
+    pose.seconds = seconds;
+    for (const Skin& skin : scene.skins) pose.skins.push_back(worldFromMesh(skin, world));
+    Weights weights(scene, motion, pose);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-        const std::vector<Primitive>& primitives = primitivesOf(scene, scene.nodes[n]);
+        const Node& node = scene.nodes[n];
+        const std::vector<Primitive>& primitives = primitivesOf(scene, node);
+        const int placeOfWeights = primitives.empty() ? -1 : weights.placeOf(static_cast<int>(n));
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             const glm::dmat4 worldFromObject = worldFromPrimitive(scene, world, n, primitives[p]);
-            if (isWithin(worldFromObject))
-                pose.instances.push_back(
-                    {scene.nodes[n].mesh, static_cast<int>(p), static_cast<int>(n), worldFromObject});
+            // At rest all vertices have been looked at (leaveOutWhatIsBeyond).
+            const glm::dvec3 extent = scene.animations.empty() ? glm::dvec3(0) : extentOf(primitives[p]);
+            if (!isWithin(worldFromObject, extent)) continue;
+            pose.instances.push_back({.mesh = node.mesh,
+                                      .primitive = static_cast<int>(p),
+                                      .node = static_cast<int>(n),
+                                      .world_from_object = worldFromObject,
+                                      .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
+                                      .weights = placeOfWeights});
         }
     }
     for (const Light& light : scene.lights)
@@ -134,7 +196,7 @@ Pose poseAt(const Scene& scene, double /*seconds*/) {
 }
 
 void leaveOutWhatIsBeyond(Scene& scene) {
-    const std::vector<glm::dmat4> world = worldFromNode(scene.nodes);
+    const std::vector<glm::dmat4> world = worldFromNodeAtRest(scene.nodes);
     std::vector<std::vector<glm::dvec3>> extents;
     for (const Mesh& mesh : scene.meshes) {
         extents.emplace_back();
@@ -165,15 +227,25 @@ void leaveOutWhatIsBeyond(Scene& scene) {
 
 Bounds worldBounds(const Scene& scene, const Pose& pose) {
     Bounds bounds;
+    const auto add = [&](const glm::dvec3& p) {
+        bounds.min = glm::min(bounds.min, p);
+        bounds.max = glm::max(bounds.max, p);
+    };
     for (const Instance& instance : pose.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        for (const glm::vec3& p : mesh.primitives[static_cast<std::size_t>(instance.primitive)].positions) {
-            const glm::dvec3 q(instance.world_from_object * glm::dvec4(p, 1.0));
-            bounds.min = glm::min(bounds.min, q);
-            bounds.max = glm::max(bounds.max, q);
+        if (instance.deformed()) {
+            for (const glm::dvec3& p : posedPositions(scene, pose, instance))
+                if (!std::isnan(p.x)) add(p);
+            continue;
         }
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        for (const glm::vec3& p : mesh.primitives[static_cast<std::size_t>(instance.primitive)].positions)
+            add(glm::dvec3(instance.world_from_object * glm::dvec4(p, 1.0)));
     }
     return bounds;
+}
+
+Bounds boundsAtStart(const Scene& scene, const Pose& pose) {
+    return pose.seconds == 0 ? worldBounds(scene, pose) : worldBounds(scene, poseAt(scene, 0));
 }
 
 }  // namespace diptych

@@ -177,10 +177,14 @@ struct Scene {
 // squares in float32, which ends at 3.4e38.
 inline constexpr double maxCoordinate = 1e18;  // m
 
-// A mesh's primitive where the node tree puts it.
+// A mesh's primitive where the node tree puts it. Where joints or morph targets move its vertices, posed.h has
+// them; world_from_object is then where it stands undeformed: where its skin's first joint puts it.
 struct Instance {
     int mesh = 0, primitive = 0, node = 0;
     glm::dmat4 world_from_object{1.0};
+    int skin = -1;     // into Pose::skins
+    int weights = -1;  // into Pose::weights; -1: no target adds anything
+    bool deformed() const { return skin >= 0 || weights >= 0; }
 };
 
 // The scene at one time: everything in world space.
@@ -188,6 +192,9 @@ struct Pose {
     std::vector<Instance> instances;  // in node order, primitives in order
     std::vector<Light> lights;        // node = -1, world position and direction, directional ones first
     std::vector<Camera> cameras;      // node = -1
+    double seconds = 0;
+    std::vector<std::vector<glm::dmat4>> skins;  // as Scene::skins: world from mesh, by each joint
+    std::vector<std::vector<double>> weights;    // of morph targets, not all 0
 };
 
 struct Bounds {
@@ -197,10 +204,12 @@ struct Bounds {
     double radius() const;  // of the sphere around centre(); 0 where empty
 };
 
-// Skinned meshes stand in bind pose: undeformed where their skin's first joint puts them. What has no place
-// (a transform that is not finite or reaches beyond maxCoordinate) is not in the pose.
+// Animations play from 0 s on, as animation.h says. What has no place (a transform that is not finite or reaches
+// beyond maxCoordinate) is not in the pose.
 Pose poseAt(const Scene& scene, double seconds);
-Bounds worldBounds(const Scene& scene, const Pose& pose);  // over every vertex of every instance
+Bounds worldBounds(const Scene& scene, const Pose& pose);  // over every vertex of every instance, posed
+// Those at 0 s, whenever the pose is: what is laid out around a scene stays while it moves.
+Bounds boundsAtStart(const Scene& scene, const Pose& pose);
 
 // What is beyond maxCoordinate at rest is taken from its node, lights and cameras from the scene, with a
 // note.

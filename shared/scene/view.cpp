@@ -2,6 +2,7 @@
 #include "shared/scene/view.h"
 
 #include "shared/scene/axes.h"
+#include "shared/scene/posed.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -167,8 +168,11 @@ bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) 
         if (scene.materials[static_cast<std::size_t>(primitive.material)].double_sided) return true;
         const glm::dmat4& worldFromObject = instance.world_from_object;
         const double handedness = glm::determinant(glm::dmat3(worldFromObject)) < 0 ? -1 : 1;
+        const std::vector<glm::dvec3> posed =
+            instance.deformed() ? posedPositions(scene, pose, instance) : std::vector<glm::dvec3>();
         const auto corner = [&](std::size_t i) {
-            return glm::dvec3(worldFromObject * glm::dvec4(primitive.positions[primitive.indices[i]], 1.0));
+            const std::uint32_t v = primitive.indices[i];
+            return posed.empty() ? glm::dvec3(worldFromObject * glm::dvec4(primitive.positions[v], 1.0)) : posed[v];
         };
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
             const glm::dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
@@ -306,8 +310,11 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
     if (own) {
         view.camera = *own;
     } else if (choice.empty() || choice.find('=') != choice.npos) {
-        const Bounds bounds = worldBounds(scene, pose);
-        view = defaultView(scene, pose, bounds, static_cast<double>(width) / height);
+        const double aspect = static_cast<double>(width) / height;
+        const Bounds bounds = boundsAtStart(scene, pose);
+        // From which side, too, is decided as the scene begins: the camera does not jump about what moves.
+        view = pose.seconds == 0 ? defaultView(scene, pose, bounds, aspect)
+                                 : defaultView(scene, poseAt(scene, 0), bounds, aspect);
         if (!choice.empty()) view = explicitView(view, bounds, choice);
     } else {
         fail(choice, fmt::format("{}; it takes {}", listOf(pose.cameras), accepted));
