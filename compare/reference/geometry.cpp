@@ -12,7 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 namespace diptych::reference {
 
@@ -74,16 +73,22 @@ RTCRay single(const Ray& ray) {
 
 }  // namespace
 
-Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye)
-    : scene_(scene), pose_(pose), eye_(eye), embree_(std::make_unique<Embree>()) {
+Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool deforming)
+    : scene_(scene),
+      pose_(pose),
+      eye_(eye),
+      posed_(pose.instances.size()),
+      embree_(std::make_unique<Embree>()) {
     embree_->device = rtcNewDevice(nullptr);
     if (!embree_->device) check(nullptr, "device");
     embree_->scene = rtcNewScene(embree_->device);
     rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
     tbb::parallel_for(std::size_t{0}, pose.instances.size(), [&](std::size_t i) {
-        const Primitive& p = primitive({static_cast<std::uint32_t>(i), 0});
+        const TriangleId first{static_cast<std::uint32_t>(i), 0};
+        const Primitive& p = primitive(first);
         if (p.indices.empty()) return;
+        if (deforming && pose.instances[i].deformed()) posed_[i] = posedVertices(scene, pose, pose.instances[i]);
         const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), p.positions.size()));
@@ -92,8 +97,8 @@ Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye)
                                     p.indices.size() / 3));
         if (vertices && indices) {
             for (std::size_t v = 0; v < p.positions.size(); ++v) {
-                const glm::dvec3 world(pose.instances[i].world_from_object * glm::dvec4(p.positions[v], 1));
-                for (int c = 0; c < 3; ++c) *vertices++ = static_cast<float>(world[c] - eye[c]);
+                const glm::dvec3 from_eye = fromEye(first, v);
+                for (int c = 0; c < 3; ++c) *vertices++ = static_cast<float>(from_eye[c]);
             }
             std::copy(p.indices.begin(), p.indices.end() - static_cast<std::ptrdiff_t>(p.indices.size() % 3), indices);
             rtcCommitGeometry(geometry);
@@ -122,14 +127,19 @@ std::array<std::uint32_t, 3> Geometry::vertices(const TriangleId& id) const {
     return {indices[first], indices[first + 1], indices[first + 2]};
 }
 
+glm::dvec3 Geometry::fromEye(const TriangleId& id, std::size_t vertex) const {
+    if (const PosedVertices* vertices = posed(id)) return vertices->positions[vertex] - eye_;
+    return glm::dvec3(instance(id).world_from_object * glm::dvec4(primitive(id).positions[vertex], 1)) - eye_;
+}
+
 std::array<glm::dvec3, 3> Geometry::corners(const TriangleId& id) const {
-    const Primitive& p = primitive(id);
-    const glm::dmat4& world = instance(id).world_from_object;
-    std::array<glm::dvec3, 3> result;
-    const std::array<std::uint32_t, 3> index = vertices(id);
-    for (std::size_t i = 0; i < 3; ++i)
-        result[i] = glm::dvec3(world * glm::dvec4(p.positions[index[i]], 1)) - eye_;
-    return result;
+    const std::array<std::uint32_t, 3> v = vertices(id);
+    return {fromEye(id, v[0]), fromEye(id, v[1]), fromEye(id, v[2])};
+}
+
+const PosedVertices* Geometry::posed(const TriangleId& id) const {
+    const PosedVertices& vertices = posed_[id.instance];
+    return vertices.positions.empty() ? nullptr : &vertices;
 }
 
 std::optional<Hit> Geometry::onPlane(const TriangleId& id, const glm::dvec3& origin,

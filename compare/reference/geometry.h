@@ -2,6 +2,7 @@
 // Which triangle a ray meets, which Embree says, and where, which is worked out in double.
 #pragma once
 
+#include "shared/scene/posed.h"
 #include "shared/scene/scene.h"
 
 #include <glm/vec2.hpp>
@@ -12,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace diptych::reference {
 
@@ -38,8 +40,9 @@ struct Ray {
 
 class Geometry {
 public:
-    // `eye` becomes the origin. The pose and the scene outlive it.
-    Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye);
+    // `eye` becomes the origin. The pose and the scene outlive it. Not `deforming`, vertices stand where
+    // world_from_object puts them, as the paths draw them yet.
+    Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool deforming);
     ~Geometry();
     Geometry(const Geometry&) = delete;
     Geometry& operator=(const Geometry&) = delete;
@@ -53,14 +56,19 @@ public:
     const Primitive& primitive(const TriangleId& id) const;
     std::array<std::uint32_t, 3> vertices(const TriangleId& id) const;   // into its primitive
     std::array<glm::dvec3, 3> corners(const TriangleId& id) const;      // from the camera
+    // Its instance's vertices, in the world; nullptr where world_from_object moves all of them alike.
+    const PosedVertices* posed(const TriangleId& id) const;
     // Where the plane of the triangle is met; nothing where the ray runs along it.
     std::optional<Hit> onPlane(const TriangleId& id, const glm::dvec3& origin, const glm::dvec3& direction) const;
 
 private:
+    glm::dvec3 fromEye(const TriangleId& id, std::size_t vertex) const;  // of its primitive
+
     struct Embree;
     const Scene& scene_;
     const Pose& pose_;
     glm::dvec3 eye_;
+    std::vector<PosedVertices> posed_;  // by instance; empty where nothing deforms it
     std::unique_ptr<Embree> embree_;
 };
 

@@ -104,12 +104,15 @@ glm::dvec3 Materials::shadingNormal(const Hit& hit, const PixelRay& ray) const {
                                             glm::cross(world[0], world[1])) *
                                  handedness;
     const std::array<std::uint32_t, 3> v = geometry_.vertices(hit.id);
-    const auto normalAt = [&](std::uint32_t i) { return unitOrZero(cofactors * glm::dvec3(primitive.normals[i])); };
+    const PosedVertices* posed = geometry_.posed(hit.id);
+    const auto normalAt = [&](std::uint32_t i) {
+        return posed ? posed->normals[i] : unitOrZero(cofactors * glm::dvec3(primitive.normals[i]));
+    };
     glm::dvec3 n = mixed<glm::dvec3>({normalAt(v[0]), normalAt(v[1]), normalAt(v[2])}, hit.barycentric);
     const Material& m = material(hit);
     if (!m.unlit && m.normal_texture.texture >= 0) {
         const auto tangentAt = [&](std::uint32_t i) {
-            return unitOrZero(world * glm::dvec3(primitive.tangents[i]));
+            return posed ? posed->tangents[i] : unitOrZero(world * glm::dvec3(primitive.tangents[i]));
         };
         const glm::dvec3 tangent =
             mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric);

@@ -121,7 +121,7 @@ public:
         : request_(request),
           eye_(request.view.eye()),
           rays_(request.view),
-          geometry_(request.scene, request.pose, eye_),
+          geometry_(request.scene, request.pose, eye_, request.mode == ReferenceMode::scene),
           materials_(request.scene, geometry_),
           lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
                     request.environment_factor, eye_) {}
@@ -256,7 +256,16 @@ void addScene(Key& key, const Request& request) {
             key.addAll(p.texcoords[1]);
             key.addAll(p.colors);
             key.addAll(p.indices);
-            key.add(p.material);
+            key.add(glm::ivec2(p.material, p.flat));
+            for (const JointSet& set : p.joint_sets) {
+                key.addAll(set.joints);
+                key.addAll(set.weights);
+            }
+            for (const MorphTarget& target : p.targets) {
+                key.addAll(target.positions);
+                key.addAll(target.normals);
+                key.addAll(target.tangents);
+            }
         }
     const auto addSlot = [&](const TextureSlot& slot) {
         key.add(slot.texture);
@@ -287,9 +296,11 @@ void addScene(Key& key, const Request& request) {
         key.addAll(image.rgba16);
     }
     for (const Instance& instance : request.pose.instances) {
-        key.add(glm::ivec2(instance.mesh, instance.primitive));
+        key.add(glm::ivec4(instance.mesh, instance.primitive, instance.skin, instance.weights));
         key.add(instance.world_from_object);
     }
+    for (const std::vector<glm::dmat4>& joints : request.pose.skins) key.addAll(joints);
+    for (const std::vector<double>& weights : request.pose.weights) key.addAll(weights);
 }
 
 // Everything that decides a pixel. The version goes up where the reference itself changes what it draws.

@@ -24,6 +24,8 @@ struct Request {
     std::span<const Light> lights;  // world; the environment is the scene's
     double environment_factor = 1;
     bool shadows = false;
+    // Skins and morph targets move what mode scene draws; in mode surface shadows fall from meshes as the paths draw
+    // them, undeformed.
     ReferenceMode mode = ReferenceMode::surface;
     int samples = 1;                               // per pixel, mode scene
     const std::map<int, Image>* surfaces = nullptr;  // mode surface: every channel of surfaceChannels()

@@ -20,7 +20,7 @@ constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm";
 constexpr std::string_view needs_reference = "has no meaning without --path reference";
 constexpr Fixed fixed[] = {
     {"assign", not_built},
-    {"time", not_built},
+    {"time", "is not built yet but in --path reference --reference-mode scene"},
     {"ibl-intensity", "has no meaning without --env", "env"},
     {"ambient", not_built},
     {"light-cutoff", not_built},
@@ -63,6 +63,7 @@ constexpr Unread unread[] = {
 
 // What the reference can, or has alone.
 constexpr std::string_view in_reference[] = {"shadows", "spp", "reference-mode"};
+constexpr std::string_view in_mode_scene[] = {"time"};
 
 // More than that would take a day for a small picture.
 constexpr int most_samples = 65536;
@@ -80,6 +81,7 @@ std::optional<std::string> Settings::problem() const {
     if (spp < 1 || spp > most_samples) return fmt::format("--spp {}: 1 to {}", spp, most_samples);
     if (path == Path::reference && spp > 1 && reference_mode == ReferenceMode::surface)
         return fmt::format("--spp {}: --reference-mode surface shades one sample; use --reference-mode scene", spp);
+    if (!(time >= 0 && std::isfinite(time))) return fmt::format("--time {}: is finite and at least 0 s", time);
     if (env.empty()) return "--env '': names no file; use none";
     if (!(ibl_intensity >= 0 && std::isfinite(ibl_intensity)))
         return fmt::format("--ibl-intensity {}: is finite and at least 0", ibl_intensity);
@@ -90,6 +92,9 @@ std::optional<std::string> Settings::problem() const {
     };
     for (const Fixed& setting : fixed) {
         if (path == Path::reference && std::ranges::count(in_reference, setting.option) > 0) continue;
+        if (path == Path::reference && reference_mode == ReferenceMode::scene &&
+            std::ranges::count(in_mode_scene, setting.option) > 0)
+            continue;
         if (!setting.without.empty() && !isUsual(setting.without)) continue;
         const std::string value = valueOf(*this, setting.option);
         const std::string expected = valueOf(usual, setting.option);
