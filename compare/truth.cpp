@@ -5,6 +5,7 @@
 #include "compare/metrics/channel.h"
 #include "compare/output.h"
 #include "compare/reference/reference.h"
+#include "compare/undrawn.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/view.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 namespace diptych {
@@ -110,6 +112,9 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
     frame.camera = cameraOf(view);
     frame.background = {scene.background.r, scene.background.g, scene.background.b};
     frame.notes = scene.notes;
+    if (surfaces)
+        std::ranges::move(undrawnMotion(Path::forward_plus, requirements(scene, pose)),
+                          std::back_inserter(frame.notes));
     frame.counters.lights = lights.size();
     frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
     frame.channels = std::move(picture.channels);

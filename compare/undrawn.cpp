@@ -20,4 +20,10 @@ std::vector<std::string> undrawnLight(Path path, const Requirements& needs) {
     return notes;
 }
 
+std::vector<std::string> undrawnMotion(Path path, const Requirements& needs) {
+    if (path == Path::reference || needs.skinned + needs.morphed == 0) return {};
+    return {fmt::format("{}: drawn undeformed by {} yet: the reference poses {} in mode scene",
+                        needs.deformedInWords(), nameOf(path), needs.skinned + needs.morphed == 1 ? "it" : "them")};
+}
+
 }  // namespace diptych

@@ -12,4 +12,7 @@ namespace diptych {
 // What of a scene's light the path does not draw yet, a note each; the reference draws all.
 std::vector<std::string> undrawnLight(Path path, const Requirements& needs);
 
+// Likewise what of a scene it draws undeformed; the reference poses it in mode scene.
+std::vector<std::string> undrawnMotion(Path path, const Requirements& needs);
+
 }  // namespace diptych

@@ -48,6 +48,7 @@ Requirements requirements(const Scene& scene, const Pose& pose) {
     r.materials = static_cast<std::uint32_t>(scene.materials.size());
 
     std::vector<bool> used(scene.materials.size(), false);
+    int skinned = -1, morphed = -1;  // the last node of each kind; instances are in node order
     for (const Instance& instance : pose.instances) {
         const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
                                          .primitives[static_cast<std::size_t>(instance.primitive)];
@@ -57,7 +58,10 @@ Requirements requirements(const Scene& scene, const Pose& pose) {
         r.vertices += primitive.positions.size();
         r.vertex_colors |= !primitive.colors.empty();
         used[static_cast<std::size_t>(primitive.material)] = true;
+        r.skinned += instance.skin >= 0 && std::exchange(skinned, instance.node) != instance.node;
+        r.morphed += instance.weights >= 0 && std::exchange(morphed, instance.node) != instance.node;
     }
+    r.animations = static_cast<std::uint32_t>(scene.animations.size());
 
     std::set<int> textures;
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -84,6 +88,15 @@ std::string Requirements::areaLightsInWords() const {
         if (count > 0) kinds.push_back(fmt::format("{} {}", count, kind));
     return fmt::format("{} area light{} ({})", areaLights(), areaLights() == 1 ? "" : "s",
                        fmt::join(kinds, ", "));
+}
+
+std::string Requirements::deformedInWords() const {
+    std::string words;
+    if (skinned > 0) words = fmt::format("{} skinned mesh{}", skinned, skinned == 1 ? "" : "es");
+    if (morphed > 0)
+        words += skinned > 0 ? fmt::format(", {} morphed", morphed)
+                             : fmt::format("{} morphed mesh{}", morphed, morphed == 1 ? "" : "es");
+    return words;
 }
 
 std::vector<Requirements::Line> Requirements::lines() const {
@@ -121,6 +134,14 @@ std::vector<Requirements::Line> Requirements::lines() const {
         "no material has KHR_materials_unlit");
     say(dielectric_specular, "dielectric specular", "a material has KHR_materials_specular, _ior or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
+    say(animations > 0, "animation",
+        fmt::format("{} in the scene: nodes, lights and cameras stand as at 0 s, the reference goes on from there",
+                    animations),
+        "nothing of the scene is animated");
+    result.push_back({false, "skins and morph targets",
+                      skinned + morphed > 0
+                          ? fmt::format("{}: no path poses them yet; the reference does", deformedInWords())
+                          : "they move no vertex of the scene"});
     say(directional_lights > 0, "directional lights", fmt::format("{} in the scene", directional_lights),
         "none in the scene");
     say(local_lights > 0, "point and spot lights",

@@ -26,11 +26,14 @@ struct Requirements {
     std::uint32_t rect_lights = 0, disc_lights = 0, tube_lights = 0;
     std::uint32_t sun_discs = 0;                           // directional lights with an angle
     std::string environment;                               // its name; empty: none
+    std::uint32_t skinned = 0, morphed = 0;                // nodes whose vertices that moves
+    std::uint32_t animations = 0;
     std::uint64_t draws = 0, triangles = 0, vertices = 0;  // as instanced
 
     std::uint32_t areaLights() const { return rect_lights + disc_lights + tube_lights; }
     std::uint32_t lights() const { return directional_lights + point_lights + spot_lights + areaLights(); }
     std::string areaLightsInWords() const;  // "2 area lights (1 rect, 1 tube)"
+    std::string deformedInWords() const;    // "1 skinned mesh, 2 morphed"; empty: none
 
     // For people: what is modelled and for what, what is left out and why.
     struct Line {
