@@ -150,6 +150,51 @@ TEST(House, APlantedClimbIsFound) {
     EXPECT_EQ(plant("shared/draw/planted.h", "shared/light/lights.h"), 0u);
 }
 
+// The reference is an independent truth: of the contract it may name the channels and nothing else, and what it
+// asks of other rooms is where they say what a scene is, not how the paths draw it.
+Faults borrowedByTheReference(const Files& files) {
+    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
+    static const std::regex contract("gpu::(?!DEBUG_|uint\\b)\\w+");
+    static const std::vector<std::string> open{"compare/reference/", "shared/image/", "shared/frame/",
+                                               "shared/scene/"};
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!path.starts_with("compare/reference/") || !isCode(path)) continue;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::smatch match;
+            if (std::regex_search(line, match, include)) {
+                const std::string target = fs::path(match[1].str()).lexically_normal().generic_string();
+                const bool fine = target == "shared/contract/debug_mode.h" ||
+                                  std::ranges::any_of(open, [&](const std::string& r) { return target.starts_with(r); });
+                if (!fine) faults.push_back(path + " includes " + target);
+            }
+            if (std::regex_search(line, match, contract)) faults.push_back(path + " uses " + match.str());
+        }
+    }
+    return faults;
+}
+
+TEST(House, TheReferenceBorrowsNothing) {
+    EXPECT_EQ(joined(borrowedByTheReference(house())), "");
+}
+
+TEST(House, APlantedLoanOfTheReferenceIsFound) {
+    const auto plant = [](const std::string& line) {
+        return borrowedByTheReference({{"compare/reference/planted.cpp", line + "\n"}}).size();
+    };
+    for (const char* header :
+         {"shared/contract/material.h", "shared/contract/light.h", "shared/contract/constants.h", "shared/light/lights.h",
+          "shared/material/materials.h", "shared/draw/draws.h", "shared/vulkan/device.h", "shaders/lib/brdf.glsl",
+          "compare/render.h", "../metrics/channel.h", "../../shared/contract/view.h"})
+        EXPECT_EQ(plant(std::string("#include \"") + header + "\""), 1u) << header;
+    EXPECT_EQ(plant("const double a = gpu::MIN_ROUGHNESS;"), 1u);
+    EXPECT_EQ(plant("const float a = gpu::PI;"), 1u);
+    EXPECT_EQ(plant("#include \"shared/contract/debug_mode.h\""), 0u);
+    EXPECT_EQ(plant("case gpu::DEBUG_lit: return static_cast<gpu::uint>(0);"), 0u);
+    EXPECT_EQ(plant("#include \"shared/scene/scene.h\""), 0u);
+}
+
 // pi, 2 pi, pi/2, pi/4, 1/pi by their digits, and the macro that is no standard C++. Hand-computed values in
 // tests may hold them.
 Faults otherPis(const Files& files) {
