@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/environment.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,8 +62,13 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, double factor
     for (int j = 0; j < down_; ++j)
         for (int i = 0; i < across_; ++i) {
             const int x = i * width / across_, y = j * height / down_;
-            Block block{x, y, (i + 1) * width / across_ - x, (j + 1) * height / down_ - y, {}, {}, {}};
+            Block block{x, y, (i + 1) * width / across_ - x, (j + 1) * height / down_ - y, {}, 0, {}, {}};
             block.middle = directionOf(x + block.width / 2.0, y + block.height / 2.0);
+            for (const double across : {0.0, 0.5, 1.0})
+                for (const double down : {0.0, 0.5, 1.0})
+                    block.reach = std::max(block.reach, glm::length(directionOf(x + across * block.width,
+                                                                                y + down * block.height) -
+                                                                    block.middle));
             double sum = 0;
             for (int row = 0; row < block.height; ++row) {
                 double along = 0;
@@ -117,12 +124,10 @@ std::size_t EnvironmentLight::blockOf(Pixel pixel) const {
     return at(j) * at(across_) + at(i);
 }
 
-EnvironmentLight::Sampler::Sampler(const EnvironmentLight& light,
-                                   const std::function<double(const glm::dvec3&)>& weight)
-    : light_(light) {
+EnvironmentLight::Sampler::Sampler(const EnvironmentLight& light, const Weight& weight) : light_(light) {
     double sum = 0;
     for (const Block& block : light.blocks_) {
-        if (block.rows.back() > 0) sum += block.rows.back() * weight(block.middle);
+        if (block.rows.back() > 0) sum += block.rows.back() * weight(block.middle, block.reach);
         cumulative_.push_back(sum);
     }
 }

@@ -24,8 +24,10 @@ public:
     // (After Clarberg et al. 2005, "Wavelet Importance Sampling", which multiplies to the last pixel.)
     class Sampler {
     public:
-        // `weight` of light from a direction, 0 or more; above 0 wherever light counts.
-        Sampler(const EnvironmentLight& light, const std::function<double(const glm::dvec3&)>& weight);
+        // Of light from no further than `reach` (of unit vectors) about a direction, 0 or more; above 0 wherever some
+        // of that light counts.
+        using Weight = std::function<double(const glm::dvec3& middle, double reach)>;
+        Sampler(const EnvironmentLight& light, const Weight& weight);
 
         // u in [0, 1)^2. No light where all() is 0.
         glm::dvec3 operator()(const glm::dvec2& u) const;
@@ -42,6 +44,7 @@ private:
     struct Block {
         int x, y, width, height;
         glm::dvec3 middle;  // a direction
+        double reach;       // to the furthest of it
         std::vector<double> rows, columns;
     };
     struct Pixel {

@@ -238,9 +238,8 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
 // the specular lobe, which may be narrower than a block, mirrors.
 Shading Lighting::fromEnvironment(const Brdf& brdf, const Open& open, std::uint64_t seed) const {
     const LobeSampler lobes(brdf);
-    const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle) {
-        // A block that the horizon cuts, or that a lobe grazes, has more to show than its middle: some 11 degrees.
-        constexpr double reach = 0.2;
+    const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
+        // A block that the horizon cuts, or that a lobe grazes, has more to show than its middle.
         const double cosine = std::max(glm::dot(brdf.normal(), middle) + reach, 0.0);
         return brdf(middle).size() + 0.02 * cosine;
     });
