@@ -261,7 +261,7 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
     left.moveTo(scene.notes);
     noteMaterials(
         model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
-        "with alphaMode BLEND: drawn opaque, blending is not built yet", scene);
+        "with alphaMode BLEND: drawn opaque by the paths, which do not blend yet; the reference blends in mode scene", scene);
 
     const bool needsDefault =
         std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {
