@@ -305,7 +305,7 @@ void addScene(Key& key, const Request& request) {
 
 // Everything that decides a pixel. The version goes up where the reference itself changes what it draws.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 2;
+    constexpr int version = 3;
     Key key;
     key.add(version);
     const View& view = request.view;

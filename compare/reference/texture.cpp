@@ -128,25 +128,32 @@ const Pyramid& Textures::pyramid(int image, bool srgb) const {
 glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footprint& footprint) const {
     const Pyramid& levels = pyramid(texture.image, srgb);
     const glm::dvec2 size(levels.width(0), levels.height(0)), uv = bounded(footprint.uv);
-    const double longest = std::max(glm::length(footprint.dx * size), glm::length(footprint.dy * size));
+    const glm::dvec2 dx = bounded(footprint.dx), dy = bounded(footprint.dy), x = dx * size, y = dy * size;
+    const double longest = std::max(glm::length(x), glm::length(y));
     const Sampler& sampler = texture.sampler;
     if (!(longest > 1))
         return sampler.magnify_linear ? bilinear(levels, 0, sampler, uv) : nearestTexel(levels, sampler, uv);
-    constexpr int places = 8;
-    const double share = longest / places;  // texels of level 0
+    // As many places along each side as make squares of them, eight at least; one seen at a grazing angle is long and
+    // narrow, and must not be blurred across.
+    constexpr double least = 8, most = 64;
+    const double across = std::abs(x.x * y.y - x.y * y.x) / longest;
+    const double share = std::max(across / least, longest / most);  // texels of level 0
+    const auto places = [&](const glm::dvec2& side) {
+        return static_cast<int>(std::clamp(std::ceil(glm::length(side) / share), least, most));
+    };
+    const int along_x = places(x), along_y = places(y);
     const double exact = std::clamp(std::log2(std::max(share, 1.0)), 0.0, levels.levels() - 1.0);
     const int level = static_cast<int>(exact);
     glm::dvec4 sum(0);
-    for (int j = 0; j < places; ++j)
-        for (int i = 0; i < places; ++i) {
-            const glm::dvec2 at = bounded(uv + footprint.dx * ((i + 0.5) / places - 0.5) +
-                                          footprint.dy * ((j + 0.5) / places - 0.5));
+    for (int j = 0; j < along_y; ++j)
+        for (int i = 0; i < along_x; ++i) {
+            const glm::dvec2 at = bounded(uv + dx * ((i + 0.5) / along_x - 0.5) + dy * ((j + 0.5) / along_y - 0.5));
             if (level == 0 && !sampler.minify_linear)
                 sum += nearestTexel(levels, sampler, at);
             else
                 sum += bilinear(levels, level, sampler, at);
         }
-    return sum / double{places * places};
+    return sum / (double{1} * along_x * along_y);
 }
 
 }  // namespace diptych::reference

@@ -48,7 +48,7 @@ public:
     explicit Textures(const Scene& scene) : scene_(scene) {}
 
     // The mean over the parallelogram of the footprint: where it is smaller than a texel, what the sampler's
-    // magnification says; else the box filter, an area mean of 8 x 8 places, each looked up bilinearly in the level
+    // magnification says; else the box filter, an area mean of 8 x 8 places and up to 64 along its longer side, each looked up bilinearly in the level
     // whose texels are as large as a place's share. sRGB colours are decoded first. RGBA, 0 to 1.
     glm::dvec4 operator()(const Texture& texture, bool srgb, const Footprint& footprint) const;
 

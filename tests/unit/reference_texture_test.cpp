@@ -134,6 +134,26 @@ TEST(ReferenceTexture, FootprintsAreMeans) {
                 Pyramid(image, false).texel(6, 0, 0).r, 2e-3);
 }
 
+// At a grazing angle: within a stripe of four rows, whichever way the stripes run, straight and rolled.
+TEST(ReferenceTexture, LongFootprintsAreNotBlurredAcross) {
+    for (const bool rows : {true, false}) {
+        TextureImage image{"stripes", 64, 64, {}};
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x)
+                image.rgba.insert(image.rgba.end(), 4, (rows ? y : x) / 4 % 2 == 1 ? 255 : 0);
+        const Scene scene = sceneOf(image, {});
+        const Textures textures(scene);
+        const auto turned = [&](const glm::dvec2& v) { return rows ? v : glm::dvec2(v.y, v.x); };
+        for (const double length : {0.1, 0.25, 0.5, 0.9})
+            for (const double roll : {0.0, 0.5}) {
+                // Two rows wide in the middle of rows 20 to 23: bilinear interpolation stays inside.
+                const glm::dvec2 along(length, 1.0 / 64), side(roll * length, (1 + roll) / 64);
+                const Footprint f{turned({0.5, 22 / 64.0}), turned({along.x, 0}), turned({side.x, side.y})};
+                EXPECT_NEAR(textures(scene.textures[0], false, f).r, 1, 1e-3) << rows << length << roll;
+            }
+    }
+}
+
 TEST(ReferenceTexture, FlatColoursAreThemselvesAtAnySize) {
     TextureImage image{"flat", 5, 3, {}};
     image.rgba.assign(60, 77);
