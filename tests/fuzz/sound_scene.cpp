@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/sound_scene.h"
 
+#include "shared/scene/posed.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sound_light.h"
 
@@ -145,6 +146,21 @@ void requireSoundMotion(const Scene& scene) {
     }
 }
 
+void requireSoundPose(const Scene& scene, const Pose& pose) {
+    for (const Light& light : pose.lights) fuzz::requireSound(light);
+    for (const Instance& instance : pose.instances) {
+        require(within(instance.mesh, scene.meshes), "an instance's mesh is there");
+        require(within(instance.primitive, scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives),
+                "an instance's primitive is there");
+        require(finite(instance.world_from_object), "an instance has a place");
+        require(instance.skin < 0 || within(instance.skin, pose.skins), "an instance's joints are there");
+        require(instance.weights < 0 || within(instance.weights, pose.weights), "an instance's weights are there");
+        if (!instance.deformed()) continue;
+        for (const glm::dvec3& p : posedPositions(scene, pose, instance))
+            require(std::isnan(p.x) || glm::length(p) <= 2 * maxCoordinate, "a posed vertex has a place or none");
+    }
+}
+
 }  // namespace
 
 void requireSound(const Scene& scene) {
@@ -175,14 +191,8 @@ void requireSound(const Scene& scene) {
                     camera.far > camera.near,
                 "a camera sees something");
     }
-    const Pose pose = poseAt(scene, 0);
-    for (const Light& light : pose.lights) requireSound(light);
-    for (const Instance& instance : pose.instances) {
-        require(within(instance.mesh, scene.meshes), "an instance's mesh is there");
-        require(within(instance.primitive, scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives),
-                "an instance's primitive is there");
-        require(finite(instance.world_from_object), "an instance has a place");
-    }
+    // At the start, between keys and after the last, whatever they are.
+    for (const double seconds : {0.0, 0.37, 1e9}) requireSoundPose(scene, poseAt(scene, seconds));
 }
 
 }  // namespace diptych::fuzz

@@ -71,8 +71,7 @@ TEST(GltfMotion, MorphTargetsHaveTheirDeltas) {
     ASSERT_EQ(scene.nodes[0].weights, 0);
     EXPECT_EQ(scene.weights.at(0), (std::vector<float>{1, 0}));
     EXPECT_FALSE(p.flat);
-    EXPECT_EQ(p.positions[1], glm::vec3(1, 0, 0)) << "drawn without them";
-    EXPECT_TRUE(mentions(scene.notes, "1 mesh with morph targets: drawn without them"));
+    EXPECT_EQ(p.positions[1], glm::vec3(1, 0, 0)) << "as they are without them";
 }
 
 // A corner that flat normals gave a vertex of its own takes its deltas along.
@@ -161,7 +160,7 @@ TEST(GltfMotion, AnimationsOfEveryPartAndInterpolation) {
     EXPECT_EQ(scene.transforms.at(0).translation, glm::dvec3(1, 2, 3));
     EXPECT_EQ(scene.transforms[0].rotation, glm::dquat(1, 0, 0, 0));
     EXPECT_EQ(scene.transforms[0].scale, glm::dvec3(2));
-    EXPECT_TRUE(mentions(scene.notes, "1 animation: the scene is drawn at rest"));
+    EXPECT_TRUE(scene.notes.empty()) << scene.notes[0];
 }
 
 TEST(GltfMotion, ChannelsShareKeyframes) {

@@ -207,6 +207,45 @@ TEST(Requirements, APathSaysWhatLightItLeavesOut) {
     EXPECT_TRUE(undrawnLight(Path::reference, needs).empty()) << "it draws all";
 }
 
+// Counted by mesh, however many primitives it has; a target of weight 0 moves nothing.
+TEST(Requirements, SkinsMorphTargetsAndAnimations) {
+    Scene scene = plainScene();
+    const auto before = of(scene).lines();
+    for (const char* what : {"animation", "skins and morph targets"}) EXPECT_FALSE(line(before, what).modelled);
+    EXPECT_EQ(line(before, "skins and morph targets").why.find("no path"), std::string::npos);
+    EXPECT_EQ(of(scene).deformedInWords(), "");
+
+    const std::size_t corners = scene.meshes[0].primitives[0].positions.size();
+    scene.meshes[0].primitives.push_back(scene.meshes[0].primitives[0]);
+    for (Primitive& p : scene.meshes[0].primitives) {
+        p.joint_sets = {{std::vector<glm::u16vec4>(corners, {0, 0, 0, 0}),
+                         std::vector<glm::vec4>(corners, {1, 0, 0, 0})}};
+        p.targets.resize(1);
+    }
+    scene.meshes[0].weights = {0};
+    scene.skins = {{"", {0}, {glm::mat4(1)}, -1}};
+    scene.nodes[0].skin = scene.nodes[1].skin = 0;
+    EXPECT_EQ(of(scene).skinned, 2u);
+    EXPECT_EQ(of(scene).morphed, 0u);
+    EXPECT_EQ(of(scene).deformedInWords(), "2 skinned meshes");
+    scene.weights = {{0.5f}};
+    scene.nodes[1].weights = 0;
+    scene.nodes[1].skin = -1;
+    scene.animations.resize(2);
+    const Requirements r = of(scene);
+    EXPECT_EQ(r.deformedInWords(), "1 skinned mesh, 1 morphed");
+    EXPECT_EQ(r.animations, 2u);
+    const auto after = r.lines();
+    EXPECT_TRUE(line(after, "animation").modelled);
+    EXPECT_EQ(line(after, "skins and morph targets").why,
+              "1 skinned mesh, 1 morphed: no path poses them yet; the reference does");
+    EXPECT_EQ(undrawnMotion(Path::deferred, r),
+              std::vector<std::string>{"1 skinned mesh, 1 morphed: drawn undeformed by deferred yet: the reference "
+                                       "poses them in mode scene"});
+    EXPECT_TRUE(undrawnMotion(Path::reference, r).empty());
+    EXPECT_TRUE(undrawnMotion(Path::deferred, of(plainScene())).empty());
+}
+
 TEST(Requirements, LinesSayWhy) {
     Scene scene = plainScene();
     scene.materials[0].alpha_mode = AlphaMode::blend;

@@ -243,6 +243,23 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
     EXPECT_EQ(s.problem().value_or("none"), "--reference-mode scene has no meaning without --path reference; use surface");
 }
 
+// Beside a path's capture it stands where the path does.
+TEST(Settings, OnlyTheReferenceInModeSceneKnowsTime) {
+    Settings s;
+    s.time = 1.5;
+    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference}) {
+        s.path = path;
+        EXPECT_EQ(s.problem().value_or("none"),
+                  "--time 1.5 is not built yet but in --path reference --reference-mode scene; use 0");
+    }
+    s.reference_mode = ReferenceMode::scene;
+    EXPECT_EQ(s.problem().value_or("none"), "none");
+    for (const double time : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+        s.time = time;
+        EXPECT_EQ(s.problem().value_or("none"), fmt::format("--time {}: is finite and at least 0 s", time));
+    }
+}
+
 TEST(Settings, AnEnvironmentWithoutANameIsNone) {
     Settings s;
     s.env = "";

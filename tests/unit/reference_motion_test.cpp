@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// The reference draws what skins, morph targets and animations make of a scene at a time.
+#include "tests/unit/reference_scene.h"
+
+#include "compare/reference/geometry.h"
+#include "tests/unit/files.h"
+
+#include <atomic>
+#include <stdexcept>
+
+namespace diptych::reference {
+namespace {
+
+Picture drawnAt(const Scene& scene, double seconds, const View& view, const std::filesystem::path& keep = {},
+                const std::function<void(double)>& progress = {}) {
+    const Pose pose = poseAt(scene, seconds);
+    return draw({.scene = scene,
+                 .pose = pose,
+                 .view = view,
+                 .lights = pose.lights,
+                 .shadows = true,
+                 .mode = ReferenceMode::scene,
+                 .samples = 1,
+                 .surfaces = nullptr,
+                 .keep = keep,
+                 .progress = progress});
+}
+
+glm::vec3 at(const Picture& picture, gpu::uint mode, int x, int y) {
+    const Image& image = picture.channels.at(static_cast<int>(mode));
+    glm::vec3 result(0);
+    for (int c = 0; c < image.components; ++c) result[c] = image.at(x, y, c);
+    return result;
+}
+bool isSurface(const Picture& picture, int x, int y) {
+    return at(picture, gpu::DEBUG_material_id, x, y).x >= 0;
+}
+
+// A patch of 1 m at x = -1, of which an animation from 0 s to 1 s makes something, over an empty world. Seen from
+// +Z with one pixel a metre: 5 by 5 pixels around the origin.
+Scene patch() {
+    Scene scene;
+    scene.materials = {matte()};
+    scene.meshes.resize(1);
+    scene.meshes[0].primitives = {quad({-1.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0})};
+    scene.nodes.resize(2);
+    scene.nodes[0].mesh = 0;
+    scene.lights = {lightOf(LightKind::directional, {0, 0, 0})};
+    return scene;
+}
+const View fromAbove = viewFrom({0, 0, 10}, {0, 0, 0}, 5, 5, 2 * std::atan(0.25));
+constexpr int left = 1, right = 3, row = 2;
+
+void animate(Scene& scene, int node, AnimatedPart part, std::vector<float> values, std::size_t width) {
+    Animation a;
+    a.keyframes = {{Interpolation::linear, {0, 1}, std::move(values), width}};
+    a.channels = {{node, 0, part}};
+    scene.animations.push_back(a);
+    if (part == AnimatedPart::weights) return;
+    scene.nodes[static_cast<std::size_t>(node)].transform = static_cast<int>(scene.transforms.size());
+    scene.transforms.emplace_back();
+}
+
+// Each carries the patch from x = -1 to x = 1 and 1 m up.
+Scene byItsNode() {
+    Scene scene = patch();
+    animate(scene, 0, AnimatedPart::translation, {0, 0, 0, 2, 0, 1}, 3);
+    return scene;
+}
+Scene byAJoint() {
+    Scene scene = patch();
+    Primitive& p = scene.meshes[0].primitives[0];
+    p.joint_sets = {{std::vector<glm::u16vec4>(4, {0, 0, 0, 0}), std::vector<glm::vec4>(4, {1, 0, 0, 0})}};
+    scene.skins = {{"", {1}, {glm::mat4(1)}, -1}};
+    scene.nodes[0].skin = 0;
+    animate(scene, 1, AnimatedPart::translation, {0, 0, 0, 2, 0, 1}, 3);
+    return scene;
+}
+Scene byATarget() {
+    Scene scene = patch();
+    scene.meshes[0].primitives[0].targets = {{std::vector<glm::vec3>(4, {2, 0, 1}), {}, {}}};
+    scene.meshes[0].weights = {0};
+    animate(scene, 0, AnimatedPart::weights, {0, 1}, 1);
+    return scene;
+}
+struct Mover {
+    const char* name;
+    Scene (*scene)();
+};
+const Mover movers[] = {{"node", byItsNode}, {"joint", byAJoint}, {"target", byATarget}};
+
+TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
+    for (const Mover& mover : movers) {
+        const Scene scene = mover.scene();
+        const Picture start = drawnAt(scene, 0, fromAbove), end = drawnAt(scene, 1, fromAbove);
+        EXPECT_TRUE(isSurface(start, left, row)) << mover.name;
+        EXPECT_FALSE(isSurface(start, right, row)) << mover.name;
+        EXPECT_FALSE(isSurface(end, left, row)) << mover.name;
+        ASSERT_TRUE(isSurface(end, right, row)) << mover.name;
+        EXPECT_NEAR(at(start, gpu::DEBUG_depth, left, row).x, 10, 1e-5) << mover.name;
+        EXPECT_NEAR(at(end, gpu::DEBUG_depth, right, row).x, 9, 1e-5) << mover.name;
+        EXPECT_NEAR(at(end, gpu::DEBUG_lit, right, row).x, 1 / pi, 1e-6) << mover.name;
+    }
+}
+
+// A half-way joint bends the patch: its shading normal is the joints' own, its triangles' follow from the corners.
+TEST(ReferenceMotion, NormalsArePosedToo) {
+    Scene scene = byAJoint();
+    scene.animations.clear();
+    const double angle = 0.3;
+    scene.nodes[1].parent_from_node = glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0));
+    const Picture turned = drawnAt(scene, 0, fromAbove);
+    const glm::vec3 expected(std::sin(angle), 0, std::cos(angle));
+    for (const gpu::uint mode : {gpu::DEBUG_normals, gpu::DEBUG_geometric_normal})
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(turned, mode, left, row)[c], expected[c], 1e-6) << mode;
+    EXPECT_NEAR(at(turned, gpu::DEBUG_lit, left, row).x, std::cos(angle) / pi, 1e-6);
+}
+
+// The patch moves between a floor below and the sun: its shadow goes with it.
+TEST(ReferenceMotion, ShadowsGoWithWhatMoves) {
+    for (const Mover& mover : movers) {
+        Scene scene = mover.scene();
+        scene.meshes.emplace_back().primitives = {quad({-10, -10, -1}, {20, 0, 0}, {0, 20, 0})};
+        scene.nodes.emplace_back().mesh = 1;
+        // From the side, so that the patch does not hide its own shadow.
+        scene.lights[0].direction = glm::normalize(glm::dvec3(0, -2, -1));
+        const auto shaded = [&](double seconds, double x, double z) {
+            const View view = viewFrom({x, -2 * (z + 1), 8}, {x, -2 * (z + 1), 0}, 1, 1, 0.01);
+            return at(drawnAt(scene, seconds, view), gpu::DEBUG_lit, 0, 0).x == 0;
+        };
+        EXPECT_TRUE(shaded(0, -1, 0)) << mover.name;
+        EXPECT_FALSE(shaded(0, 1, 1)) << mover.name;
+        EXPECT_FALSE(shaded(1, -1, 0)) << mover.name;
+        EXPECT_TRUE(shaded(1, 1, 1)) << mover.name;
+    }
+}
+
+// Mode surface stands beside a path that draws meshes undeformed: so must what throws its shadows.
+TEST(ReferenceMotion, BesideAPathMeshesAreUndeformed) {
+    const Scene scene = byATarget();
+    const Pose pose = poseAt(scene, 1);
+    const auto met = [&](bool deforming, double x) {
+        const Geometry geometry(scene, pose, {0, 0, 10}, deforming);
+        return geometry.meets({{x, 0, 0}, {0, 0, -1}, 0, 100, {}}, [](const Hit&) { return true; });
+    };
+    EXPECT_TRUE(met(false, -1));
+    EXPECT_FALSE(met(false, 1));
+    EXPECT_FALSE(met(true, -1));
+    EXPECT_TRUE(met(true, 1));
+}
+
+// A vertex that is nowhere takes its triangle along, and nothing else.
+TEST(ReferenceMotion, WhatIsMovedOutOfReachIsNotThere) {
+    Scene scene = byATarget();
+    scene.meshes[0].primitives[0].targets[0].positions = {{0, 0, 0}, {1e18f, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    scene.animations.clear();
+    scene.meshes[0].weights = {100};
+    const Picture picture = drawnAt(scene, 0, viewFrom({-1, 0, 10}, {-1, 0, 0}, 9, 9, 2 * std::atan(0.05)));
+    EXPECT_FALSE(isSurface(picture, 7, 6)) << "below the diagonal, of the corner that is gone";
+    EXPECT_TRUE(isSurface(picture, 1, 2)) << "above it";
+}
+
+// A file of the same picture at another time is not gone on from, whatever it is that moves.
+TEST(ReferenceMotion, APictureOfAnotherTimeIsBegunAnew) {
+    View view = fromAbove;
+    view.width = view.height = 40;  // nine tiles
+    for (const Mover& mover : movers)
+        for (const double seconds : {1.0, 0.5}) {
+            const Scene scene = mover.scene();
+            const std::filesystem::path keep = folder() / "kept";
+            std::atomic<int> done{0}, again{0};
+            EXPECT_THROW(drawnAt(scene, 1, view, keep,
+                                 [&](double) {
+                                     if (++done == 4) throw std::runtime_error("stop");
+                                 }),
+                         std::runtime_error);
+            drawnAt(scene, seconds, view, keep, [&](double) { ++again; });
+            if (seconds == 1)
+                EXPECT_LE(again, 9 - 4) << mover.name << ": the same time";
+            else
+                EXPECT_EQ(again, 9) << mover.name << ": another";
+        }
+}
+
+}  // namespace
+}  // namespace diptych::reference
