@@ -97,8 +97,10 @@ Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, 
                                     p.indices.size() / 3));
         if (vertices && indices) {
             for (std::size_t v = 0; v < p.positions.size(); ++v) {
-                const glm::dvec3 from_eye = fromEye(first, v);
-                for (int c = 0; c < 3; ++c) *vertices++ = static_cast<float>(from_eye[c]);
+                const glm::dvec3 world =
+                    posed(first) ? posed_[i].positions[v]
+                                 : glm::dvec3(pose.instances[i].world_from_object * glm::dvec4(p.positions[v], 1));
+                for (int c = 0; c < 3; ++c) *vertices++ = static_cast<float>(world[c] - eye[c]);
             }
             std::copy(p.indices.begin(), p.indices.end() - static_cast<std::ptrdiff_t>(p.indices.size() % 3), indices);
             rtcCommitGeometry(geometry);
@@ -127,14 +129,15 @@ std::array<std::uint32_t, 3> Geometry::vertices(const TriangleId& id) const {
     return {indices[first], indices[first + 1], indices[first + 2]};
 }
 
-glm::dvec3 Geometry::fromEye(const TriangleId& id, std::size_t vertex) const {
-    if (const PosedVertices* vertices = posed(id)) return vertices->positions[vertex] - eye_;
-    return glm::dvec3(instance(id).world_from_object * glm::dvec4(primitive(id).positions[vertex], 1)) - eye_;
-}
-
 std::array<glm::dvec3, 3> Geometry::corners(const TriangleId& id) const {
     const std::array<std::uint32_t, 3> v = vertices(id);
-    return {fromEye(id, v[0]), fromEye(id, v[1]), fromEye(id, v[2])};
+    if (const PosedVertices* of = posed(id))
+        return {of->positions[v[0]] - eye_, of->positions[v[1]] - eye_, of->positions[v[2]] - eye_};
+    const Primitive& p = primitive(id);
+    const glm::dmat4& world = instance(id).world_from_object;
+    std::array<glm::dvec3, 3> result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = glm::dvec3(world * glm::dvec4(p.positions[v[i]], 1)) - eye_;
+    return result;
 }
 
 const PosedVertices* Geometry::posed(const TriangleId& id) const {

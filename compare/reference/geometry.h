@@ -62,8 +62,6 @@ public:
     std::optional<Hit> onPlane(const TriangleId& id, const glm::dvec3& origin, const glm::dvec3& direction) const;
 
 private:
-    glm::dvec3 fromEye(const TriangleId& id, std::size_t vertex) const;  // of its primitive
-
     struct Embree;
     const Scene& scene_;
     const Pose& pose_;
