@@ -23,7 +23,8 @@ std::vector<std::string> undrawnLight(Path path, const Requirements& needs) {
 std::vector<std::string> undrawnMotion(Path path, const Requirements& needs) {
     if (path == Path::reference || needs.skinned + needs.morphed == 0) return {};
     return {fmt::format("{}: drawn undeformed by {} yet: the reference poses {} in mode scene",
-                        needs.deformedInWords(), nameOf(path), needs.skinned + needs.morphed == 1 ? "it" : "them")};
+                        needs.deformedInWords(), nameOf(path),
+                        needs.skinned + needs.morphed == 1 ? "it" : "them")};
 }
 
 }  // namespace diptych

@@ -80,8 +80,10 @@ std::optional<std::string> Settings::problem() const {
 
     if (spp < 1 || spp > most_samples) return fmt::format("--spp {}: 1 to {}", spp, most_samples);
     if (path == Path::reference && spp > 1 && reference_mode == ReferenceMode::surface)
-        return fmt::format("--spp {}: --reference-mode surface shades one sample; use --reference-mode scene", spp);
-    if (!(time >= 0 && std::isfinite(time))) return fmt::format("--time {}: is finite and at least 0 s", time);
+        return fmt::format("--spp {}: --reference-mode surface shades one sample; use --reference-mode scene",
+                           spp);
+    if (!(time >= 0 && std::isfinite(time)))
+        return fmt::format("--time {}: is finite and at least 0 s", time);
     if (env.empty()) return "--env '': names no file; use none";
     if (!(ibl_intensity >= 0 && std::isfinite(ibl_intensity)))
         return fmt::format("--ibl-intensity {}: is finite and at least 0", ibl_intensity);

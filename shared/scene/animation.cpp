@@ -22,8 +22,8 @@ glm::dvec4 rotationOf(const std::vector<double>& xyzw) {
     return {xyzw[0], xyzw[1], xyzw[2], xyzw[3]};
 }
 
-// Spherical linear interpolation (Shoemake 1985, "Animating Rotation with Quaternion Curves"). The angle by atan2
-// is exact where that by acos loses half of the digits: near 0.
+// Spherical linear interpolation (Shoemake 1985, "Animating Rotation with Quaternion Curves"). The angle by
+// atan2 is exact where that by acos loses half of the digits: near 0.
 glm::dvec4 slerp(const glm::dvec4& from, glm::dvec4 to, double u) {
     if (glm::dot(from, to) < 0) to = -to;
     const double angle = 2 * std::atan2(glm::length(to - from), glm::length(to + from));
@@ -93,19 +93,20 @@ NodeMotion motionAt(const Scene& scene, double seconds) {
     std::map<int, Transform> moved;  // by node
     for (const Animation& animation : scene.animations) {
         for (const AnimationChannel& channel : animation.channels) {
-            std::vector<double> values =
-                sampled(animation.keyframes[static_cast<std::size_t>(channel.keyframes)], channel.part, seconds);
+            std::vector<double> values = sampled(
+                animation.keyframes[static_cast<std::size_t>(channel.keyframes)], channel.part, seconds);
             if (channel.part == AnimatedPart::weights) {
                 motion.weights[channel.node] = std::move(values);
                 continue;
             }
             const int rest = scene.nodes[static_cast<std::size_t>(channel.node)].transform;
-            Transform& t =
-                moved.try_emplace(channel.node, scene.transforms[static_cast<std::size_t>(rest)]).first->second;
+            Transform& t = moved.try_emplace(channel.node, scene.transforms[static_cast<std::size_t>(rest)])
+                               .first->second;
             if (channel.part == AnimatedPart::rotation)
                 t.rotation = {values[3], values[0], values[1], values[2]};
             else
-                (channel.part == AnimatedPart::scale ? t.scale : t.translation) = {values[0], values[1], values[2]};
+                (channel.part == AnimatedPart::scale ? t.scale : t.translation) = {values[0], values[1],
+                                                                                   values[2]};
         }
     }
     for (const auto& [node, t] : moved) {

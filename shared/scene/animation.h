@@ -16,8 +16,9 @@ std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, doubl
 // What the scene's animations make of its nodes. All of them play at once; where two move the same part of a
 // node, the later one has it.
 struct NodeMotion {
-    std::vector<glm::dmat4> parent_from_node;    // of every node, moved or not
-    std::map<int, std::vector<double>> weights;  // by node: of the morph targets, where an animation moves them
+    std::vector<glm::dmat4> parent_from_node;  // of every node, moved or not
+    std::map<int, std::vector<double>>
+        weights;  // by node: of the morph targets, where an animation moves them
 };
 NodeMotion motionAt(const Scene& scene, double seconds);
 

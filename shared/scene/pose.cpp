@@ -115,7 +115,8 @@ glm::dvec3 extentOf(const Primitive& primitive) {
 std::vector<glm::dmat4> worldFromMesh(const Skin& skin, const std::vector<glm::dmat4>& world) {
     std::vector<glm::dmat4> result;
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
-        result.push_back(world[static_cast<std::size_t>(skin.joints[j])] * glm::dmat4(skin.joint_from_mesh[j]));
+        result.push_back(world[static_cast<std::size_t>(skin.joints[j])] *
+                         glm::dmat4(skin.joint_from_mesh[j]));
     return result;
 }
 

@@ -20,14 +20,16 @@ public:
         : primitive_(scene.meshes[static_cast<std::size_t>(instance.mesh)]
                          .primitives[static_cast<std::size_t>(instance.primitive)]),
           world_from_object_(instance.world_from_object),
-          world_from_mesh_(instance.skin < 0 ? nullptr : &pose.skins[static_cast<std::size_t>(instance.skin)]),
-          weights_(instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)]) {}
+          world_from_mesh_(instance.skin < 0 ? nullptr
+                                             : &pose.skins[static_cast<std::size_t>(instance.skin)]),
+          weights_(instance.weights < 0 ? nullptr
+                                        : &pose.weights[static_cast<std::size_t>(instance.weights)]) {}
 
     const Primitive& primitive() const { return primitive_; }
 
     // A vertex's attribute and what the targets add to it, in the object.
     template <class T>
-    glm::dvec3 morphed(const std::vector<T>& base, std::vector<glm::vec3> MorphTarget::* deltas,
+    glm::dvec3 morphed(const std::vector<T>& base, std::vector<glm::vec3> MorphTarget::*deltas,
                        std::size_t vertex) const {
         glm::dvec3 sum(base[vertex]);
         if (!weights_) return sum;
@@ -93,8 +95,8 @@ std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, con
     const std::vector<glm::vec3>& positions = posing.primitive().positions;
     std::vector<glm::dvec3> result(positions.size());
     for (std::size_t v = 0; v < result.size(); ++v)
-        result[v] =
-            placed(posing.worldFrom(v) * glm::dvec4(posing.morphed(positions, &MorphTarget::positions, v), 1));
+        result[v] = placed(posing.worldFrom(v) *
+                           glm::dvec4(posing.morphed(positions, &MorphTarget::positions, v), 1));
     return result;
 }
 

@@ -135,8 +135,9 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(dielectric_specular, "dielectric specular", "a material has KHR_materials_specular, _ior or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
     say(animations > 0, "animation",
-        fmt::format("{} in the scene: nodes, lights and cameras stand as at 0 s, the reference goes on from there",
-                    animations),
+        fmt::format(
+            "{} in the scene: nodes, lights and cameras stand as at 0 s, the reference goes on from there",
+            animations),
         "nothing of the scene is animated");
     result.push_back({false, "skins and morph targets",
                       skinned + morphed > 0

@@ -172,7 +172,8 @@ bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) 
             instance.deformed() ? posedPositions(scene, pose, instance) : std::vector<glm::dvec3>();
         const auto corner = [&](std::size_t i) {
             const std::uint32_t v = primitive.indices[i];
-            return posed.empty() ? glm::dvec3(worldFromObject * glm::dvec4(primitive.positions[v], 1.0)) : posed[v];
+            return posed.empty() ? glm::dvec3(worldFromObject * glm::dvec4(primitive.positions[v], 1.0))
+                                 : posed[v];
         };
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
             const glm::dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);

@@ -154,10 +154,12 @@ void requireSoundPose(const Scene& scene, const Pose& pose) {
                 "an instance's primitive is there");
         require(finite(instance.world_from_object), "an instance has a place");
         require(instance.skin < 0 || within(instance.skin, pose.skins), "an instance's joints are there");
-        require(instance.weights < 0 || within(instance.weights, pose.weights), "an instance's weights are there");
+        require(instance.weights < 0 || within(instance.weights, pose.weights),
+                "an instance's weights are there");
         if (!instance.deformed()) continue;
         for (const glm::dvec3& p : posedPositions(scene, pose, instance))
-            require(std::isnan(p.x) || glm::length(p) <= 2 * maxCoordinate, "a posed vertex has a place or none");
+            require(std::isnan(p.x) || glm::length(p) <= 2 * maxCoordinate,
+                    "a posed vertex has a place or none");
     }
 }
 

@@ -26,8 +26,8 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-// A triangle about (-1, 0, 0), and keys at 0 s and 2 s that a channel of each kind may read: a move by 2 m along
-// +X, a weight from 0 to 1 of the target that does the same.
+// A triangle about (-1, 0, 0), and keys at 0 s and 2 s that a channel of each kind may read: a move by 2 m
+// along +X, a weight from 0 to 1 of the target that does the same.
 Json triangleFile() {
     std::string data;
     Json accessors = Json::array();
@@ -52,7 +52,8 @@ Json triangleFile() {
                  {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}}};
     file["accessors"] = accessors;
     file["bufferViews"] = {{{"buffer", 0}, {"byteLength", data.size()}}};
-    file["buffers"] = {{{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}};
+    file["buffers"] = {
+        {{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}};
     return file;
 }
 Json animated(const char* path, int output) {
@@ -71,7 +72,8 @@ Json byATarget() {
 }
 
 // Of 5 x 5 pixels, a metre each in the triangle's plane, the one that shows a surface.
-const std::string seen = " --size 5x5 --camera 'eye=0,0,10 target=0,0,0 fov=28.072486935852957' --channels material_id";
+const std::string seen =
+    " --size 5x5 --camera 'eye=0,0,10 target=0,0,0 fov=28.072486935852957' --channels material_id";
 const std::string reference = " --path reference --reference-mode scene";
 
 // Which columns of the middle row show the triangle, as "01000".
@@ -89,9 +91,11 @@ TEST(Motion, TheReferenceDrawsItWhereItIsAtATime) {
     folder.write("node.gltf", byItsNode().dump());
     folder.write("target.gltf", byATarget().dump());
     for (const std::string scene : {"node", "target"})
-        for (const auto& [time, columns] : {std::pair{"0", "01000"}, {"1", "00100"}, {"2", "00010"}, {"9", "00010"}}) {
+        for (const auto& [time, columns] :
+             {std::pair{"0", "01000"}, {"1", "00100"}, {"2", "00010"}, {"9", "00010"}}) {
             const std::string file = scene + time + ".exr";
-            const Ran ran = runTool(folder, "render " + scene + ".gltf" + seen + reference + " --time " + time + " -o " + file);
+            const Ran ran = runTool(
+                folder, "render " + scene + ".gltf" + seen + reference + " --time " + time + " -o " + file);
             ASSERT_EQ(ran.code, 0) << ran.err;
             EXPECT_EQ(columnsIn(folder / file), columns) << scene << " at " << time << " s";
         }
@@ -111,29 +115,37 @@ TEST(Motion, ThePathsDrawTheStartAndSayWhatTheyLeave) {
     folder.write("node.gltf", node.dump());
     folder.write("target.gltf", target.dump());
     for (const std::string path : {"deferred", "forward_plus"}) {
-        ASSERT_EQ(runTool(folder, "render node.gltf --runs 0" + seen + " --path " + path + " -o n.exr --force").code, 0);
+        ASSERT_EQ(
+            runTool(folder, "render node.gltf --runs 0" + seen + " --path " + path + " -o n.exr --force")
+                .code,
+            0);
         EXPECT_EQ(columnsIn(folder / "n.exr"), "00010") << path;
-        const Ran ran = runTool(folder, "render target.gltf --runs 0" + seen + " --path " + path + " -o t.exr --force");
+        const Ran ran =
+            runTool(folder, "render target.gltf --runs 0" + seen + " --path " + path + " -o t.exr --force");
         ASSERT_EQ(ran.code, 0) << ran.err;
         EXPECT_EQ(columnsIn(folder / "t.exr"), "01000") << path;
-        EXPECT_NE((ran.out + ran.err).find("1 morphed mesh: drawn undeformed by " + path + " yet"), std::string::npos)
+        EXPECT_NE((ran.out + ran.err).find("1 morphed mesh: drawn undeformed by " + path + " yet"),
+                  std::string::npos)
             << ran.out << ran.err;
     }
     const Ran ran = runTool(folder, "render target.gltf" + seen + reference + " -o r.exr");
     EXPECT_EQ(columnsIn(folder / "r.exr"), "00010") << ran.err;
     EXPECT_EQ((ran.out + ran.err).find("undeformed"), std::string::npos) << ran.out << ran.err;
     const Ran plan = runTool(folder, "plan target.gltf");
-    EXPECT_NE(plan.out.find("1 morphed mesh: no path poses them yet; the reference does"), std::string::npos) << plan.out;
+    EXPECT_NE(plan.out.find("1 morphed mesh: no path poses them yet; the reference does"), std::string::npos)
+        << plan.out;
 }
 
 TEST(Motion, ATimeThatNothingDrawsIsRefused) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
     for (const std::string rest : {"", " --path deferred", " --path reference"})
-        EXPECT_TRUE(runTool(folder, "render node.gltf --time 1" + rest).failedOver("--time 1 is not built yet"));
+        EXPECT_TRUE(
+            runTool(folder, "render node.gltf --time 1" + rest).failedOver("--time 1 is not built yet"));
     EXPECT_TRUE(runTool(folder, "compare node.gltf --baseline reference --reference-mode scene --time 1")
                     .failedOver("--time 1 is not built yet"));
-    EXPECT_TRUE(runTool(folder, "render node.gltf --time -1" + reference).failedOver("--time -1: is finite and at least 0"));
+    EXPECT_TRUE(runTool(folder, "render node.gltf --time -1" + reference)
+                    .failedOver("--time -1: is finite and at least 0"));
 }
 
 }  // namespace

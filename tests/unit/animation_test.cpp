@@ -92,7 +92,8 @@ TEST(Animation, CubicSplinesScaleTheirTangentsByTheInterval) {
     EXPECT_EQ(sampled(k, weights, 3), (std::vector<double>{2}));
     EXPECT_EQ(sampled(k, weights, 4), (std::vector<double>{2}));
     // Two components: tangents of a key stand before and after all of its values.
-    const Keyframes two = keys(Interpolation::cubic_spline, {0, 1}, {0, 0, 1, 10, 8, 0, 0, 8, 1, 10, 0, 0}, 2);
+    const Keyframes two =
+        keys(Interpolation::cubic_spline, {0, 1}, {0, 0, 1, 10, 8, 0, 0, 8, 1, 10, 0, 0}, 2);
     EXPECT_EQ(sampled(two, weights, 0.5), (std::vector<double>{2, 9})) << "1 + 8/8 and 10 - 8/8";
 }
 
@@ -118,8 +119,8 @@ struct MovedFile : GltfFile {
                          {{"mesh", 0}, {"translation", {1, 0, 0}}, {"scale", {2, 2, 2}}}};
     }
     // Linear, with keys at 0 s and 1 s.
-    void channel(int node, const char* path, const std::vector<float>& values, const char* type, std::size_t width,
-                 std::size_t animation = 0) {
+    void channel(int node, const char* path, const std::vector<float>& values, const char* type,
+                 std::size_t width, std::size_t animation = 0) {
         const int times = accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
         const int output = accessor(values, FLOAT, type, width);
         Json& a = json["animations"][animation];
@@ -133,7 +134,8 @@ struct MovedFile : GltfFile {
 glm::dvec3 placeOf(const Scene& scene, double seconds, const glm::dvec3& p) {
     return glm::dvec3(poseAt(scene, seconds).instances.at(0).world_from_object * glm::dvec4(p, 1));
 }
-void expectNear(const glm::dvec3& got, const glm::dvec3& expected, double tolerance, const std::string& what) {
+void expectNear(const glm::dvec3& got, const glm::dvec3& expected, double tolerance,
+                const std::string& what) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], tolerance) << what << " component " << c;
 }
 
@@ -171,7 +173,8 @@ TEST(Animation, SeveralPlayAtOnceAndLaterOnesWin) {
 TEST(Animation, LightsAndCamerasMove) {
     MovedFile f;
     f.json["extensionsUsed"] = {"KHR_lights_punctual"};
-    f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", nlohmann::json::object()}}};
+    f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", nlohmann::json::object()}}};
     f.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
     f.json["nodes"][1] = {{"translation", {0, 0, -3}},
                           {"camera", 0},

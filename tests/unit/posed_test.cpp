@@ -48,8 +48,8 @@ Primitive& only(Scene& scene) {
 // Vertex 0 goes with the first joint, vertex 1 half with each, vertex 2 with the second.
 Scene skinned(const glm::dmat4& first, const glm::dmat4& second) {
     Scene scene = triangle();
-    only(scene).joint_sets = {{{{0, 1, 0, 0}, {0, 1, 0, 0}, {0, 1, 0, 0}},
-                               {{1, 0, 0, 0}, {0.5f, 0.5f, 0, 0}, {0, 1, 0, 0}}}};
+    only(scene).joint_sets = {
+        {{{0, 1, 0, 0}, {0, 1, 0, 0}, {0, 1, 0, 0}}, {{1, 0, 0, 0}, {0.5f, 0.5f, 0, 0}, {0, 1, 0, 0}}}};
     scene.skins.resize(1);
     scene.skins[0].joints = {1, 2};
     scene.skins[0].joint_from_mesh.assign(2, glm::mat4(1));
@@ -208,14 +208,16 @@ TEST(Posed, AFlatTrianglesNormalFollowsIt) {
     scene.meshes[0].weights = {1};
     expectNear(posed(scene).normals[0], Z, "not flat: no target moves the normal");
     only(scene).flat = true;
-    for (const glm::dvec3& n : posed(scene).normals) expectNear(n, glm::normalize(glm::dvec3(0, -1, 1)), "flat");
+    for (const glm::dvec3& n : posed(scene).normals)
+        expectNear(n, glm::normalize(glm::dvec3(0, -1, 1)), "flat");
 }
 
 // ---- what moves nothing, and what is out of reach ----------------------------------------------------
 
 TEST(Posed, WithoutJointsAndTargetsItIsTheNodesTransform) {
     Scene scene = triangle();
-    scene.nodes[0].parent_from_node = moved({1, 2, 3}) * turned(quarter, X) * glm::scale(glm::dmat4(1), {1, 2, 1});
+    scene.nodes[0].parent_from_node =
+        moved({1, 2, 3}) * turned(quarter, X) * glm::scale(glm::dmat4(1), {1, 2, 1});
     const Pose pose = poseAt(scene, 0);
     EXPECT_FALSE(pose.instances.at(0).deformed());
     const PosedVertices v = posed(scene);

@@ -36,8 +36,8 @@ bool isSurface(const Picture& picture, int x, int y) {
     return at(picture, gpu::DEBUG_material_id, x, y).x >= 0;
 }
 
-// A patch of 1 m at x = -1, of which an animation from 0 s to 1 s makes something, over an empty world. Seen from
-// +Z with one pixel a metre: 5 by 5 pixels around the origin.
+// A patch of 1 m at x = -1, of which an animation from 0 s to 1 s makes something, over an empty world. Seen
+// from +Z with one pixel a metre: 5 by 5 pixels around the origin.
 Scene patch() {
     Scene scene;
     scene.materials = {matte()};
@@ -103,7 +103,8 @@ TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
     }
 }
 
-// A half-way joint bends the patch: its shading normal is the joints' own, its triangles' follow from the corners.
+// A half-way joint bends the patch: its shading normal is the joints' own, its triangles' follow from the
+// corners.
 TEST(ReferenceMotion, NormalsArePosedToo) {
     Scene scene = byAJoint();
     scene.animations.clear();
