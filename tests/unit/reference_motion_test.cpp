@@ -43,7 +43,7 @@ Scene patch() {
     scene.materials = {matte()};
     scene.meshes.resize(1);
     scene.meshes[0].primitives = {quad({-1.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0})};
-    scene.nodes.resize(2);
+    scene.nodes.resize(3);
     scene.nodes[0].mesh = 0;
     scene.lights = {lightOf(LightKind::directional, {0, 0, 0})};
     return scene;
@@ -70,8 +70,8 @@ Scene byItsNode() {
 Scene byAJoint() {
     Scene scene = patch();
     Primitive& p = scene.meshes[0].primitives[0];
-    p.joint_sets = {{std::vector<glm::u16vec4>(4, {0, 0, 0, 0}), std::vector<glm::vec4>(4, {1, 0, 0, 0})}};
-    scene.skins = {{"", {1}, {glm::mat4(1)}, -1}};
+    p.joint_sets = {{std::vector<glm::u16vec4>(4, {1, 0, 0, 0}), std::vector<glm::vec4>(4, {1, 0, 0, 0})}};
+    scene.skins = {{"", {2, 1}, {glm::mat4(1), glm::mat4(1)}, -1}};  // the first stays, and moves nothing
     scene.nodes[0].skin = 0;
     animate(scene, 1, AnimatedPart::translation, {0, 0, 0, 2, 0, 1}, 3);
     return scene;
