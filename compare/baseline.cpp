@@ -5,6 +5,7 @@
 #include "compare/layers.h"
 #include "compare/output.h"
 #include "compare/report/files.h"
+#include "compare/truth.h"
 #include "compare/version.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/json.h"
@@ -122,7 +123,7 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
             lines.push_back(
                 fmt::format("baseline: {} {} (now {})", what, then.empty() ? "unknown" : then, now));
     };
-    if (baseline.settings.path == Path::reference) {
+    if (baseline.settings.path == Path::reference && !isTruth(baseline)) {
         lines.push_back("baseline: not written by diptych: scene, camera and Settings are unknown");
         return lines;
     }
@@ -132,7 +133,13 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
     say("scene", baseline.scene, frame.scene);
     if (!sameView(baseline.camera, frame.camera))
         lines.push_back("baseline: seen from another place or with another lens");
-    if (const std::string settings = differing(baseline.settings, frame.settings); !settings.empty())
+    Settings now = frame.settings;
+    if (isTruth(baseline)) {  // of what a path is drawn with it depends on these alone
+        now = referenceSettings(now);
+        now.spp = baseline.settings.spp;
+        now.reference_mode = baseline.settings.reference_mode;
+    }
+    if (const std::string settings = differing(baseline.settings, now); !settings.empty())
         lines.push_back(fmt::format("baseline: other Settings: {}", settings));
     return lines;
 }

@@ -7,6 +7,7 @@
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "compare/truth.h"
+#include "compare/undrawn.h"
 #include "compare/version.h"
 
 #include <fmt/format.h>
@@ -121,6 +122,7 @@ public:
         for (const Frame& frame : truth.frames)
             for (const std::string& line : frame.notes)
                 if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+        noteUndrawn(scene);
         SweepState state(folder_, keyOf(options_, tradeoff_, truth));
         if (state.isRenewed())
             note(options_,
@@ -173,6 +175,19 @@ private:
     }
 
     // Whoever reads may have gone: what was asked for is the folder, and that is finished.
+    // What of the scene's light and motion the rows' paths leave out, which is part of their error.
+    void noteUndrawn(const Scene& scene) {
+        const Requirements needs = needsOf(scene, options_.settings);
+        std::vector<Path> told;
+        for (const Settings& row : plan_.rows) {
+            if (std::ranges::count(told, row.path) > 0) continue;
+            told.push_back(row.path);
+            for (const auto& lines : {undrawnLight(row.path, needs), undrawnMotion(row.path, needs)})
+                for (const std::string& line : lines)
+                    if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+        }
+    }
+
     void print(const std::string& line) {
         if (std::ferror(stdout)) return;
         progress_.wipe();

@@ -26,11 +26,12 @@ std::string faultOf(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("{} pixel(s) differ from what the encoding explains", *channel.unexplained_pixels);
     // At most a share of the pixels beyond it is the same as the next percentile within it.
-    if (channel.tolerance.most_pixels)
-        return channel.stats.p999 <= channel.tolerance.max
-                   ? std::string()
-                   : fmt::format("over 0.1 % of the pixels exceed {:.4g}: p99.9 is {:.4g}", channel.tolerance.max,
-                                 channel.stats.p999);
+    if (channel.tolerance.most_pixels) {
+        const double p999 = channel.certain_p999.value_or(channel.stats.p999);
+        return p999 <= channel.tolerance.max ? std::string()
+                                             : fmt::format("over 0.1 % of the pixels exceed {:.4g}: p99.9 is {:.4g}",
+                                                           channel.tolerance.max, p999);
+    }
     if (channel.stats.infinite > 0)
         return fmt::format(
             "{} pixel(s) are infinitely far apart (a NaN or infinity against a number, or a baseline "
@@ -58,6 +59,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
         channel.tolerance.because += fmt::format("; and {:.3g} that two runs of one path differ by", noise);
     }
     channel.unexplained_pixels = unexplainedPixels(mode, pair);
+    channel.certain_p999 = certainP999(mode, pair);
     channel.reason = faultOf(channel);
 }
 

@@ -32,6 +32,7 @@ struct ChannelDiff {
     std::optional<double> flip;  // mean; of colours
     Tolerance tolerance;
     std::optional<std::uint64_t> unexplained_pixels;  // lit channels: what the encoding does not explain
+    std::optional<double> certain_p999;  // against a reference that sampled: beyond what that is known to
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; empty otherwise
     std::string warning;  // what a rule warns of; empty otherwise

@@ -55,6 +55,21 @@ std::vector<MaterialStanding> materialsOf(const Image& ids, const std::array<Ima
     return materials;
 }
 
+// What the truth is known to, relative to it, over the pixels that count.
+double meanUncertainty(const Frame& truth, const Image& reference, const Coverage& covered) {
+    if (truth.uncertainty.empty() || covered.count == 0) return 0;
+    const PixelError error(Metric::relative, ChannelKind::color, reference, covered);
+    double sum = 0;
+    for (std::size_t i = 0; i < reference.pixels(); ++i) {
+        if (!covered.covered[i]) continue;
+        const float* p = reference.pixel(i);
+        const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+        sum += double{truth.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
+    }
+    // Errors of pixels are independent: their mean is known better by the root of their number.
+    return sum / static_cast<double>(covered.count) / std::sqrt(static_cast<double>(covered.count));
+}
+
 NearerChannel channelOf(const DebugMode& mode, const Frame& truth, const std::array<const Frame*, 2>& paths,
                         const Coverage& covered, const std::vector<std::string>& names) {
     const Image& reference = truth.channels.at(mode.number);
@@ -77,7 +92,9 @@ NearerChannel channelOf(const DebugMode& mode, const Frame& truth, const std::ar
         if (first != second) channel.apart.data[i] = first - second;
     }
     const double first = channel.paths[0].stats.mean, second = channel.paths[1].stats.mean;
-    if (first != second) {
+    // Two means that share most of their error are told apart by no less than the truth's own.
+    const double known = std::max(1e-3 * std::min(first, second), meanUncertainty(truth, reference, covered));
+    if (std::abs(first - second) > known || std::isinf(first) != std::isinf(second)) {
         channel.nearer = first < second ? 0 : 1;
         const double least = std::min(first, second);
         channel.by = least > 0 ? std::max(first, second) / least : std::numeric_limits<double>::infinity();
@@ -104,16 +121,18 @@ Nearer nearerOf(const std::vector<Frame>& frames, std::size_t truth, std::array<
 std::string nearerLine(const Nearer& nearer, const NearerChannel& channel, const std::vector<Frame>& frames) {
     const std::string& truth = frames[nearer.truth].name;
     if (channel.nearer < 0)
-        return fmt::format("{}: both paths are equally near to the {}, mean error {:.3g}", channel.mode->name, truth,
-                           channel.paths[0].stats.mean);
+        return fmt::format("{}: both paths are equally near to the {}, mean errors {:.4g} and {:.4g}", channel.mode->name,
+                           truth, channel.paths[0].stats.mean, channel.paths[1].stats.mean);
     const auto near = static_cast<std::size_t>(channel.nearer), far = 1 - near;
     const auto pixels =
         static_cast<double>(channel.nearer_pixels[0] + channel.nearer_pixels[1] + channel.even_pixels);
     const auto percent = [&](std::uint64_t count) {
         return pixels > 0 ? 100 * static_cast<double>(count) / pixels : 0;
     };
-    const std::string times = std::isfinite(channel.by) ? fmt::format("{:.3g} times less", channel.by) : "none at all";
-    return fmt::format("{}: {} is nearer to the {}: mean error {:.3g} against {:.3g} of {} ({}), at {:.1f} % of the "
+    const std::string times = std::isfinite(channel.by)              ? fmt::format("{:.4g} times less", channel.by)
+                              : channel.paths[near].stats.mean == 0 ? "none at all"
+                                                                    : "which is infinite";
+    return fmt::format("{}: {} is nearer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
                        "pixels ({} at {:.1f} %, even at {:.1f} %)",
                        channel.mode->name, frames[nearer.paths[near]].name, truth, channel.paths[near].stats.mean,
                        channel.paths[far].stats.mean, frames[nearer.paths[far]].name, times,

@@ -38,8 +38,8 @@ struct NearerChannel {
     Standing between;               // the second against the first
     std::array<std::uint64_t, 2> nearer_pixels{};
     std::uint64_t even_pixels = 0;  // errors that are the same
-    int nearer = -1;                // 0 or 1, by mean error; -1: neither
-    double by = 1;                  // the farther one's mean error over the nearer one's; infinite where that is 0
+    int nearer = -1;  // 0 or 1, by mean error; -1: neither, by less than the truth is known to or a thousandth
+    double by = 1;    // the farther one's mean error over the nearer one's; infinite where that is 0
     std::vector<MaterialStanding> materials;  // those where the two are furthest apart first, at most eight
     // Pixel by pixel, the first's error less the second's: below 0 the first is nearer.
     Image apart;

@@ -6,6 +6,7 @@
 #include "compare/output.h"
 #include "compare/reference/reference.h"
 #include "compare/undrawn.h"
+#include "compare/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/view.h"
@@ -102,6 +103,7 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
         .samples = settings.spp,
         .surfaces = surfaces ? &surfaces->channels : nullptr,
         .keep = options.keep ? options.keep() : fs::path(),
+        .program = commitName(),
         .progress = [&](double fraction) { options.progress.at(fraction, step); }};
     reference::Picture picture = reference::draw(request);
 
@@ -120,11 +122,12 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
     frame.channels = std::move(picture.channels);
     frame.asked = options.asked;
     if (!picture.uncertainty.empty()) {
-        frame.uncertainty =
+        frame.relative_uncertainty =
             uncertaintyOf(picture.uncertainty, frame.channels.at(lit), coverage(frame, frame));
+        frame.uncertainty = std::move(picture.uncertainty);
         frame.notes.push_back(fmt::format(
             "reference: lit is known to {:.2g} of itself with a confidence of 95 %, at 99.9 % of the pixels",
-            frame.uncertainty));
+            frame.relative_uncertainty));
     }
     std::erase_if(frame.channels, [&](const auto& entry) {
         return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;

@@ -51,10 +51,6 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Neither factor is SplitMix64's own step: streams of neighbours would be one another's, a number later.
-Random randomOf(std::uint64_t seed, std::uint64_t number) {
-    return Random(seed * 0xd1342543de82ef95u ^ number * 0xaf251af3b0f025b5u);
-}
-
 struct Leaves {
     const Patch* patch;
     std::vector<Leaf> leaves;
@@ -74,7 +70,7 @@ public:
         std::uint64_t number = 0;
         for (const Leaves& part : leaves_)
             for (const Leaf& leaf : part.leaves) {
-                Random turn = randomOf(seed, ++number);
+                Random turn(streamOf(seed, ++number));
                 const double u = turn();
                 const glm::dvec2 at = evenly(index, {u, turn()});
                 const Cell& c = leaf.cell;
@@ -193,7 +189,7 @@ Shading Lighting::operator()(const Surface& surface, const Open& open, std::uint
         sum.uncertainty += part.uncertainty;
     };
     for (std::size_t i = 0; i < emitters_.size(); ++i)
-        add(fromEmitter(emitters_[i], surface.position, brdf, open, seed + ((i + 1) << 40)));
+        add(fromEmitter(emitters_[i], surface.position, brdf, open, streamOf(seed, i + 1)));
     if (environment_) add(fromEnvironment(brdf, open, seed));
     return sum;
 }
@@ -227,7 +223,7 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     const bool mostly_open = 2 * seen > pilot * places;
     const Shading visible = untilConfident(
         [&](std::size_t round, std::uint64_t index) {
-            return shaded.estimate(seed * 8 + round, index, mostly_open, ignored);
+            return shaded.estimate(streamOf(seed, round), index, mostly_open, ignored);
         },
         places, std::max<std::uint64_t>(1, 8 / places), whole.value.size(), shaded.largestLeaf());
     return {visible.reflected * radiance, (visible.uncertainty + whole.error) * brightest};
@@ -249,7 +245,7 @@ Shading Lighting::fromEnvironment(const Brdf& brdf, const Open& open, std::uint6
         return f * environment_->radiance(l) * (1 / (lobes.density(l) + bright.density(l)));
     };
     std::array<std::array<glm::dvec2, 2>, 8> turns;
-    Random random = randomOf(seed, 0);
+    Random random(streamOf(seed, 0));
     for (auto& round : turns)
         for (glm::dvec2& turn : round) {
             const double u = random();

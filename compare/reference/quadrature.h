@@ -50,8 +50,8 @@ Reflected gauss(const Integrand& f, const Cell& cell) {
 // missed by it.
 enum class Split { none, u, v };
 
-// Splits a cell into quarters until these together say what it says alone, to within `relative` of the whole's
-// size; `mustSplit(cell)` is a Split. `leaves`, where given, receives the cells at the end and their integrals.
+// Splits a cell into quarters until these together say what it says alone, to within `relative` of the whole's size
+// and half of that at every level below; `mustSplit(cell)` is a Split. `leaves`, where given, receives the cells at the end and their integrals.
 struct Leaf {
     Cell cell;
     Reflected value;

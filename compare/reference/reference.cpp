@@ -49,10 +49,16 @@ bool isLight(int mode) {
 
 // The numbers of a channel (shared/contract/debug_mode.h).
 glm::dvec3 channelValue(int mode, const Pixel& pixel) {
+    // Light is the mean over a pixel, even where its centre misses everything.
+    switch (static_cast<gpu::uint>(mode)) {
+        case gpu::DEBUG_lit: return pixel.lit;
+        case gpu::DEBUG_lit_diffuse: return pixel.shading.reflected.diffuse;
+        case gpu::DEBUG_lit_specular: return pixel.shading.reflected.specular;
+        default: break;
+    }
     if (!pixel.surface) return glm::dvec3(mode == static_cast<int>(gpu::DEBUG_material_id) ? -1 : 0);
     const Surface& s = *pixel.surface;
     switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_lit: return pixel.lit;
         case gpu::DEBUG_albedo: return s.albedo;
         case gpu::DEBUG_normals: return s.normal;
         case gpu::DEBUG_metallic: return glm::dvec3(s.metallic);
@@ -65,8 +71,6 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
         case gpu::DEBUG_depth: return glm::dvec3(pixel.depth);
         case gpu::DEBUG_position: return s.position;
         case gpu::DEBUG_geometric_normal: return s.geometric_normal;
-        case gpu::DEBUG_lit_diffuse: return pixel.shading.reflected.diffuse;
-        case gpu::DEBUG_lit_specular: return pixel.shading.reflected.specular;
         case gpu::DEBUG_dielectric_f90: return glm::dvec3(s.dielectric_f90);
     }
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
@@ -136,6 +140,9 @@ private:
     // How far from a place a shadow begins, relative to its distance from the camera: well above what double loses,
     // well below what is modelled. A captured place was a float32 depth.
     static constexpr double exactOffset = 1e-9, capturedOffset = 1e-5;
+    // And how far before a light it ends, relative to the way: a lamp that lies on a ceiling is not in it, though the
+    // ceiling's float32 vertices may round to below it.
+    static constexpr double lightOffset = 1e-5;
 
     // Light that comes from behind the triangle does not reach it, whatever the shading normal says.
     Open openFrom(const glm::dvec3& place, const glm::dvec3& geometric_normal, const TriangleId& without,
@@ -144,7 +151,7 @@ private:
         const double from = offset * glm::length(place);
         return [this, place, geometric_normal, without, from](const glm::dvec3& to_light, double distance) {
             if (!(glm::dot(geometric_normal, to_light) > 0)) return false;
-            const Ray ray{place, to_light, from, distance, without};
+            const Ray ray{place, to_light, from, distance * (1 - lightOffset), without};
             return !geometry_.meets(ray, [this](const Hit& hit) { return materials_.throwsShadow(hit); });
         };
     }
@@ -201,7 +208,7 @@ private:
             const std::optional<Hit> hit = nearest(ray, from, last);
             if (!hit) break;
             const double opacity = materials_.opacity(*hit, ray), share = through * opacity;
-            const Pixel here = shaded(*hit, ray, seed + (layer << 56));
+            const Pixel here = shaded(*hit, ray, streamOf(seed, layer));
             if (!pixel.surface) {
                 pixel.surface = here.surface;
                 pixel.depth = here.depth;
@@ -225,7 +232,7 @@ private:
         for (int i = 0; i < request_.samples; ++i) {
             const glm::dvec2 at = evenly(static_cast<std::uint64_t>(i), {0.5, 0.5});
             const PixelRay ray = rays_.through(x + at.x, y + at.y, std::sqrt(share));
-            const Pixel sample = alongRay(ray, seed + (static_cast<std::uint64_t>(i + 1) << 44));
+            const Pixel sample = alongRay(ray, streamOf(~seed, static_cast<std::uint64_t>(i)));
             mean.lit += sample.lit * share;
             mean.shading.reflected += sample.shading.reflected * share;
             mean.shading.uncertainty += sample.shading.uncertainty * share;
@@ -308,6 +315,7 @@ std::uint64_t keyOf(const Request& request) {
     constexpr int version = 3;
     Key key;
     key.add(version);
+    key.add(std::as_bytes(std::span(request.program)));
     const View& view = request.view;
     key.add(glm::ivec4(view.width, view.height, request.samples, static_cast<int>(request.mode)));
     key.add(view.camera.world_from_camera);
@@ -387,7 +395,6 @@ public:
                     request_.progress(static_cast<double>(++done) / static_cast<double>(order.size()));
             });
         }
-        checkpoint.remove();
         if (std::ranges::all_of(picture_.uncertainty.data, [](float u) { return u == 0; }))
             picture_.uncertainty = {};
         return std::move(picture_);

@@ -12,7 +12,7 @@
 #include <functional>
 #include <map>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace diptych::reference {
@@ -29,7 +29,10 @@ struct Request {
     ReferenceMode mode = ReferenceMode::surface;
     int samples = 1;                               // per pixel, mode scene
     const std::map<int, Image>* surfaces = nullptr;  // mode surface: every channel of surfaceChannels()
-    std::filesystem::path keep;  // where what is done is kept until all is; empty: nowhere
+    // Where what is done is kept, when all is too: the caller removes it. Empty: nowhere. `program`: what of another
+    // version is not gone on from.
+    std::filesystem::path keep;
+    std::string_view program = {};
     // From any thread: the share that is done.
     std::function<void(double fraction)> progress = {};
 };

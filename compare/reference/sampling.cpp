@@ -8,12 +8,23 @@
 
 namespace diptych::reference {
 
-double Random::operator()() {
-    state_ += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state_;
+namespace {
+
+std::uint64_t mixed(std::uint64_t z) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return z ^ (z >> 31);
+}
+
+}  // namespace
+
+double Random::operator()() {
+    state_ += 0x9e3779b97f4a7c15u;
+    return static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
+}
+
+std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number) {
+    return mixed(mixed(seed + 0xd1342543de82ef95u) + number * 0xaf251af3b0f025b5u);
 }
 
 glm::dvec2 evenly(std::uint64_t index, const glm::dvec2& shift) {

@@ -22,6 +22,9 @@ private:
     std::uint64_t state_;
 };
 
+// The seed of one of many streams under a seed; no two are the same but by chance.
+std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number);
+
 // Point `index` of the R2 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"),
 // turned by `shift` on the torus (Cranley and Patterson 1976): any run of indices covers the square evenly.
 glm::dvec2 evenly(std::uint64_t index, const glm::dvec2& shift);

@@ -151,7 +151,7 @@ std::string used(const ChannelDiff& channel) {
         return fmt::format("<span class=\"soft\">explained by the encoding, {} pixels left over</span>",
                            *channel.unexplained_pixels);
     if (!channel.rule.empty()) return fmt::format("<span class=\"soft\">{}</span>", markup(channel.rule));
-    const double error = channel.tolerance.most_pixels ? channel.stats.p999 : channel.stats.max;
+    const double error = channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
     const double share = channel.tolerance.max > 0 ? std::min(error / channel.tolerance.max, 1.0) : 1.0;
     return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
                        nameOf(channel.verdict), 100 * share);

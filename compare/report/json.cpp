@@ -152,7 +152,7 @@ Json jsonOf(const Frame& frame) {
             {"settings", isUnknown ? Json(nullptr) : Json::parse(toJson(frame.settings))},
             {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
             {"made_in_ms", frame.made_in_ms},
-            {"uncertainty", frame.uncertainty},
+            {"uncertainty", frame.relative_uncertainty},
             {"passes", passes},
             {"bytes",
              {{"images", frame.bytes.images},

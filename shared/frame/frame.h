@@ -74,9 +74,10 @@ struct Frame {
     std::map<int, Image> through_gbuffer;
     std::array<float, 3> background{};  // what pictures show there, W/(sr m^2)
     std::map<int, ChannelNoise> noise;  // of every channel, where the frame was drawn twice
-    // The reference's: half the 95 % confidence interval of lit, relative to it as its metric is, at 99.9 % of the
-    // covered pixels; 0 where nothing was sampled.
-    double uncertainty = 0;
+    // The reference's, where something was sampled: half the 95 % confidence interval of lit, W x H x 1,
+    // W/(sr m^2); and relative to lit as its metric is, at 99.9 % of the covered pixels.
+    Image uncertainty;
+    double relative_uncertainty = 0;
     FrameTime time;
     std::vector<PassTime> passes;
     double made_in_ms = 0;  // wall clock of all drawing, timing, capturing and reading back for this Frame
