@@ -125,6 +125,14 @@ TEST(Tradeoff, TwoToOnePlaceAreRefusedAndWhatIsNotOursIsLeft) {
     EXPECT_EQ(contentsOf(folder / ".t.sweep/notes.txt"), "mine");
 }
 
+TEST(Tradeoff, SaysWhatLightTheRowsLeaveOut) {
+    const Folder folder;
+    folder.write("l.json", R"({"lights": [{"type": "disc", "position": [0, 0, 3], "radius": 0.5}]})");
+    const Ran ran = runTool(folder, std::string(sweep) + "--lights l.json --grid '{\"settings\":{}}'");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(Json::parse(ran.out)["notes"].dump().find("not drawn by forward_plus yet"), std::string::npos) << ran.out;
+}
+
 TEST(Tradeoff, WhatItCannotDoIsOneLine) {
     const Folder folder;
     folder.write("grid.json", R"({"settings": {"gbuffer": ["tiny"]}})");

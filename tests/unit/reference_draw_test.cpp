@@ -171,6 +171,46 @@ TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
     EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 8 + 0.75 * 1), 1e-6);
 }
 
+// A lamp that lies on a ceiling, whose float32 vertices are above it, in it or below it by a rounding: its light
+// comes through, and what hangs between is seen.
+TEST(ReferenceDraw, ALampMayLieOnACeiling) {
+    for (const double height : {2.0, 2.3, 2.5, 2.7}) {
+        Scene scene = floorScene();
+        add(scene, quad({-5, 5, static_cast<float>(height)}, {10, 0, 0}, {0, -10, 0}));  // faces down
+        for (const LightKind kind : {LightKind::rect, LightKind::disc, LightKind::point}) {
+            Light lamp;
+            lamp.kind = kind;
+            lamp.position = {0, 0, height};
+            lamp.direction = {0, 0, -1};
+            scene.lights = {lamp};
+            const View view = viewFrom({3, 0, 1.5}, {0, 0, 0}, 5, 5);
+            const Image open = drawn(scene, view)[gpu::DEBUG_lit], shaded = drawn(scene, view, true)[gpu::DEBUG_lit];
+            for (std::size_t i = 0; i < open.pixels(); ++i)
+                EXPECT_NEAR(shaded.pixel(i)[0], open.pixel(i)[0], 1e-5f * open.pixel(i)[0]) << height << " " << i;
+            add(scene, quad({-4, 4, 1.9f}, {8, 0, 0}, {0, -8, 0}));
+            EXPECT_EQ(drawn(scene, view, true)[gpu::DEBUG_lit].at(2, 2, 0), 0) << "a board between";
+            scene.meshes[0].primitives.pop_back();
+        }
+    }
+}
+
+// Many samples of a coarse picture are the mean of a fine one, at silhouettes too, wherever a pixel's centre is.
+TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
+    Scene scene = floorScene();
+    scene.materials[0].emissive = {1, 1, 1};
+    scene.meshes[0].primitives = {quad({-0.83f, -0.61f, 0}, {1.5f, 0.3f, 0}, {-0.2f, 1.1f, 0})};
+    const auto mean = [](const Image& lit) {
+        double sum = 0;
+        for (std::size_t i = 0; i < lit.pixels(); ++i) sum += double{lit.pixel(i)[0]};
+        return sum / static_cast<double>(lit.pixels());
+    };
+    const double fine = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 320, 240))[gpu::DEBUG_lit]);
+    const double coarse = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6), false, 1600)[gpu::DEBUG_lit]);
+    EXPECT_NEAR(coarse, fine, 0.005 * fine);
+    const double one = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6))[gpu::DEBUG_lit]);
+    EXPECT_GT(std::abs(one - fine), 0.01 * fine) << "one sample is not, or this would show nothing";
+}
+
 // ---- threads and interruptions -----------------------------------------------------------------------
 
 // A light that is sampled, and a sky of that radiance.
@@ -214,7 +254,10 @@ TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
     expectSame(whole.picture, again.picture);
     EXPECT_GE(rest, 1);
     EXPECT_LE(rest, 9 - 4) << "of nine tiles four are done";
-    EXPECT_FALSE(std::filesystem::exists(keep)) << "the picture is whole";
+    // Whole, it stays until whoever asked for it is done with all.
+    rest = 0;
+    expectSame(whole.picture, drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; }).picture);
+    EXPECT_EQ(rest, 0);
 }
 
 // What decides a pixel decides whether a file is of the same picture.
