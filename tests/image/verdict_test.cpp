@@ -152,6 +152,10 @@ const Twin twins[] = {
      }},
     {"lit_diffuse", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
     {"lit_specular", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
+    {"dielectric_f90",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.specular *= 0.99f;
+     }},
 };
 
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictTwin, testing::ValuesIn(twins),
