@@ -75,11 +75,4 @@ void Checkpoint::keep(std::uint64_t number, std::span<const float> values) {
         fail(file_);
 }
 
-void Checkpoint::remove() {
-    if (!stream_) return;
-    std::fclose(std::exchange(stream_, nullptr));
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-}
-
 }  // namespace diptych::reference

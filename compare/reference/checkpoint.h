@@ -29,7 +29,6 @@ public:
     std::vector<Record> takeEarlier() { return std::move(earlier_); }
 
     void keep(std::uint64_t number, std::span<const float> values);  // fewer than `floats` are filled up with 0
-    void remove();                                                   // the picture is whole
 
 private:
     std::filesystem::path file_;

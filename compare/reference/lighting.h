@@ -44,9 +44,6 @@ public:
     // `open` empty: nothing throws a shadow. `seed` names what is shaded, for sampling.
     Shading operator()(const Surface& surface, const Open& open, std::uint64_t seed) const;
 
-    // Whether something of it is sampled, with shadows or without them.
-    bool samples(bool shadows) const { return environment_ || (shadows && !emitters_.empty()); }
-
 private:
     struct Punctual {
         Light light;

@@ -34,7 +34,6 @@ glm::dvec2 evenly(std::uint64_t index, const glm::dvec2& shift);
 class Rounds {
 public:
     void add(const Reflected& estimate);
-    std::uint32_t count() const { return count_; }
     Reflected mean() const { return mean_; }
     double halfWidth() const;  // of mean().size(), W/(sr m^2); infinite below two rounds
 

@@ -102,7 +102,6 @@ TEST(ReferenceCheckpoint, WithoutAFileNothingIsKept) {
     Checkpoint checkpoint({}, 7, 3);
     checkpoint.keep(1, first);
     EXPECT_TRUE(checkpoint.takeEarlier().empty());
-    checkpoint.remove();
 }
 
 }  // namespace

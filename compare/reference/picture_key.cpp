@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/picture_key.h"
+
+#include "compare/reference/key.h"
+#include "compare/reference/reference.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <span>
+#include <vector>
+
+namespace diptych::reference {
+namespace {
+
+void addScene(Key& key, const Request& request) {
+    const Scene& scene = request.scene;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) {
+            key.addAll(p.positions);
+            key.addAll(p.normals);
+            key.addAll(p.tangents);
+            key.addAll(p.texcoords[0]);
+            key.addAll(p.texcoords[1]);
+            key.addAll(p.colors);
+            key.addAll(p.indices);
+            key.add(glm::ivec2(p.material, p.flat));
+            for (const JointSet& set : p.joint_sets) {
+                key.addAll(set.joints);
+                key.addAll(set.weights);
+            }
+            for (const MorphTarget& target : p.targets) {
+                key.addAll(target.positions);
+                key.addAll(target.normals);
+                key.addAll(target.tangents);
+            }
+        }
+    const auto addSlot = [&](const TextureSlot& slot) {
+        key.add(slot.texture);
+        key.add(slot.texcoord);
+        key.add(slot.u);
+        key.add(slot.v);
+    };
+    for (const Material& m : scene.materials) {
+        key.add(m.base_color);
+        key.add(glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength));
+        key.add(glm::vec4(m.emissive, m.ior));
+        key.add(glm::vec4(m.specular_color, m.specular));
+        key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, 0));
+        key.add(m.alpha_cutoff);
+        for (const TextureSlot* slot :
+             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
+              &m.emissive_texture, &m.specular_texture, &m.specular_color_texture})
+            addSlot(*slot);
+    }
+    for (const Texture& texture : scene.textures) {
+        key.add(texture.image);
+        key.add(glm::ivec4(static_cast<int>(texture.sampler.wrap_s), static_cast<int>(texture.sampler.wrap_t),
+                           texture.sampler.magnify_linear, texture.sampler.minify_linear));
+    }
+    for (const TextureImage& image : scene.images) {
+        key.add(glm::ivec2(image.width, image.height));
+        key.addAll(image.rgba);
+        key.addAll(image.rgba16);
+    }
+    for (const Instance& instance : request.pose.instances) {
+        key.add(glm::ivec4(instance.mesh, instance.primitive, instance.skin, instance.weights));
+        key.add(instance.world_from_object);
+    }
+    for (const std::vector<glm::dmat4>& joints : request.pose.skins) key.addAll(joints);
+    for (const std::vector<double>& weights : request.pose.weights) key.addAll(weights);
+}
+
+}  // namespace
+
+// Everything that decides a pixel. The version goes up where the reference itself changes what it draws.
+std::uint64_t keyOf(const Request& request) {
+    constexpr int version = 3;
+    Key key;
+    key.add(version);
+    key.add(std::as_bytes(std::span(request.program)));
+    const View& view = request.view;
+    key.add(glm::ivec4(view.width, view.height, request.samples, static_cast<int>(request.mode)));
+    key.add(view.camera.world_from_camera);
+    key.add(glm::dvec4(view.camera.yfov, view.camera.ymag, view.camera.near, view.camera.far));
+    key.add(glm::ivec2(view.camera.orthographic, request.shadows));
+    for (const Light& l : request.lights) {
+        key.add(glm::vec4(l.color, l.intensity));
+        key.add(glm::vec4(l.range, l.inner_cone, l.outer_cone, l.angle));
+        key.add(glm::vec4(l.width, l.height, l.radius, l.length));
+        key.add(glm::ivec2(static_cast<int>(l.kind), l.two_sided));
+        key.add(l.position);
+        key.add(l.direction);
+        key.add(l.axis);
+    }
+    key.add(request.environment_factor);
+    if (request.scene.environment) {
+        const Image& sky = request.scene.environment->radiance;
+        key.add(glm::ivec2(sky.width, sky.height));
+        key.addAll(sky.data);
+    }
+    if (request.surfaces)
+        for (const auto& [mode, image] : *request.surfaces) key.addAll(image.data);
+    if (request.mode == ReferenceMode::scene || request.shadows) addScene(key, request);
+    return key.value();
+}
+
+}  // namespace diptych::reference
