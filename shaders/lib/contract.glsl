@@ -25,5 +25,6 @@ layout(set = SET_FRAME, binding = BINDING_VIEW, scalar) uniform ViewBlock { View
 layout(set = SET_FRAME, binding = BINDING_DRAWS, scalar) readonly buffer Draws { Draw draws[]; };
 layout(set = SET_FRAME, binding = BINDING_MATERIALS, scalar) readonly buffer Materials { Material materials[]; };
 layout(set = SET_FRAME, binding = BINDING_LIGHTS, scalar) readonly buffer Lights { Light lights[]; };
+layout(set = SET_FRAME, binding = BINDING_SPOT_CONES, scalar) readonly buffer SpotCones { SpotCone spot_cones[]; };
 
 #endif

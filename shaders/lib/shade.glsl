@@ -31,10 +31,16 @@ Radiance shade(Surface s) {
             addLight(brdf, s.normal, v, light.direction, light.irradiance, radiance.diffuse, radiance.specular);
         }
     }
-    if (on(feature_local_lights)) {
-        uint end = view.directional_light_count + view.local_light_count;
-        for (uint i = view.directional_light_count; i < end; ++i) {
-            Incident light = fromLocalLight(lights[i], s.position);
+    uint first_spot = view.directional_light_count + view.point_light_count;
+    if (on(feature_point_lights)) {
+        for (uint i = view.directional_light_count; i < first_spot; ++i) {
+            Incident light = fromPointLight(lights[i], s.position);
+            addLight(brdf, s.normal, v, light.direction, light.irradiance, radiance.diffuse, radiance.specular);
+        }
+    }
+    if (on(feature_spot_lights)) {
+        for (uint i = 0; i < view.spot_light_count; ++i) {
+            Incident light = fromSpotLight(lights[first_spot + i], spot_cones[i], s.position);
             addLight(brdf, s.normal, v, light.direction, light.irradiance, radiance.diffuse, radiance.specular);
         }
     }

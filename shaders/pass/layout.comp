@@ -12,6 +12,7 @@ layout(set = 3, binding = 2, scalar) buffer MaterialArray { Material material_ar
 layout(set = 3, binding = 3, scalar) buffer LightArray { Light light_array[]; };
 layout(set = 3, binding = 4, scalar) buffer VertexAttributesArray { VertexAttributes vertex_attributes_array[]; };
 layout(set = 3, binding = 6, scalar) buffer DrawConstantsArray { DrawConstants draw_constants_array[]; };
+layout(set = 3, binding = 7, scalar) buffer SpotConeArray { SpotCone spot_cone_array[]; };
 layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
 
 void main() {
@@ -19,6 +20,7 @@ void main() {
     draw_array[0] = draw_array[1];
     material_array[0] = material_array[1];
     light_array[0] = light_array[1];
+    spot_cone_array[0] = spot_cone_array[1];
     vertex_attributes_array[0] = vertex_attributes_array[1];
     draw_constants_array[0] = draw_constants_array[1];
     texture_transform_array[0] = texture_transform_array[1];

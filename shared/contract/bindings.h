@@ -15,6 +15,7 @@ CONTRACT_CONST(uint, BINDING_VIEW, 0);       // uniform View
 CONTRACT_CONST(uint, BINDING_DRAWS, 1);      // buffer Draw[]
 CONTRACT_CONST(uint, BINDING_MATERIALS, 2);  // buffer Material[]
 CONTRACT_CONST(uint, BINDING_LIGHTS, 3);     // buffer Light[]
+CONTRACT_CONST(uint, BINDING_SPOT_CONES, 4); // buffer SpotCone[]
 
 CONTRACT_CONST(uint, BINDING_DEPTH, 6);      // of SET_GBUFFER
 

@@ -24,7 +24,7 @@
     X(12, emission)                   /* the scene emits light */                                     \
     X(13, dielectric_specular)        /* KHR_materials_specular, _ior, _unlit in the scene */     \
     X(14, directional_lights)         /* the scene has some */                                        \
-    X(15, local_lights)               /* the scene has point or spot lights */                        \
+    X(15, point_lights)                                                                               \
     X(16, gbuffer_encoding)           /* GBUFFER_* of gbuffer.h */                                    \
     X(17, gbuffer_wide_emission)      /* emission beyond the packed format's range: float32 */        \
     X(18, gbuffer_wide_material_id)   /* more materials than the packed bits can name */              \
@@ -38,13 +38,14 @@
     X(26, capture_6)                                                                                  \
     X(27, capture_7)                                                                                  \
     X(28, orthographic)                                                                               \
-    X(29, unlit)                      /* KHR_materials_unlit: emits its base colour, reflects nothing */
+    X(29, unlit)                      /* KHR_materials_unlit: emits its base colour, reflects nothing */ \
+    X(30, spot_lights)
 
 CONTRACT_BEGIN
 #define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
 FEATURES(DIPTYCH_FEATURE_ID)
 #undef DIPTYCH_FEATURE_ID
-CONTRACT_CONST(uint, FEATURE_COUNT, 30);
+CONTRACT_CONST(uint, FEATURE_COUNT, 31);
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

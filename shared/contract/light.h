@@ -7,15 +7,20 @@
 CONTRACT_BEGIN
 
 // A light as the shaders see it: KHR_lights_punctual, with everything that does not depend on the pixel
-// worked out. Directional lights come first in the buffer, the others after them, both in scene order,
-// and every sum over lights runs in that order.
+// worked out. The buffer holds directional lights first, then points, spots and area lights, each kind in the
+// scene's order; every sum over lights runs in that order, whatever chose the lights.
 struct Light {
-    vec3 position;     // from the camera, world axes, m; directional: unused
-    float range;       // m; exactly zero light from there on; infinity where the light has none
-    vec3 intensity;    // W/sr (candela); directional: W/m^2 (lux)
-    float cone_scale;  // spot: 1 / (cos inner - cos outer); point: 0
-    vec3 direction;    // unit, in which the light travels, world
-    float cone_offset; // spot: -cos outer * cone_scale; point: 1
+    vec3 position;              // from the camera, world axes, m; directional: unit, to the light
+    float inverse_range_squared;  // 1/m^2: d^2 times it is below 1 where light arrives; 0 without a range
+    vec3 intensity;             // W/sr (candela); directional: W/m^2 (lux)
+    float range;                // m; infinity where the light has none
+};
+
+// What a spot has beside its Light; the i-th spot's is the i-th.
+struct SpotCone {
+    vec3 direction;  // unit, in which the light travels, world
+    float scale;     // 1 / (cos inner - cos outer)
+    float offset;    // -cos outer * scale
 };
 
 CONTRACT_END

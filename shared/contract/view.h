@@ -24,7 +24,8 @@ struct View {
     vec2 depth_denominator;
     vec3 backward;             // unit, from the scene to the camera: the view vector of an orthographic one
     uint directional_light_count;
-    uint local_light_count;
+    uint point_light_count;
+    uint spot_light_count;
 };
 
 CONTRACT_END

@@ -16,7 +16,8 @@ namespace {
 
 // In the order of BINDING_* of SET_FRAME.
 constexpr std::array frameTypes{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 constexpr VkShaderStageFlags drawStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
@@ -57,18 +58,22 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     : sets_(device, layouts.frame, frameTypes, 1) {
     gpu::View gpuView = view.gpuView();
     gpuView.directional_light_count = lights.directional;
-    gpuView.local_light_count = lights.local;
+    gpuView.point_light_count = lights.point;
+    gpuView.spot_light_count = lights.spot;
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     draws_ =
         makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     lights_ =
         makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    spot_cones_ = makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones,
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     uploader.flush();
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
     sets_.buffer(0, gpu::BINDING_DRAWS, draws_.handle());
     sets_.buffer(0, gpu::BINDING_MATERIALS, materials.buffer());
     sets_.buffer(0, gpu::BINDING_LIGHTS, lights_.handle());
+    sets_.buffer(0, gpu::BINDING_SPOT_CONES, spot_cones_.handle());
 }
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
@@ -77,7 +82,8 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
     variant.set(gpu::FEATURE_emission, needs.emission)
         .set(gpu::FEATURE_dielectric_specular, needs.dielectric_specular)
         .set(gpu::FEATURE_directional_lights, lights.directional > 0)
-        .set(gpu::FEATURE_local_lights, lights.local > 0)
+        .set(gpu::FEATURE_point_lights, lights.point > 0)
+        .set(gpu::FEATURE_spot_lights, lights.spot > 0)
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;

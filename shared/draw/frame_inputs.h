@@ -28,10 +28,10 @@ public:
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const Materials& materials,
                  const View& view, const DrawList& draws, const GpuLights& lights);
     VkDescriptorSet set() const { return sets_[0]; }
-    std::uint64_t bytes() const { return view_.size() + draws_.size() + lights_.size(); }
+    std::uint64_t bytes() const { return view_.size() + draws_.size() + lights_.size() + spot_cones_.size(); }
 
 private:
-    GpuBuffer view_, draws_, lights_;
+    GpuBuffer view_, draws_, lights_, spot_cones_;
     DescriptorSets sets_;
 };
 

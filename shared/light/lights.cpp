@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace diptych {
@@ -14,20 +15,18 @@ namespace diptych {
 namespace {
 
 gpu::Light gpuLight(const Light& light, const glm::dvec3& eye) {
-    gpu::Light g{};
-    g.position = light.kind == LightKind::directional ? glm::vec3(0) : glm::vec3(light.position - eye);
-    g.range = light.range;
-    g.intensity = light.color * light.intensity;
-    g.direction = glm::vec3(light.direction);
-    g.cone_offset = 1;
-    if (light.kind == LightKind::spot) {
-        // KHR_lights_punctual's reference formula; the floor keeps a hard cone (inner = outer) finite.
-        const double cosOuter = std::cos(static_cast<double>(light.outer_cone));
-        const double scale = 1 / std::max(0.001, std::cos(static_cast<double>(light.inner_cone)) - cosOuter);
-        g.cone_scale = static_cast<float>(scale);
-        g.cone_offset = static_cast<float>(-cosOuter * scale);
-    }
-    return g;
+    const bool directional = light.kind == LightKind::directional;
+    return {.position = directional ? -glm::vec3(light.direction) : glm::vec3(light.position - eye),
+            .inverse_range_squared = directional ? 0 : inverseSquaredRange(light.range),
+            .intensity = light.color * light.intensity,
+            .range = light.range};
+}
+
+gpu::SpotCone spotCone(const Light& light) {
+    // KHR_lights_punctual's reference formula; the floor keeps a hard cone (inner = outer) finite.
+    const double cosOuter = std::cos(static_cast<double>(light.outer_cone));
+    const double scale = 1 / std::max(0.001, std::cos(static_cast<double>(light.inner_cone)) - cosOuter);
+    return {glm::vec3(light.direction), static_cast<float>(scale), static_cast<float>(-cosOuter * scale)};
 }
 
 // No path draws area lights yet.
@@ -38,14 +37,27 @@ bool shines(const Light& light) {
 
 }  // namespace
 
+float inverseSquaredRange(float range) {
+    const float squared = range * range;
+    if (!(squared > 0)) return std::numeric_limits<float>::infinity();
+    float inverse = 1 / squared;
+    while (inverse * squared < 1) inverse = std::nextafter(inverse, std::numeric_limits<float>::infinity());
+    return std::isinf(squared) ? 0 : inverse;
+}
+
 GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye) {
     GpuLights result;
-    for (const bool directional : {true, false})
+    const auto take = [&](LightKind kind, std::uint32_t& count) {
         for (const Light& light : lights) {
-            if ((light.kind == LightKind::directional) != directional || !shines(light)) continue;
+            if (light.kind != kind || !shines(light)) continue;
             result.lights.push_back(gpuLight(light, eye));
-            ++(directional ? result.directional : result.local);
+            if (kind == LightKind::spot) result.spot_cones.push_back(spotCone(light));
+            ++count;
         }
+    };
+    take(LightKind::directional, result.directional);
+    take(LightKind::point, result.point);
+    take(LightKind::spot, result.spot);
     if (result.lights.size() > gpu::MAX_LIGHTS_PER_DRAW)
         throw std::runtime_error(
             fmt::format("{} lights: --assign every walks up to {} in this version; use fewer --lights",

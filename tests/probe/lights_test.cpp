@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // KHR_lights_punctual as the shaders evaluate it, against the specification's formulas in double.
+#include "shared/light/lights.h"
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,9 @@ struct Case {
 std::vector<float> evaluate(Probes& probes, const std::vector<Case>& cases) {
     std::vector<float> input;
     for (const Case& c : cases)
-        for (const double value : {c.x, c.y, c.z, c.range, c.axis_x, c.axis_y, c.axis_z, c.scale, c.offset})
+        for (const double value :
+             {c.x, c.y, c.z, static_cast<double>(inverseSquaredRange(static_cast<float>(c.range))), c.axis_x,
+              c.axis_y, c.axis_z, c.scale, c.offset})
             input.push_back(static_cast<float>(value));
     return probes.run("lights", input, 9, 4);
 }
