@@ -45,6 +45,19 @@ struct SharedResources {
     Pipelines pipelines;
 };
 
+gpu::uint listsOf(Assignment assign) {
+    switch (assign) {
+        case Assignment::tiled:
+            return gpu::LISTS_TILED;
+        case Assignment::clustered:
+            return gpu::LISTS_CLUSTERED;
+        case Assignment::every:
+        case Assignment::per_object:
+            break;
+    }
+    return gpu::LISTS_NONE;
+}
+
 // One view of the scene under one Settings, ready for passes.
 class Shot {
 public:
@@ -55,13 +68,17 @@ public:
           lit_by(litBy(scene, pose, settings)),
           lights(gpuLights(lit_by, view.eye())),
           draws(makeDrawList(pose, shared.geometry, shared.materials, view)),
-          buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights),
+          buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights,
+                  {listsOf(settings.assign), ListKernel::scatter}),
           gbuffer(gbufferLayout(settings.gbuffer, needs)),
           inputs{device,           shared.layouts,
                  shared.pipelines, shared.geometry,
                  shared.materials, draws,
-                 buffers.set(),    sceneVariant(needs, lights, view, gbuffer),
-                 gbuffer,          settings.prepass != Switch::off} {}
+                 buffers.set(),    buffers.lists(),
+                 sceneVariant(needs, lights, view, gbuffer),
+                 gbuffer,          settings.prepass != Switch::off} {
+        buffers.lists().specialise(inputs.variant);
+    }
     Shot(const Shot&) = delete;
     Shot& operator=(const Shot&) = delete;
 
@@ -152,12 +169,13 @@ public:
         frame_.notes = scene_.notes;
         for (const std::string& note : shared_.materials.notes()) frame_.notes.push_back(note);
         for (std::string& note : leftOutNotes()) frame_.notes.push_back(std::move(note));
-        frame_.counters.lights = shot_.lights.lights.size();
+        frame_.counters.lights = shot_.lights.count();
         PassList passes(device_, static_cast<std::uint32_t>(settings_.size.width),
                         static_cast<std::uint32_t>(settings_.size.height));
         const FrameImages images = path_.add(passes, shot_.inputs);
         drawTimed(passes);
         lit_ = readLit(passes, images);
+        frame_.counters.overflowed_lists = shot_.buffers.lists().overflowed();
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
         if (!options_.channels.empty()) capture(passes, images);
         frame_.asked = options_.asked;

@@ -94,6 +94,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
         geometry.color(images.gbuffer[i], Load::clear);
     }
     geometry.record(recordDraws(inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item); }));
+    inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     images.lit = passes.image("lit", litFormat);
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
     addResolve(passes, shade, inputs, images, "deferred_shade.frag", inputs.variant, {litFormat});

@@ -19,7 +19,8 @@ PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item) {
                     .depth_write = !inputs.prepass};
     for (const gpu::uint feature :
          {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_directional_lights,
-          gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_orthographic})
+          gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_light_lists,
+          gpu::FEATURE_list_width, gpu::FEATURE_orthographic})
         key.variant.set(feature, inputs.variant.get(feature));
     return key;
 }
@@ -43,6 +44,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     images.depth = passes.image("depth", depthFormat);
     if (inputs.prepass)
         passes.draw("depth pre-pass").depth(images.depth, Load::clear).record(recordDraws(inputs, depthKey));
+    inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     images.lit = passes.image("lit", litFormat);
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
     if (inputs.prepass)

@@ -14,8 +14,8 @@ uint captureMode(uint attachment) {
     return modes[attachment];
 }
 
-void capture(Surface s, Radiance radiance, float z) {
-    for (uint i = 0; i < ATTACHMENTS; ++i) out_channels[i] = debugValue(captureMode(i), s, radiance, z);
+void capture(Surface s, PixelLights lights, Radiance radiance, float z) {
+    for (uint i = 0; i < ATTACHMENTS; ++i) out_channels[i] = debugValue(captureMode(i), s, lights, radiance, z);
 }
 
 #endif

@@ -12,6 +12,7 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
 #include "shared/contract/light.h"
+#include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
 #include "shared/contract/view.h"
 
@@ -24,7 +25,5 @@ bool on(uint feature) { return feature != 0; }
 layout(set = SET_FRAME, binding = BINDING_VIEW, scalar) uniform ViewBlock { View view; };
 layout(set = SET_FRAME, binding = BINDING_DRAWS, scalar) readonly buffer Draws { Draw draws[]; };
 layout(set = SET_FRAME, binding = BINDING_MATERIALS, scalar) readonly buffer Materials { Material materials[]; };
-layout(set = SET_FRAME, binding = BINDING_LIGHTS, scalar) readonly buffer Lights { Light lights[]; };
-layout(set = SET_FRAME, binding = BINDING_SPOT_CONES, scalar) readonly buffer SpotCones { SpotCone spot_cones[]; };
 
 #endif

@@ -5,7 +5,7 @@
 #include "shaders/lib/shade.glsl"
 
 // The numbers of a channel (shared/contract/debug_mode.h), never a colour map. z: the reversed depth.
-vec4 debugValue(uint mode, Surface s, Radiance radiance, float z) {
+vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, float z) {
     switch (mode) {
         case DEBUG_lit: return vec4(lit(radiance), 1.0);
         case DEBUG_albedo: return vec4(s.albedo, 1.0);
@@ -20,6 +20,8 @@ vec4 debugValue(uint mode, Surface s, Radiance radiance, float z) {
         case DEBUG_depth: return vec4(viewDepth(z));
         case DEBUG_position: return vec4(s.position, 1.0);
         case DEBUG_geometric_normal: return vec4(s.geometric_normal, 1.0);
+        case DEBUG_light_count: return vec4(float(lightCount(lights)));
+        case DEBUG_list_overflow: return vec4(listOverflowed(lights) ? 1.0 : 0.0);
         case DEBUG_lit_diffuse: return vec4(radiance.diffuse, 1.0);
         case DEBUG_lit_specular: return vec4(radiance.specular, 1.0);
         case DEBUG_dielectric_f90: return vec4(s.dielectric_f90);

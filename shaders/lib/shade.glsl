@@ -4,6 +4,7 @@
 #define SHADE_GLSL
 
 #include "shaders/lib/brdf.glsl"
+#include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/lights.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/surface.glsl"
@@ -20,30 +21,55 @@ vec3 lit(Radiance radiance) {
     return sum;
 }
 
-// Every light, in the buffer's order. Occlusion is for ambient light alone and dims nothing here.
-Radiance shade(Surface s) {
+// What every light meets at a pixel.
+struct Shading {
+    Surface surface;
+    vec3 v;
+    Brdf brdf;
+};
+
+void addIncident(Shading shading, Incident light, inout Radiance radiance) {
+    addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance, radiance.diffuse,
+             radiance.specular);
+}
+
+void addPoint(Shading shading, uint i, inout Radiance radiance) {
+    addIncident(shading, fromPointLight(lightAt(i), shading.surface.position), radiance);
+}
+
+void addSpot(Shading shading, uint i, inout Radiance radiance) {
+    addIncident(shading, fromSpotLight(lightAt(i), spotConeAt(i), shading.surface.position), radiance);
+}
+
+// The groups [x, y) of one kind, one at least with lists: on lavapipe a loop that tests last runs a body less than one
+// that tests first.
+#define ADD_GROUPS(add, groups)                                \
+    {                                                          \
+        uvec2 range = groups;                                  \
+        uint group = range.x;                                  \
+        bool more = group < range.y;                           \
+        while (more) {                                         \
+            uvec4 i = lightsOfGroup(group);                    \
+            add(shading, i.x, radiance);                       \
+            if (feature_list_width == 4) {                     \
+                add(shading, i.y, radiance);                   \
+                add(shading, i.z, radiance);                   \
+                add(shading, i.w, radiance);                   \
+            }                                                  \
+            more = ++group < range.y;                          \
+        }                                                      \
+    }
+
+// The sum over the pixel's lights, in the buffer's order. Occlusion is for ambient light alone and dims nothing here.
+Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
-    Brdf brdf = makeBrdf(s, v);
+    Shading shading = Shading(s, v, makeBrdf(s, v));
     precise Radiance radiance = Radiance(vec3(0.0), vec3(0.0), s.emission);
-    if (on(feature_directional_lights)) {
-        for (uint i = 0; i < view.directional_light_count; ++i) {
-            Incident light = fromDirectionalLight(lights[i]);
-            addLight(brdf, s.normal, v, light.direction, light.irradiance, radiance.diffuse, radiance.specular);
-        }
-    }
-    uint first_spot = view.directional_light_count + view.point_light_count;
-    if (on(feature_point_lights)) {
-        for (uint i = view.directional_light_count; i < first_spot; ++i) {
-            Incident light = fromPointLight(lights[i], s.position);
-            addLight(brdf, s.normal, v, light.direction, light.irradiance, radiance.diffuse, radiance.specular);
-        }
-    }
-    if (on(feature_spot_lights)) {
-        for (uint i = 0; i < view.spot_light_count; ++i) {
-            Incident light = fromSpotLight(lights[first_spot + i], spot_cones[i], s.position);
-            addLight(brdf, s.normal, v, light.direction, light.irradiance, radiance.diffuse, radiance.specular);
-        }
-    }
+    if (on(feature_directional_lights))
+        for (uint i = 0; i < view.directional_light_count; ++i)
+            addIncident(shading, fromDirectionalLight(lightAt(i)), radiance);
+    if (on(feature_point_lights)) ADD_GROUPS(addPoint, walked(lights, lights.groups.begin, lights.groups.point_end))
+    if (on(feature_spot_lights)) ADD_GROUPS(addSpot, walked(lights, lights.groups.point_end, lights.groups.spot_end))
     return radiance;
 }
 

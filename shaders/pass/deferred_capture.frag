@@ -10,5 +10,6 @@ void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     float z = depthAt(p);
     Surface s = surfaceFromGBuffer(p, z);
-    capture(s, shade(s), z);
+    PixelLights lights = lightsAt(gl_FragCoord.xy, z);
+    capture(s, lights, shade(s, lights), z);
 }

@@ -9,5 +9,6 @@ layout(location = 0) out vec4 out_lit;
 
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
-    out_lit = vec4(lit(shade(surfaceFromGBuffer(p, depthAt(p)))), 1.0);
+    float z = depthAt(p);
+    out_lit = vec4(lit(shade(surfaceFromGBuffer(p, z), lightsAt(gl_FragCoord.xy, z))), 1.0);
 }

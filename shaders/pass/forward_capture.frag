@@ -8,5 +8,6 @@
 
 void main() {
     Surface s = forwardSurface();
-    capture(s, shade(s), gl_FragCoord.z);
+    PixelLights lights = lightsAt(gl_FragCoord.xy, gl_FragCoord.z);
+    capture(s, lights, shade(s, lights), gl_FragCoord.z);
 }

@@ -13,6 +13,10 @@ layout(set = 3, binding = 3, scalar) buffer LightArray { Light light_array[]; };
 layout(set = 3, binding = 4, scalar) buffer VertexAttributesArray { VertexAttributes vertex_attributes_array[]; };
 layout(set = 3, binding = 6, scalar) buffer DrawConstantsArray { DrawConstants draw_constants_array[]; };
 layout(set = 3, binding = 7, scalar) buffer SpotConeArray { SpotCone spot_cone_array[]; };
+layout(set = 3, binding = 8, scalar) buffer LightGridArray { LightGrid light_grid_array[]; };
+layout(set = 3, binding = 9, scalar) buffer LightBoundArray { LightBound light_bound_array[]; };
+layout(set = 3, binding = 10, scalar) buffer LightListHeadArray { LightListHead light_list_head_array[]; };
+layout(set = 3, binding = 11, scalar) buffer LightListCountArray { LightListCount light_list_count_array[]; };
 layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
 
 void main() {
@@ -21,6 +25,10 @@ void main() {
     material_array[0] = material_array[1];
     light_array[0] = light_array[1];
     spot_cone_array[0] = spot_cone_array[1];
+    light_grid_array[0] = light_grid_array[1];
+    light_bound_array[0] = light_bound_array[1];
+    light_list_head_array[0] = light_list_head_array[1];
+    light_list_count_array[0] = light_list_count_array[1];
     vertex_attributes_array[0] = vertex_attributes_array[1];
     draw_constants_array[0] = draw_constants_array[1];
     texture_transform_array[0] = texture_transform_array[1];

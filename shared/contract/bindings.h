@@ -9,13 +9,19 @@ CONTRACT_BEGIN
 
 CONTRACT_CONST(uint, SET_FRAME, 0);     // what every pass of a frame reads
 CONTRACT_CONST(uint, SET_MATERIAL, 1);  // the textures of one material, bindings SLOT_*
+CONTRACT_CONST(uint, SET_LISTS, 1);     // of the kernels that make light lists, bindings of light_list.h
 CONTRACT_CONST(uint, SET_GBUFFER, 2);   // deferred: the attachments, bindings GBUFFER_*, then depth
 
 CONTRACT_CONST(uint, BINDING_VIEW, 0);       // uniform View
 CONTRACT_CONST(uint, BINDING_DRAWS, 1);      // buffer Draw[]
 CONTRACT_CONST(uint, BINDING_MATERIALS, 2);  // buffer Material[]
-CONTRACT_CONST(uint, BINDING_LIGHTS, 3);     // buffer Light[]
-CONTRACT_CONST(uint, BINDING_SPOT_CONES, 4); // buffer SpotCone[]
+CONTRACT_CONST(uint, BINDING_LIGHTS, 3);     // texels of Light[]
+CONTRACT_CONST(uint, BINDING_SPOT_CONES, 4); // texels of SpotCone[]
+
+CONTRACT_CONST(uint, BINDING_LIGHT_GRID, 7);    // uniform LightGrid
+CONTRACT_CONST(uint, BINDING_LIST_HEADS, 8);    // texels of LightListHead[lists]
+CONTRACT_CONST(uint, BINDING_LIST_INDICES, 9);  // texels of uint[]: into the lights, list_width at once
+CONTRACT_CONST(uint, BINDING_LIST_COUNTS, 10);  // buffer uint[lists]
 
 CONTRACT_CONST(uint, BINDING_DEPTH, 6);      // of SET_GBUFFER
 

@@ -27,6 +27,8 @@
     X(10, depth,            1, relative, scalar, both,         "view depth, m (EXR layer Z)")             \
     X(11, position,         3, relative, vector, both,         "shading position, world axes, from the camera, m") \
     X(12, geometric_normal, 3, angular,  vector, both,         "normal of the triangle, world")           \
+    X(20, light_count,      1, absolute, scalar, both,         "lights evaluated at the pixel")           \
+    X(21, list_overflow,    1, exact,    scalar, both,         "1 where the pixel's light list found no room") \
     X(40, lit_diffuse,      3, relative, color,  both,         "reflected by the diffuse lobe, W/(sr m^2)") \
     X(41, lit_specular,     3, relative, color,  both,         "reflected by the specular lobe, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, both,         "F90 of the dielectric layer, 0 to 1")

@@ -39,13 +39,16 @@
     X(27, capture_7)                                                                                  \
     X(28, orthographic)                                                                               \
     X(29, unlit)                      /* KHR_materials_unlit: emits its base colour, reflects nothing */ \
-    X(30, spot_lights)
+    X(30, spot_lights)                                                                                \
+    X(32, light_lists)                /* LISTS_* of light_list.h */                                   \
+    X(33, light_chunk)                /* a draw walks only a part of each list: lavapipe's loops end */ \
+    X(34, list_width)                 /* lights that one turn of a list's loop takes: 1 or 4 */
 
 CONTRACT_BEGIN
 #define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
 FEATURES(DIPTYCH_FEATURE_ID)
 #undef DIPTYCH_FEATURE_ID
-CONTRACT_CONST(uint, FEATURE_COUNT, 31);
+CONTRACT_CONST(uint, FEATURE_COUNT, 35);
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

@@ -27,6 +27,8 @@ struct Draw {
 struct DrawConstants {
     uint draw;      // into the draws
     uint material;  // into the materials
+    uint light_first;  // with FEATURE_light_chunk: positions of each list that this draw walks, from here
+    uint light_end;    // to below here
 };
 
 CONTRACT_END

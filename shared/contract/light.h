@@ -8,7 +8,8 @@ CONTRACT_BEGIN
 
 // A light as the shaders see it: KHR_lights_punctual, with everything that does not depend on the pixel
 // worked out. The buffer holds directional lights first, then points, spots and area lights, each kind in the
-// scene's order; every sum over lights runs in that order, whatever chose the lights.
+// scene's order, and last a null light that gives nothing, with which lists are padded; every sum over lights runs
+// in that order, whatever chose the lights. Shaders read it as a texel buffer of four floats.
 struct Light {
     vec3 position;              // from the camera, world axes, m; directional: unit, to the light
     float inverse_range_squared;  // 1/m^2: d^2 times it is below 1 where light arrives; 0 without a range
@@ -21,6 +22,7 @@ struct SpotCone {
     vec3 direction;  // unit, in which the light travels, world
     float scale;     // 1 / (cos inner - cos outer)
     float offset;    // -cos outer * scale
+    vec3 padding;    // to two texels of four floats, as a Light is
 };
 
 CONTRACT_END

@@ -14,10 +14,12 @@ namespace diptych {
 
 namespace {
 
+constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                           storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                           texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 // In the order of BINDING_* of SET_FRAME.
-constexpr std::array frameTypes{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+constexpr std::array frameTypes{uniform, storage, storage, texels, texels, storage,
+                                storage, uniform, texels,  texels, storage};
 
 constexpr VkShaderStageFlags drawStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
@@ -50,12 +52,14 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material) : frame(makeSet
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
     pipeline = OwnedPipelineLayout(device.handle(), layout);
+    lists = ListLayouts(device, frame);
 }
 
 FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts,
                            const Materials& materials, const View& view, const DrawList& draws,
-                           const GpuLights& lights)
-    : sets_(device, layouts.frame, frameTypes, 1) {
+                           const GpuLights& lights, const LightLists::Choice& choice)
+    : lists_(device, uploader, layouts.lists, choice, view, lights),
+      sets_(device, layouts.frame, frameTypes, 1) {
     gpu::View gpuView = view.gpuView();
     gpuView.directional_light_count = lights.directional;
     gpuView.point_light_count = lights.point;
@@ -64,16 +68,19 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     draws_ =
         makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    lights_ =
-        makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,
+                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     spot_cones_ = makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones,
-                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+                                            VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    lights_view_ = makeTexelView(device, "lights", lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    spot_cones_view_ = makeTexelView(device, "spot cones", spot_cones_, VK_FORMAT_R32G32B32A32_SFLOAT);
     uploader.flush();
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
     sets_.buffer(0, gpu::BINDING_DRAWS, draws_.handle());
     sets_.buffer(0, gpu::BINDING_MATERIALS, materials.buffer());
-    sets_.buffer(0, gpu::BINDING_LIGHTS, lights_.handle());
-    sets_.buffer(0, gpu::BINDING_SPOT_CONES, spot_cones_.handle());
+    sets_.texels(0, gpu::BINDING_LIGHTS, lights_view_);
+    sets_.texels(0, gpu::BINDING_SPOT_CONES, spot_cones_view_);
+    lists_.bind(sets_);
 }
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
@@ -113,7 +120,7 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
             // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
             vkCmdSetFrontFace(commands,
                               item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-            const gpu::DrawConstants constants{item.draw, item.range.material};
+            const gpu::DrawConstants constants{item.draw, item.range.material, 0, 0};
             vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants,
                                &constants);
             vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,

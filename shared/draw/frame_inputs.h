@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/draw/draw_list.h"
-#include "shared/light/lights.h"
+#include "shared/light/light_lists.h"
 #include "shared/material/gbuffer_layout.h"
 #include "shared/vulkan/pass_list.h"
 
@@ -20,18 +20,25 @@ struct Layouts {
     Layouts(Device& device, VkDescriptorSetLayout material);
     OwnedDescriptorSetLayout frame, gbuffer;
     OwnedPipelineLayout pipeline;
+    ListLayouts lists;
 };
 
-// The buffers of one view: camera, draws, lights; bound as SET_FRAME.
+// The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
 class FrameBuffers {
 public:
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const Materials& materials,
-                 const View& view, const DrawList& draws, const GpuLights& lights);
+                 const View& view, const DrawList& draws, const GpuLights& lights,
+                 const LightLists::Choice& choice);
     VkDescriptorSet set() const { return sets_[0]; }
-    std::uint64_t bytes() const { return view_.size() + draws_.size() + lights_.size() + spot_cones_.size(); }
+    LightLists& lists() { return lists_; }
+    std::uint64_t bytes() const {
+        return view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + lists_.bytes();
+    }
 
 private:
     GpuBuffer view_, draws_, lights_, spot_cones_;
+    OwnedBufferView lights_view_, spot_cones_view_;
+    LightLists lists_;
     DescriptorSets sets_;
 };
 
@@ -43,6 +50,7 @@ struct FrameInputs {
     const Materials& materials;
     const DrawList& draws;
     VkDescriptorSet frame_set;
+    LightLists& lists;
     Variant variant;  // of the scene and the view: lights there, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
     bool prepass = true;  // forward+

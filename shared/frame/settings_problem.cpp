@@ -19,7 +19,6 @@ constexpr std::string_view not_built = "is not built yet";
 constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm";
 constexpr std::string_view needs_reference = "has no meaning without --path reference";
 constexpr Fixed fixed[] = {
-    {"assign", not_built},
     {"time", "is not built yet but in --path reference --reference-mode scene"},
     {"ibl-intensity", "has no meaning without --env", "env"},
     {"ambient", not_built},
@@ -87,6 +86,11 @@ std::optional<std::string> Settings::problem() const {
     if (env.empty()) return "--env '': names no file; use none";
     if (!(ibl_intensity >= 0 && std::isfinite(ibl_intensity)))
         return fmt::format("--ibl-intensity {}: is finite and at least 0", ibl_intensity);
+
+    if (assign == Assignment::per_object) return "--assign per_object is not built yet; use every";
+    if (assign == Assignment::tiled && path == Path::forward_plus && prepass == Switch::off)
+        return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; use "
+               "--prepass on";
 
     const Settings usual;
     const auto isUsual = [&](std::string_view option) {

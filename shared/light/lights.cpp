@@ -3,12 +3,9 @@
 
 #include "shared/contract/constants.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace diptych {
 
@@ -26,7 +23,7 @@ gpu::SpotCone spotCone(const Light& light) {
     // KHR_lights_punctual's reference formula; the floor keeps a hard cone (inner = outer) finite.
     const double cosOuter = std::cos(static_cast<double>(light.outer_cone));
     const double scale = 1 / std::max(0.001, std::cos(static_cast<double>(light.inner_cone)) - cosOuter);
-    return {glm::vec3(light.direction), static_cast<float>(scale), static_cast<float>(-cosOuter * scale)};
+    return {glm::vec3(light.direction), static_cast<float>(scale), static_cast<float>(-cosOuter * scale), {}};
 }
 
 // No path draws area lights yet.
@@ -58,10 +55,8 @@ GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye) {
     take(LightKind::directional, result.directional);
     take(LightKind::point, result.point);
     take(LightKind::spot, result.spot);
-    if (result.lights.size() > gpu::MAX_LIGHTS_PER_DRAW)
-        throw std::runtime_error(
-            fmt::format("{} lights: --assign every walks up to {} in this version; use fewer --lights",
-                        result.lights.size(), gpu::MAX_LIGHTS_PER_DRAW));
+    result.lights.push_back({.position = {}, .inverse_range_squared = 1, .intensity = {}, .range = 0});
+    result.spot_cones.push_back({{0, 0, 1}, 0, 0, {}});
     return result;
 }
 

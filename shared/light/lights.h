@@ -12,9 +12,11 @@ namespace diptych {
 // Lights as the shaders read them, by kind and each kind in the order given: every sum over lights in every
 // path runs in this order.
 struct GpuLights {
-    std::vector<gpu::Light> lights;  // directional, point, spot
-    std::vector<gpu::SpotCone> spot_cones;
+    std::vector<gpu::Light> lights;         // directional, point, spot, and the null light
+    std::vector<gpu::SpotCone> spot_cones;  // and the null light's
     std::uint32_t directional = 0, point = 0, spot = 0;
+    std::uint32_t local() const { return point + spot; }
+    std::uint32_t count() const { return directional + local(); }
 };
 
 // Light::inverse_range_squared of a range in metres, 1/m^2: the least float32 whose product with the squared
@@ -22,8 +24,7 @@ struct GpuLights {
 float inverseSquaredRange(float range);
 
 // `eye`: the camera, world, m. World positions are made relative to it in double. A light that gives
-// nothing (black, or zero range) is left out. Throws std::runtime_error where there are more than one
-// draw may walk (MAX_LIGHTS_PER_DRAW).
+// nothing (black, or zero range) is left out.
 GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye);
 
 }  // namespace diptych

@@ -50,7 +50,7 @@ DescriptorSets::DescriptorSets(Device& device, VkDescriptorSetLayout layout,
 }
 
 void DescriptorSets::write(std::size_t set, std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
-                           const VkDescriptorImageInfo* image) {
+                           const VkDescriptorImageInfo* image, const VkBufferView* texels) {
     const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                      .pNext = nullptr,
                                      .dstSet = sets_.at(set),
@@ -60,19 +60,23 @@ void DescriptorSets::write(std::size_t set, std::uint32_t binding, const VkDescr
                                      .descriptorType = types_.at(binding),
                                      .pImageInfo = image,
                                      .pBufferInfo = buffer,
-                                     .pTexelBufferView = nullptr};
+                                     .pTexelBufferView = texels};
     vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
 }
 
 void DescriptorSets::buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer) {
     const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
-    write(set, binding, &info, nullptr);
+    write(set, binding, &info, nullptr, nullptr);
 }
 
 void DescriptorSets::image(std::size_t set, std::uint32_t binding, VkImageView view, VkSampler sampler,
                            VkImageLayout layout) {
     const VkDescriptorImageInfo info{sampler, view, layout};
-    write(set, binding, nullptr, &info);
+    write(set, binding, nullptr, &info, nullptr);
+}
+
+void DescriptorSets::texels(std::size_t set, std::uint32_t binding, VkBufferView view) {
+    write(set, binding, nullptr, nullptr, &view);
 }
 
 }  // namespace diptych

@@ -21,12 +21,13 @@ public:
     VkDescriptorSet operator[](std::size_t i) const { return sets_[i]; }
 
     void buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer);
+    void texels(std::size_t set, std::uint32_t binding, VkBufferView view);
     void image(std::size_t set, std::uint32_t binding, VkImageView view, VkSampler sampler,
                VkImageLayout layout);
 
 private:
     void write(std::size_t set, std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
-               const VkDescriptorImageInfo* image);
+               const VkDescriptorImageInfo* image, const VkBufferView* texels);
 
     VkDevice device_ = VK_NULL_HANDLE;
     std::vector<VkDescriptorType> types_;

@@ -33,6 +33,7 @@ private:
 };
 
 using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
+using OwnedBufferView = Owned<VkBufferView, vkDestroyBufferView>;
 using OwnedCommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
 using OwnedDescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
 using OwnedDescriptorSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;

@@ -24,12 +24,13 @@ constexpr ImageState colorAttachment{
 constexpr ImageState depthAttachment{
     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, depthStages,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-constexpr ImageState sampledColor{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                  VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+constexpr VkPipelineStageFlags2 shaderStages =
+    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr ImageState sampledColor{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, shaderStages,
                                   VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 // Tested and sampled in one pass: one state for both.
 constexpr ImageState readDepth{
-    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, depthStages | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, depthStages | shaderStages,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 constexpr ImageState copySource{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                 VK_ACCESS_2_TRANSFER_READ_BIT};
@@ -83,6 +84,12 @@ Pass& PassList::draw(const std::string& name) {
     return *passes_.back();
 }
 
+Pass& PassList::compute(const std::string& name) {
+    Pass& pass = draw(name);
+    pass.computes_ = true;
+    return pass;
+}
+
 VkImageView PassList::view(ImageRef image) const {
     return resources_.at(image.index).image.view();
 }
@@ -115,6 +122,15 @@ void PassList::runPass(const Pass& pass, VkCommandBuffer commands) {
         transition(barriers, pass.depth_.image, pass.depth_writes_ ? depthAttachment : readDepth,
                    pass.depth_writes_ && pass.depth_.load == Load::clear);
     submitBarriers(commands, barriers);
+    if (pass.computes_) {
+        device_.beginLabel(commands, pass.name_);
+        pass.record_(commands);
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | shaderStages,
+                      VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT);
+        device_.endLabel(commands);
+        return;
+    }
 
     const auto attach = [&](const Pass::Attachment& a, VkImageLayout layout, bool store) {
         VkRenderingAttachmentInfo info{};

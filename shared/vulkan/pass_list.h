@@ -19,15 +19,16 @@ struct ImageRef {
 
 enum class Load { clear, keep };  // keep: an attachment's contents from an earlier pass
 
-// One step, declared by chaining; `record` is called every time the list runs, between begin and end of
-// rendering, with viewport and scissor set to the list's size.
+// One step, declared by chaining; `record` is called every time the list runs: of a draw between begin and
+// end of rendering, with viewport and scissor set to the list's size; of a compute step alone, and what it
+// writes to buffers is there for every later step.
 class Pass {
 public:
     // In the order of the shader's locations.
     Pass& color(ImageRef image, Load load, VkClearColorValue clear = {});
     Pass& depth(ImageRef image, Load load, float clear = 0.0f);  // read and written
     Pass& depthTest(ImageRef image);                             // read by the test only
-    Pass& samples(ImageRef image);                               // read in a fragment shader
+    Pass& samples(ImageRef image);                               // read in a fragment or compute shader
     Pass& record(std::function<void(VkCommandBuffer)> commands);
 
 private:
@@ -41,6 +42,7 @@ private:
     std::vector<Attachment> colors_;
     Attachment depth_;
     bool depth_writes_ = false;
+    bool computes_ = false;
     std::vector<ImageRef> sampled_;
     std::function<void(VkCommandBuffer)> record_;
 };
@@ -62,6 +64,7 @@ public:
     VkFormat format(ImageRef image) const { return resources_.at(image.index).image.info().format; }
 
     Pass& draw(const std::string& name);
+    Pass& compute(const std::string& name);
 
     // How many passes there are so far: where those that come next begin.
     std::size_t size() const { return passes_.size(); }

@@ -72,6 +72,7 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("a queue that draws and computes", graphicsFamily(device).has_value());
     need("dynamic rendering", f.v13.dynamicRendering == VK_TRUE);
     need("synchronization2", f.v13.synchronization2 == VK_TRUE);
+    need("maintenance4", f.v13.maintenance4 == VK_TRUE);
     need("scalar block layout", f.v12.scalarBlockLayout == VK_TRUE);
     need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
     need("colour attachments", l.maxColorAttachments >= gpu::CAPTURE_ATTACHMENTS,
@@ -182,6 +183,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
     wanted.v13.synchronization2 = VK_TRUE;
+    wanted.v13.maintenance4 = VK_TRUE;  // a workgroup's size by a constant
     wanted.v12.scalarBlockLayout = VK_TRUE;
     wanted.v10.features.fullDrawIndexUint32 = VK_TRUE;
     const float priority = 1.0f;

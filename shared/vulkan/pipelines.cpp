@@ -12,6 +12,20 @@
 
 namespace diptych {
 
+namespace {
+
+// A variant's values as specialization constants; it must outlive this.
+struct Specialization {
+    explicit Specialization(const Variant& variant) {
+        for (std::uint32_t id = 0; id < gpu::FEATURE_COUNT; ++id) entries[id] = {id, id * 4, 4};
+        info = {gpu::FEATURE_COUNT, entries.data(), sizeof variant.values(), variant.values().data()};
+    }
+    std::array<VkSpecializationMapEntry, gpu::FEATURE_COUNT> entries;
+    VkSpecializationInfo info;
+};
+
+}  // namespace
+
 OwnedShaderModule makeShaderModule(Device& device, const std::string& name) {
     const auto words = findSpirv(name);
     if (words.empty()) throw std::logic_error("no shader " + name + " in shaders/pass");
@@ -47,11 +61,27 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     return pipelines;
 }
 
+VkPipeline Pipelines::compute(const std::string& shader, const Variant& variant, VkPipelineLayout layout) {
+    const auto [entry, isNew] = compute_.try_emplace({shader, variant});
+    if (!isNew) return entry->second;
+    const Specialization specialization(variant);
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module(shader);
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = &specialization.info;
+    info.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+          "vkCreateComputePipelines");
+    entry->second = OwnedPipeline(device_.handle(), pipeline);
+    return pipeline;
+}
+
 OwnedPipeline Pipelines::make(const PipelineKey& key) const {
-    std::array<VkSpecializationMapEntry, gpu::FEATURE_COUNT> entries;
-    for (std::uint32_t id = 0; id < gpu::FEATURE_COUNT; ++id) entries[id] = {id, id * 4, 4};
-    const VkSpecializationInfo specialization{gpu::FEATURE_COUNT, entries.data(), sizeof key.variant.values(),
-                                              key.variant.values().data()};
+    const Specialization specialization(key.variant);
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     const auto addStage = [&](VkShaderStageFlagBits stage, const std::string& name) {
         stages.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
@@ -60,7 +90,7 @@ OwnedPipeline Pipelines::make(const PipelineKey& key) const {
                           .stage = stage,
                           .module = modules_.at(name),
                           .pName = "main",
-                          .pSpecializationInfo = &specialization});
+                          .pSpecializationInfo = &specialization.info});
     };
     addStage(VK_SHADER_STAGE_VERTEX_BIT, key.vertex);
     if (!key.fragment.empty()) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, key.fragment);

@@ -50,8 +50,10 @@ public:
 
     VkPipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
     std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // new ones are made on all cores
+    // A compute shader of shaders/pass, with a layout of its own.
+    VkPipeline compute(const std::string& shader, const Variant& variant, VkPipelineLayout layout);
     VkPipelineLayout layout() const { return layout_; }
-    std::size_t count() const { return pipelines_.size(); }
+    std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:
     VkShaderModule module(const std::string& name);
@@ -61,6 +63,7 @@ private:
     VkPipelineLayout layout_;
     std::map<std::string, OwnedShaderModule> modules_;
     std::map<PipelineKey, OwnedPipeline> pipelines_;
+    std::map<std::pair<std::string, Variant>, OwnedPipeline> compute_;
 };
 
 OwnedShaderModule makeShaderModule(Device& device, const std::string& name);

@@ -106,6 +106,25 @@ GpuImage::GpuImage(Device& device, const GpuImageInfo& info) : info_(info) {
     view_ = OwnedImageView(device.handle(), view);
 }
 
+OwnedBufferView makeTexelView(Device& device, const std::string& name, const GpuBuffer& buffer,
+                              VkFormat format) {
+    const VkDeviceSize texels = buffer.size() / bytesPerTexel(format);
+    if (texels > device.limits().maxTexelBufferElements)
+        throw std::runtime_error(fmt::format("the scene's {} take {} texels; {} reads up to {} of one buffer",
+                                             name, texels, device.info().name,
+                                             device.limits().maxTexelBufferElements));
+    const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                      .pNext = nullptr,
+                                      .flags = 0,
+                                      .buffer = buffer.handle(),
+                                      .format = format,
+                                      .offset = 0,
+                                      .range = VK_WHOLE_SIZE};
+    VkBufferView view = VK_NULL_HANDLE;
+    check(vkCreateBufferView(device.handle(), &info, nullptr, &view), "vkCreateBufferView");
+    return {device.handle(), view};
+}
+
 VkImageAspectFlags GpuImage::aspect() const {
     return aspectOf(info_.format);
 }

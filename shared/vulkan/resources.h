@@ -28,6 +28,11 @@ private:
     VkDeviceSize size_ = 0;
 };
 
+// The buffer as texels of `format`, for shaders to fetch; its usage has UNIFORM_TEXEL_BUFFER.
+// Throws std::runtime_error where it holds more of them than the device reads.
+OwnedBufferView makeTexelView(Device& device, const std::string& name, const GpuBuffer& buffer,
+                              VkFormat format);
+
 struct GpuImageInfo {
     std::string name;
     VkFormat format = VK_FORMAT_UNDEFINED;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The cell of a pixel and the bounds of a cell (shared/contract/light_list.h).
+#ifndef LIGHT_GRID_GLSL
+#define LIGHT_GRID_GLSL
+
+#include "shaders/lib/contract.glsl"
+
+layout(set = SET_FRAME, binding = BINDING_LIGHT_GRID, scalar) uniform LightGridBlock { LightGrid grid; };
+
+uint sliceOf(float depth) {
+    uint steps = floatBitsToUint(max(depth, 0.0) + grid.slice_offset) - floatBitsToUint(grid.slice_offset);
+    return min(steps >> grid.slice_shift, grid.slices - 1u);
+}
+
+// `pixel`: gl_FragCoord.xy; depth: view depth, m.
+uint cellOf(vec2 pixel, float depth) {
+    uvec2 tile = uvec2(pixel) >> grid.tile_shift;
+    uint slice = feature_light_lists == LISTS_CLUSTERED ? sliceOf(depth) : 0u;
+    return (slice * grid.tiles.y + tile.y) * grid.tiles.x + tile.x;
+}
+
+// View depths of a slice, m, a little wider than sliceOf() can round; the first begins at the camera and the last
+// has no end.
+vec2 sliceDepths(uint slice) {
+    uint first = floatBitsToUint(grid.slice_offset) + (slice << grid.slice_shift);
+    vec2 sum = vec2(uintBitsToFloat(first), uintBitsToFloat(first + (1u << grid.slice_shift)));
+    vec2 depths = sum - grid.slice_offset + vec2(-1e-6, 1e-6) * sum;
+    return vec2(slice == 0u ? 0.0 : depths.x, slice + 1u == grid.slices ? MAX_BOUND_RADIUS : depths.y);
+}
+
+// A cell as two pairs of planes through the camera, x and y over depth (orthographic: in m), and one across it.
+struct CellBounds {
+    vec2 x, y;
+    vec2 depth;  // m; empty where the first is larger
+};
+
+CellBounds cellBounds(uvec2 tile, vec2 depth) {
+    vec4 edges = vec4(tile << grid.tile_shift, (tile + 1u) << grid.tile_shift);
+    vec4 sides = (edges - grid.centre.xyxy) * grid.pixel;
+    return CellBounds(sides.xz, sides.yw, depth);
+}
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What the kernels that make light lists read and write.
+#ifndef LIGHT_KERNEL_GLSL
+#define LIGHT_KERNEL_GLSL
+
+#include "shaders/lib/light_cull.glsl"
+
+layout(set = SET_LISTS, binding = BINDING_BOUNDS, scalar) readonly buffer Bounds { LightBound light_bounds[]; };
+layout(set = SET_LISTS, binding = BINDING_MASKS, scalar) buffer Masks { uint masks[]; };
+layout(set = SET_LISTS, binding = BINDING_COUNTS, scalar) buffer Counts { LightListCount counts[]; };
+layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec2 tile_depths[]; };
+layout(set = SET_LISTS, binding = BINDING_OVERFLOW, scalar) buffer Overflow { uint overflowed_lists; };
+
+layout(set = SET_LISTS, binding = BINDING_HEADS, scalar) writeonly buffer Heads { LightListHead heads[]; };
+layout(set = SET_LISTS, binding = BINDING_INDICES, scalar) writeonly buffer Indices { uint indices[]; };
+layout(set = SET_LISTS, binding = BINDING_LISTED, scalar) writeonly buffer Listed { uint listed[]; };
+
+// Groups that so many lights of a kind fill; one at least, where the scene has that kind.
+uint groupsOf(uint lights, bool any) { return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u); }
+
+// All of a list's lights, over its segments; `begin` of the first.
+LightListCount countOf(uint list) {
+    LightListCount sum = LightListCount(0u, 0u, 0u, counts[list * grid.segments].begin);
+    for (uint i = list * grid.segments; i < (list + 1u) * grid.segments; ++i) {
+        sum.all += counts[i].all;
+        sum.points += counts[i].points;
+        sum.points_and_spots += counts[i].points_and_spots;
+    }
+    return sum;
+}
+
+// Where the list lies: its begin and the ends of its parts.
+LightListHead headOf(LightListCount count) {
+    LightListHead head;
+    head.begin = count.begin;
+    head.point_end = head.begin + groupsOf(count.points, grid.point_end > 0u);
+    head.spot_end = head.point_end + groupsOf(count.points_and_spots - count.points, grid.spot_end > grid.point_end);
+    head.end = head.spot_end + groupsOf(count.all - count.points_and_spots, grid.local_lights > grid.spot_end);
+    return head;
+}
+
+// By words, so that neighbouring threads, which have neighbouring lists, read neighbouring words.
+uint maskWord(uint word, uint list) { return word * grid.lists + list; }
+
+// Depths of a cell's list of opaques; tiled: what the picture's depths say.
+vec2 cellDepths(uint tile, uint slice) {
+    return feature_light_lists == LISTS_TILED ? tile_depths[tile] : sliceDepths(slice);
+}
+
+// The bits of `word` that are lights below number `end`.
+uint bitsBelow(uint word, uint end) {
+    uint first = word * 32u;
+    return end <= first ? 0u : end - first >= 32u ? ~0u : (1u << (end - first)) - 1u;
+}
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Which lights a pixel evaluates, in the buffer's order whatever chose them. Lights and lists are texel buffers: on
+// lavapipe a fetch of four costs less than one gathered load from a storage buffer (README, "Many lights").
+#ifndef LIGHT_LISTS_GLSL
+#define LIGHT_LISTS_GLSL
+
+#include "shaders/lib/draw.glsl"
+#include "shaders/lib/light_grid.glsl"
+#include "shaders/lib/position.glsl"
+
+layout(set = SET_FRAME, binding = BINDING_LIGHTS) uniform samplerBuffer light_texels;
+layout(set = SET_FRAME, binding = BINDING_SPOT_CONES) uniform samplerBuffer spot_cone_texels;
+layout(set = SET_FRAME, binding = BINDING_LIST_HEADS) uniform usamplerBuffer list_heads;
+layout(set = SET_FRAME, binding = BINDING_LIST_INDICES) uniform usamplerBuffer list_indices;
+layout(set = SET_FRAME, binding = BINDING_LIST_COUNTS, scalar) readonly buffer Listed { uint listed[]; };
+
+Light lightAt(uint i) {
+    vec4 a = texelFetch(light_texels, int(2u * i)), b = texelFetch(light_texels, int(2u * i + 1u));
+    return Light(a.xyz, a.w, b.xyz, b.w);
+}
+
+SpotCone spotConeAt(uint i) {
+    uint cone = min(i - view.directional_light_count - view.point_light_count, view.spot_light_count);  // the null light's last
+    vec4 a = texelFetch(spot_cone_texels, int(2u * cone)), b = texelFetch(spot_cone_texels, int(2u * cone + 1u));
+    return SpotCone(a.xyz, a.w, b.x, b.yzw);
+}
+
+// A pixel's lights as groups of its list; without lists (LISTS_NONE) a group is a light and the list all local ones.
+struct PixelLights {
+    uint list;
+    LightListHead groups;
+};
+
+// `pixel`: gl_FragCoord.xy; z: the reversed depth.
+PixelLights lightsAt(vec2 pixel, float z) {
+    if (feature_light_lists != LISTS_NONE) {
+        uint list = cellOf(pixel, viewDepth(z));
+        uvec4 head = texelFetch(list_heads, int(list));
+        return PixelLights(list, LightListHead(head.x, head.y, head.z, head.w));
+    }
+    uint points = view.point_light_count, spots = points + view.spot_light_count;
+    return PixelLights(0u, LightListHead(0u, points, spots, spots));
+}
+
+// Lights that were evaluated at the pixel, the directional ones too; whether its list found no room.
+uint lightCount(PixelLights lights) {
+    uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.groups.end;
+    return view.directional_light_count + local;
+}
+bool listOverflowed(PixelLights lights) {
+    return feature_light_lists != LISTS_NONE && lights.groups.begin == 0u && lights.groups.end > 0u;
+}
+
+// Of groups [begin, end) of a list those that this draw walks.
+uvec2 walked(PixelLights lights, uint begin, uint end) {
+    if (!on(feature_light_chunk)) return uvec2(begin, end);
+    uint first = lights.groups.begin;
+    return clamp(uvec2(begin, end), first + constants.light_first, first + constants.light_end);
+}
+
+// The lights of a group; without lists there is one.
+uvec4 lightsOfGroup(uint group) {
+    if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + group);
+    return texelFetch(list_indices, int(group));
+}
+
+#endif

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "shared/light/light_grid.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace diptych {
+
+namespace {
+
+// What float32 may lose between a light's bound and the pixels that it lights: positions are rounded a dozen
+// times on either side, 6e-8 of the distance from the camera each time.
+constexpr double rounding = 4e-6;
+
+// Slices in an octave of depth + offset, log2: eight, so that one is a sixteenth to an eighth as deep.
+constexpr unsigned octaveShift = 23 - 3;
+constexpr gpu::uint mostSlices = 96;
+// A light may be listed in every cell of a slice by one thread: far below lavapipe's limit of a loop.
+constexpr std::uint64_t mostCells = 60000;
+
+double middle(std::vector<double> values, double otherwise) {
+    if (values.empty()) return otherwise;
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    return *half;
+}
+
+gpu::uint tilesAcross(int pixels, gpu::uint shift) {
+    return (static_cast<gpu::uint>(pixels) + (1u << shift) - 1) >> shift;
+}
+
+struct TypicalLight {
+    double radius = 1;   // m
+    double pixels = 64;  // its radius on the screen
+    double far = 0;      // where the last one ends, m
+};
+
+// Of those in front of the camera that end somewhere.
+TypicalLight typicalLight(const gpu::LightGrid& grid, bool orthographic,
+                          std::span<const gpu::LightBound> bounds) {
+    std::vector<double> radii, pixels;
+    TypicalLight light;
+    for (const gpu::LightBound& b : bounds) {
+        const double r = static_cast<double>(b.radius), z = static_cast<double>(b.centre.z);
+        if (r >= 1e6 || z + r <= 0) continue;
+        radii.push_back(r);
+        pixels.push_back(r / (static_cast<double>(grid.pixel) * (orthographic ? 1 : std::max(z, r))));
+        light.far = std::max(light.far, z + r);
+    }
+    light.radius = std::max(middle(std::move(radii), 1), 1e-6);
+    light.pixels = middle(std::move(pixels), 64);
+    return light;
+}
+
+gpu::uint sliceOf(const gpu::LightGrid& grid, double depth) {
+    const float sum = static_cast<float>(std::max(depth, 0.0)) + grid.slice_offset;
+    return (std::bit_cast<gpu::uint>(sum) - std::bit_cast<gpu::uint>(grid.slice_offset)) >> grid.slice_shift;
+}
+
+void sizeTiles(gpu::LightGrid& grid, const View& view, gpu::uint shift) {
+    grid.tile_shift = shift;
+    grid.tiles = {tilesAcross(view.width, shift), tilesAcross(view.height, shift)};
+}
+
+void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::LightBound> bounds) {
+    const TypicalLight typical = typicalLight(grid, view.camera.orthographic, bounds);
+    const auto wanted = std::bit_width(static_cast<unsigned>(std::clamp(typical.pixels / 4, 16.0, 64.0))) - 1;
+    sizeTiles(grid, view, static_cast<gpu::uint>(wanted));
+    grid.slice_offset = static_cast<float>(2 * typical.radius);
+    grid.slice_shift = octaveShift;
+    const double far = std::min(typical.far, view.camera.far);
+    while (sliceOf(grid, far) >= mostSlices) ++grid.slice_shift;
+    grid.slices = sliceOf(grid, far) + 1;
+}
+
+}  // namespace
+
+std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& view) {
+    const glm::dvec3 right = view.right(), down = -view.up(), forward = -view.backward();
+    const auto toView = [&](const glm::vec3& v) {
+        const glm::dvec3 d(v);
+        return glm::dvec3(glm::dot(d, right), glm::dot(d, down), glm::dot(d, forward));
+    };
+    std::vector<gpu::LightBound> bounds;
+    bounds.reserve(lights.local());
+    for (std::size_t i = lights.directional; i < lights.directional + lights.local(); ++i) {
+        const gpu::Light& light = lights.lights[i];
+        const glm::dvec3 apex = toView(light.position);
+        glm::dvec3 centre = apex, axis(0, 0, 1);
+        double radius = static_cast<double>(light.range), cosCone = -1, sinCone = 0;
+        const std::size_t spot = i - lights.directional - lights.point;
+        if (i >= lights.directional + lights.point && spot < lights.spot) {
+            const gpu::SpotCone& cone = lights.spot_cones[spot];
+            axis = toView(cone.direction);
+            // The shader's cone times its scale rounds offset + scale * cos: it may shine a little beyond.
+            cosCone = std::clamp(static_cast<double>(-cone.offset / cone.scale) - 2e-6, -1.0, 1.0);
+            sinCone = std::sqrt(1 - cosCone * cosCone);
+            // The least sphere around a sector of a ball.
+            if (std::isfinite(radius) && cosCone > 0) {
+                const double along = cosCone > std::sqrt(0.5) ? radius / (2 * cosCone) : radius * cosCone;
+                centre = apex + axis * along;
+                radius = cosCone > std::sqrt(0.5) ? along : radius * sinCone;
+            }
+        }
+        radius += rounding * (radius + glm::length(apex));
+        bounds.push_back(
+            {.centre = gpu::vec3(centre),
+             .radius = static_cast<float>(std::min(radius, static_cast<double>(gpu::MAX_BOUND_RADIUS))),
+             .apex = gpu::vec3(apex),
+             .cos_cone = static_cast<float>(cosCone),
+             .axis = gpu::vec3(axis),
+             .sin_cone = static_cast<float>(sinCone)});
+    }
+    return bounds;
+}
+
+SliceDepths sliceDepths(const gpu::LightGrid& grid, gpu::uint s) {
+    const auto depthOf = [&](gpu::uint slice) {
+        return std::bit_cast<float>(std::bit_cast<gpu::uint>(grid.slice_offset) +
+                                    (slice << grid.slice_shift));
+    };
+    const float near = depthOf(s), far = depthOf(s + 1);
+    constexpr float slack = 1e-6f;
+    return {s == 0 ? 0 : near - grid.slice_offset - slack * near,
+            s + 1 == grid.slices ? gpu::MAX_BOUND_RADIUS : far - grid.slice_offset + slack * far};
+}
+
+std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
+                           std::span<const gpu::LightBound> bounds) {
+    // Tiles of one axis that the interval [lo, hi] touches at depths [near, far], one more on either side.
+    const auto tiles = [&](double lo, double hi, double near, double far, float centre, gpu::uint count) {
+        const double from = orthographic ? lo : lo / (lo < 0 ? near : far);
+        const double to = orthographic ? hi : hi / (hi < 0 ? far : near);
+        const double side = static_cast<double>(grid.pixel) * static_cast<double>(1u << grid.tile_shift);
+        const double middle = static_cast<double>(centre) / static_cast<double>(1u << grid.tile_shift);
+        const double first =
+            std::clamp(std::floor(from / side + middle) - 1, 0.0, static_cast<double>(count));
+        const double last = std::clamp(std::floor(to / side + middle) + 2, 0.0, static_cast<double>(count));
+        return static_cast<std::uint64_t>(std::max(last - first, 0.0));
+    };
+    std::uint64_t pairs = 0;
+    for (const gpu::LightBound& b : bounds) {
+        const double r = static_cast<double>(b.radius), x = static_cast<double>(b.centre.x),
+                     y = static_cast<double>(b.centre.y), z = static_cast<double>(b.centre.z);
+        if (z + r < 0) continue;
+        const gpu::uint first = grid.slices == 1 ? 0 : std::min(sliceOf(grid, z - r), grid.slices - 1);
+        const gpu::uint last = grid.slices == 1 ? 0 : std::min(sliceOf(grid, z + r), grid.slices - 1);
+        for (gpu::uint s = first; s <= last; ++s) {
+            const SliceDepths slab = sliceDepths(grid, s);
+            const double near = std::max({static_cast<double>(slab.near), z - r, 1e-30});
+            const double far = std::max(near, std::min(static_cast<double>(slab.far), z + r));
+            const double dz = std::max({near - z, z - far, 0.0});
+            const double cut = std::sqrt(std::max(r * r - dz * dz, 0.0));
+            pairs += tiles(x - cut, x + cut, near, far, grid.centre.x, grid.tiles.x) *
+                     tiles(y - cut, y + cut, near, far, grid.centre.y, grid.tiles.y);
+        }
+    }
+    return grid.lists > grid.cells ? 2 * pairs : pairs;
+}
+
+gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
+                             std::span<const gpu::LightBound> bounds, std::uint64_t buffer_bytes) {
+    gpu::LightGrid grid{};
+    const double half = view.camera.orthographic ? view.camera.ymag : std::tan(view.camera.yfov / 2);
+    grid.pixel = static_cast<float>(2 * half / view.height);
+    grid.centre = {0.5f * static_cast<float>(view.width), 0.5f * static_cast<float>(view.height)};
+    grid.local_lights = static_cast<gpu::uint>(bounds.size());
+    grid.first_local = lights.directional;
+    grid.point_end = lights.point;
+    grid.spot_end = lights.point + lights.spot;
+    grid.words = (grid.local_lights + 31) / 32;
+    grid.segments = (grid.words + gpu::SEGMENT_WORDS - 1) / gpu::SEGMENT_WORDS;
+    grid.slices = 1;
+    if (lists == gpu::LISTS_CLUSTERED)
+        sizeFroxels(grid, view, bounds);
+    else
+        sizeTiles(grid, view, std::bit_width(gpu::LIGHT_TILE) - 1);
+    const auto count = [&] {
+        grid.cells = grid.tiles.x * grid.tiles.y * grid.slices;
+        grid.lists = lists == gpu::LISTS_TILED ? 2 * grid.cells : grid.cells;
+        return std::uint64_t{grid.lists};
+    };
+    while (count() * grid.words * 4 > buffer_bytes || count() > mostCells)
+        sizeTiles(grid, view, grid.tile_shift + 1);
+    const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds);
+    // A turn of four lights costs what three turns of one do (README): it pays for lists that are long.
+    grid.width = pairs > 8 * std::uint64_t{grid.lists} ? 4 : 1;
+    grid.null_light = static_cast<gpu::uint>(lights.lights.size()) - 1;
+    const auto groups = [&](gpu::uint ofLights) { return (ofLights + grid.width - 1) / grid.width; };
+    grid.all_point_end = groups(grid.point_end);
+    grid.all_spot_end = grid.all_point_end + groups(grid.spot_end - grid.point_end);
+    grid.all_end = grid.all_spot_end + groups(grid.local_lights - grid.spot_end);
+    const std::uint64_t kinds =
+        (grid.point_end > 0) + (grid.spot_end > grid.point_end) + (grid.local_lights > grid.spot_end);
+    // Each part of each list may have a group that is not full.
+    const std::uint64_t wanted = grid.all_end + pairs / grid.width + kinds * grid.lists;
+    grid.capacity = static_cast<gpu::uint>(std::min(wanted, buffer_bytes / (4 * grid.width)));
+    return grid;
+}
+
+}  // namespace diptych

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The cells that a picture is cut into for light lists, and where lights are felt. CPU alone.
+#pragma once
+
+#include "shared/contract/light_list.h"
+#include "shared/light/lights.h"
+#include "shared/scene/view.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+// Of the local lights, in their order.
+std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& view);
+
+// `lists`: LISTS_CLUSTERED or LISTS_TILED. No buffer of the lists is larger than `buffer_bytes`: tiles grow
+// until the masks fit, and index_capacity is cut off there, so that lists beyond it overflow.
+// Clustered, the sizes of cells follow the lights': a tile is about a quarter of the median light's radius
+// wide on the screen, a slice as deep, from the camera on; Olsson, Billeter and Assarsson 2012, "Clustered
+// Deferred and Forward Shading", with bounds from the projection alone as in Persson 2013, "Practical
+// Clustered Shading".
+gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
+                             std::span<const gpu::LightBound> bounds, std::uint64_t buffer_bytes);
+
+// At most so many (light, list) pairs are there; what index_capacity is made of.
+std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
+                           std::span<const gpu::LightBound> bounds);
+
+// View depths of slice `s`, m, a little more than float32 can round; the last reaches to MAX_BOUND_RADIUS.
+struct SliceDepths {
+    float near = 0, far = 0;
+};
+SliceDepths sliceDepths(const gpu::LightGrid& grid, gpu::uint s);
+
+}  // namespace diptych

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "shared/light/light_lists.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/vulkan/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+
+namespace diptych {
+
+namespace {
+
+constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+// In the order of SET_LISTS's bindings.
+constexpr std::array listTypes{storage, storage, storage,
+                               storage, storage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                               storage, storage, storage};
+
+// No buffer of the lists is larger, whatever the device allows.
+constexpr std::uint64_t mostBytes = std::uint64_t{256} << 20;
+
+constexpr std::uint32_t threads = 64;  // of a workgroup of scatter, count and fill
+
+std::uint32_t groups(std::uint32_t count) {
+    return (count + threads - 1) / threads;
+}
+
+void computeBarrier(VkCommandBuffer commands) {
+    memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+// The list of all local lights, in groups, each kind from a new group on.
+std::vector<gpu::uint> listOfAll(const gpu::LightGrid& grid) {
+    std::vector<gpu::uint> all;
+    const auto add = [&](gpu::uint first, gpu::uint end, gpu::uint groupsEnd) {
+        for (gpu::uint i = first; i < end; ++i) all.push_back(grid.first_local + i);
+        all.resize(std::size_t{groupsEnd} * grid.width, grid.null_light);
+    };
+    add(0, grid.point_end, grid.all_point_end);
+    add(grid.point_end, grid.spot_end, grid.all_spot_end);
+    add(grid.spot_end, grid.local_lights, grid.all_end);
+    return all;
+}
+
+}  // namespace
+
+ListLayouts::ListLayouts(Device& device, VkDescriptorSetLayout frame)
+    : lists_(makeSetLayout(device, listTypes)) {
+    const std::array<VkDescriptorSetLayout, 2> sets{frame, lists_};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = sets.size();
+    info.pSetLayouts = sets.data();
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    pipeline_ = OwnedPipelineLayout(device.handle(), layout);
+}
+
+LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& layouts, const Choice& choice,
+                       const View& view, const GpuLights& lights)
+    : device_(device), layouts_(layouts), choice_(choice) {
+    if (lights.local() == 0) choice_.lists = gpu::LISTS_NONE;
+    std::vector<gpu::LightBound> bounds;
+    std::vector<gpu::uint> all;
+    if (any()) {
+        bounds = lightBounds(lights, view);
+        const std::uint64_t texels = std::uint64_t{device.limits().maxTexelBufferElements} * 4;
+        grid_ = makeLightGrid(
+            choice_.lists, view, lights, bounds,
+            std::min({std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes, texels}));
+        all = listOfAll(grid_);
+    }
+    const auto buffer = [&](const char* name, std::uint64_t count, std::uint64_t each,
+                            VkBufferUsageFlags usage = 0) {
+        return GpuBuffer(device, name, std::max<std::uint64_t>(count * each, 16),
+                         usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    };
+    grid_buffer_ = makeBuffer<gpu::LightGrid>(device, uploader, "light grid", std::span(&grid_, 1),
+                                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    heads_ = buffer("light list heads", grid_.lists, sizeof(gpu::LightListHead),
+                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    indices_ = buffer("light lists", std::uint64_t{grid_.capacity} * grid_.width, 4,
+                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    listed_ = buffer("light list counts", grid_.lists, 4);
+    heads_view_ = makeTexelView(device, "light list heads", heads_, VK_FORMAT_R32G32B32A32_UINT);
+    indices_view_ = makeTexelView(device, "light lists", indices_,
+                                  grid_.width == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT);
+    if (!any()) {
+        uploader.flush();
+        return;
+    }
+    uploader.buffer(indices_, std::as_bytes(std::span(all)));
+    bounds_ = makeBuffer<gpu::LightBound>(device, uploader, "light bounds", bounds,
+                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    uploader.flush();
+    masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.lists, 4);
+    counts_ =
+        buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
+    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec2));
+    overflow_ =
+        GpuBuffer(device, "overflow", 4,
+                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    VkSamplerCreateInfo samplerInfo{};
+    samplerInfo.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    VkSampler sampler = VK_NULL_HANDLE;
+    check(vkCreateSampler(device.handle(), &samplerInfo, nullptr, &sampler), "vkCreateSampler");
+    sampler_ = OwnedSampler(device.handle(), sampler);
+    sets_ = DescriptorSets(device, layouts.lists(), listTypes, 1);
+    sets_.buffer(0, gpu::BINDING_BOUNDS, bounds_.handle());
+    sets_.buffer(0, gpu::BINDING_MASKS, masks_.handle());
+    sets_.buffer(0, gpu::BINDING_COUNTS, counts_.handle());
+    sets_.buffer(0, gpu::BINDING_TILE_DEPTHS, tile_depths_.handle());
+    sets_.buffer(0, gpu::BINDING_OVERFLOW, overflow_.handle());
+    sets_.buffer(0, gpu::BINDING_HEADS, heads_.handle());
+    sets_.buffer(0, gpu::BINDING_INDICES, indices_.handle());
+    sets_.buffer(0, gpu::BINDING_LISTED, listed_.handle());
+}
+
+void LightLists::specialise(Variant& variant) const {
+    variant.set(gpu::FEATURE_light_lists, choice_.lists)
+        .set(gpu::FEATURE_list_width, any() ? grid_.width : 1);
+}
+
+void LightLists::bind(DescriptorSets& frame) const {
+    frame.buffer(0, gpu::BINDING_LIGHT_GRID, grid_buffer_.handle());
+    frame.texels(0, gpu::BINDING_LIST_HEADS, heads_view_);
+    frame.texels(0, gpu::BINDING_LIST_INDICES, indices_view_);
+    frame.buffer(0, gpu::BINDING_LIST_COUNTS, listed_.handle());
+}
+
+void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant& variant,
+                           VkDescriptorSet frame_set, ImageRef depth) {
+    if (!any()) return;
+    Variant own;
+    own.set(gpu::FEATURE_light_lists, choice_.lists);
+    for (const gpu::uint feature : {gpu::FEATURE_orthographic, gpu::FEATURE_spot_lights})
+        own.set(feature, variant.get(feature));
+    const auto kernel = [&](const std::string& name) {
+        return pipelines.compute(name, own, layouts_.pipeline());
+    };
+    const auto bind = [this, frame_set](VkCommandBuffer commands) {
+        const std::array sets{frame_set, sets_[0]};
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0, sets.size(),
+                                sets.data(), 0, nullptr);
+    };
+    const auto dispatch = [](VkCommandBuffer commands, VkPipeline pipeline, glm::uvec3 size) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        vkCmdDispatch(commands, size.x, size.y, size.z);
+    };
+    // Only tiled lists read it, but lavapipe follows every descriptor of a set that is bound.
+    sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
+                VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    if (choice_.lists == gpu::LISTS_TILED) {
+        const VkPipeline depths = kernel("light_depths.comp.0");
+        passes.compute("assign depth bounds").samples(depth).record([=, this](VkCommandBuffer commands) {
+            bind(commands);
+            dispatch(commands, depths, {grid_.tiles.x, grid_.tiles.y, 1});
+        });
+    }
+    const bool scatters = choice_.kernel == ListKernel::scatter;
+    const VkPipeline mark = kernel(scatters ? "light_scatter.comp" : "light_gather.comp");
+    const glm::uvec3 marks = scatters ? glm::uvec3(groups(grid_.local_lights), grid_.slices, 1)
+                                      : glm::uvec3(grid_.tiles.x, grid_.tiles.y, grid_.slices);
+    const VkPipeline count = kernel("light_count.comp"), scan = kernel("light_scan.comp"),
+                     fill = kernel("light_fill.comp");
+    passes.compute("assign lights").record([=, this](VkCommandBuffer commands) {
+        vkCmdFillBuffer(commands, overflow_.handle(), 0, VK_WHOLE_SIZE, 0);
+        if (scatters) vkCmdFillBuffer(commands, masks_.handle(), 0, VK_WHOLE_SIZE, 0);
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+        bind(commands);
+        dispatch(commands, mark, marks);
+        computeBarrier(commands);
+        dispatch(commands, count, {groups(grid_.lists), grid_.segments, 1});
+        computeBarrier(commands);
+        dispatch(commands, scan, {1, 1, 1});
+        computeBarrier(commands);
+        dispatch(commands, fill, {groups(grid_.lists), grid_.segments, 1});
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    });
+}
+
+std::uint64_t LightLists::overflowed() const {
+    if (!any()) return 0;
+    gpu::uint lists = 0;
+    std::memcpy(&lists, overflow_.mapped(), sizeof lists);
+    return lists;
+}
+
+std::uint64_t LightLists::bytes() const {
+    std::uint64_t sum = 0;
+    for (const GpuBuffer* buffer :
+         {&grid_buffer_, &bounds_, &masks_, &counts_, &tile_depths_, &heads_, &indices_, &listed_})
+        sum += buffer->size();
+    return sum;
+}
+
+}  // namespace diptych

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Light lists on the device: the buffers of one view and the passes that fill them.
+#pragma once
+
+#include "shared/light/light_grid.h"
+#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/pipelines.h"
+
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+
+// What fills the masks: a thread a light that walks the cells it may reach, or a workgroup a cell that tests
+// all lights. Both apply the same test, so the lists are the same.
+enum class ListKernel { scatter, gather };
+
+// The layout of the kernels, one for all views.
+class ListLayouts {
+public:
+    ListLayouts() = default;
+    // `frame`: the layout of SET_FRAME.
+    ListLayouts(Device& device, VkDescriptorSetLayout frame);
+    VkDescriptorSetLayout lists() const { return lists_; }
+    VkPipelineLayout pipeline() const { return pipeline_; }
+
+private:
+    OwnedDescriptorSetLayout lists_;
+    OwnedPipelineLayout pipeline_;
+};
+
+// Lists of one view. Bit masks first, a bit a list and light, as their order needs no sorting; then counted,
+// given places by a prefix sum, and written out as indices. Nothing is ever dropped: a list that does not fit
+// into the buffer is replaced by the list of all lights, and counted.
+class LightLists {
+public:
+    struct Choice {
+        gpu::uint lists = gpu::LISTS_NONE;  // LISTS_*; none: buffers to bind and no pass
+        ListKernel kernel = ListKernel::scatter;
+    };
+
+    // `frame_set` of addPasses() must hold View and what this binds. Throws std::runtime_error where memory
+    // ends.
+    LightLists(Device& device, Uploader& uploader, const ListLayouts& layouts, const Choice& choice,
+               const View& view, const GpuLights& lights);
+
+    const gpu::LightGrid& grid() const { return grid_; }
+    bool any() const { return choice_.lists != gpu::LISTS_NONE; }
+    void specialise(Variant& variant) const;  // light_lists, list_width
+
+    // Writes the bindings LIGHT_GRID, LIST_HEADS, LIST_INDICES and LIST_COUNTS of a frame's set.
+    void bind(DescriptorSets& frame) const;
+
+    // Passes named "assign ..."; tiled lists read `depth`, which earlier passes have drawn. `variant`: the
+    // scene's.
+    void addPasses(PassList& passes, Pipelines& pipelines, const Variant& variant, VkDescriptorSet frame_set,
+                   ImageRef depth);
+
+    std::uint64_t overflowed() const;  // lists of the last frame that found no room
+    std::uint64_t bytes() const;
+    // What the last frame left, for tests: heads, then all numbers of the index buffer.
+    const GpuBuffer& heads() const { return heads_; }
+    const GpuBuffer& indices() const { return indices_; }
+    const GpuBuffer& masks() const { return masks_; }
+
+private:
+    Device& device_;
+    const ListLayouts& layouts_;
+    Choice choice_;
+    gpu::LightGrid grid_{};
+    GpuBuffer grid_buffer_, bounds_, masks_, counts_, tile_depths_, overflow_, heads_, indices_, listed_;
+    OwnedBufferView heads_view_, indices_view_;
+    OwnedSampler sampler_;
+    DescriptorSets sets_;
+};
+
+}  // namespace diptych
