@@ -28,9 +28,10 @@ std::string faultOf(const ChannelDiff& channel) {
     // At most a share of the pixels beyond it is the same as the next percentile within it.
     if (channel.tolerance.most_pixels) {
         const double p999 = channel.certain_p999.value_or(channel.stats.p999);
-        return p999 <= channel.tolerance.max ? std::string()
-                                             : fmt::format("over 0.1 % of the pixels exceed {:.4g}: p99.9 is {:.4g}",
-                                                           channel.tolerance.max, p999);
+        return p999 <= channel.tolerance.max
+                   ? std::string()
+                   : fmt::format("over 0.1 % of the pixels exceed {:.4g}: p99.9 is {:.4g}",
+                                 channel.tolerance.max, p999);
     }
     if (channel.stats.infinite > 0)
         return fmt::format(
@@ -194,12 +195,18 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     for (const DebugMode& mode : debugModes()) {
         const bool onLeft = left.channels.contains(mode.number) && left.isAsked(mode.number),
                    onRight = right.channels.contains(mode.number) && right.isAsked(mode.number);
-        if (onLeft && onRight) {
+        const bool paths = mode.maker == MadeBy::paths_only;
+        if (paths && onLeft && onRight && left.settings.assign != right.settings.assign) {
+            comparison.notes.push_back(
+                fmt::format("{} was not compared: --assign {} and {} evaluate other lights", mode.name,
+                            nameOf(left.settings.assign), nameOf(right.settings.assign)));
+        } else if (onLeft && onRight) {
             shared = true;
             comparison.channels.emplace_back().mode = &mode;
         } else if (onLeft || onRight) {
             const std::string& one = onLeft ? left.name : right.name;
             const Path lacking = onLeft ? right.settings.path : left.settings.path;
+            if (paths && lacking == Path::reference) continue;
             if (mode.maker == MadeBy::forward_only && lacking == Path::deferred) {
                 ChannelDiff& channel = comparison.channels.emplace_back();
                 channel.mode = &mode;
@@ -281,12 +288,13 @@ Report makeTruthReport(std::vector<Frame> frames, const std::vector<Requirements
             Settings settings = report.frames[right].settings;  // both paths' and what the truth has beside
             settings.spp = truth.settings.spp;
             settings.reference_mode = truth.settings.reference_mode;
-            report.comparisons.back().command =
-                with(with(wordsOf("compare", truth.scene, settings), options.words), "--baseline", "reference");
+            report.comparisons.back().command = with(
+                with(wordsOf("compare", truth.scene, settings), options.words), "--baseline", "reference");
         }
         Comparison& between = report.comparisons.back();
         if (!marks.empty()) between.marks = std::move(marks.at(i / 3));
-        report.nearer.push_back(nearerOf(report.frames, i, {i + 1, i + 2}, between.coverage, materials.at(i / 3)));
+        report.nearer.push_back(
+            nearerOf(report.frames, i, {i + 1, i + 2}, between.coverage, materials.at(i / 3)));
     }
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -71,13 +71,19 @@ public:
           buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights,
                   {listsOf(settings.assign), ListKernel::scatter}),
           gbuffer(gbufferLayout(settings.gbuffer, needs)),
-          inputs{device,           shared.layouts,
-                 shared.pipelines, shared.geometry,
-                 shared.materials, draws,
-                 buffers.set(),    buffers.lists(),
+          inputs{device,
+                 shared.layouts,
+                 shared.pipelines,
+                 shared.geometry,
+                 shared.materials,
+                 draws,
+                 buffers.set(),
+                 buffers.lists(),
                  sceneVariant(needs, lights, view, gbuffer),
-                 gbuffer,          settings.prepass != Switch::off} {
+                 gbuffer,
+                 settings.prepass != Switch::off} {
         buffers.lists().specialise(inputs.variant);
+        inputs.light_groups = buffers.lists().any() ? buffers.lists().grid().all_end : lights.local();
     }
     Shot(const Shot&) = delete;
     Shot& operator=(const Shot&) = delete;
@@ -234,7 +240,7 @@ private:
         request.modes = {lit};
         for (const int mode : options_.channels)
             if (mode != lit &&
-                (settings_.path == Path::forward_plus || debugMode(mode).maker == MadeBy::both))
+                (settings_.path == Path::forward_plus || debugMode(mode).maker != MadeBy::forward_only))
                 request.modes.push_back(mode);
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})

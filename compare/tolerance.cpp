@@ -145,6 +145,9 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
             return unormTolerance(gpu::SPECULAR_BITS);
         case gpu::DEBUG_material_id:
             return {0, "the index is carried whole"};
+        case gpu::DEBUG_light_count:
+        case gpu::DEBUG_list_overflow:
+            return {0, "one list for both paths, by the same function of pixel and depth"};
         case gpu::DEBUG_depth:
         case gpu::DEBUG_position:
             return {0, "the same function of pixel and depth in both paths"};

@@ -2,7 +2,6 @@
 #include "deferred/deferred.h"
 
 #include "shared/contract/bindings.h"
-#include "shared/vulkan/check.h"
 
 #include <fmt/format.h>
 
@@ -12,14 +11,6 @@
 namespace diptych {
 
 namespace {
-
-OwnedSampler nearestSampler(Device& device) {
-    VkSamplerCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
-    return {device.handle(), sampler};
-}
 
 PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item) {
     std::vector<VkFormat> formats;
@@ -41,32 +32,32 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item) {
 }
 
 // The attachments as SET_GBUFFER. Owned by the pass that reads it.
-struct GBufferSet {
-    GBufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& frame)
-        : sampler(nearestSampler(inputs.device)) {
-        std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> types;
-        types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-        sets = DescriptorSets(inputs.device, inputs.layouts.gbuffer, types, 1);
-        for (std::uint32_t i = 0; i < frame.gbuffer.size(); ++i) {
-            // One that is not there is never read; albedo, of the same kind, keeps its binding valid.
-            const ImageRef image =
-                frame.gbuffer[i].valid() ? frame.gbuffer[i] : frame.gbuffer[gpu::GBUFFER_ALBEDO];
-            sets.image(0, i, passes.view(image), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-        }
-        sets.image(0, gpu::BINDING_DEPTH, passes.view(frame.depth), sampler,
-                   VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
+    std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> types;
+    types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    DescriptorSets sets(inputs.device, inputs.layouts.gbuffer, types, 1);
+    for (std::uint32_t i = 0; i < frame.gbuffer.size(); ++i) {
+        // One that is not there is never read; albedo, of the same kind, keeps its binding valid.
+        const ImageRef image =
+            frame.gbuffer[i].valid() ? frame.gbuffer[i] : frame.gbuffer[gpu::GBUFFER_ALBEDO];
+        sets.image(0, i, passes.view(image), inputs.layouts.nearest,
+                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
-    OwnedSampler sampler;
-    DescriptorSets sets;
-};
+    sets.image(0, gpu::BINDING_DEPTH, passes.view(frame.depth), inputs.layouts.nearest,
+               VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    return sets;
+}
 
 // A full-screen pass over what the G-buffer holds: the triangle lies at the least depth that can be drawn,
 // and LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded.
 void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
-                const std::string& fragment, const Variant& variant, const std::vector<VkFormat>& colors) {
+                const std::string& fragment, Variant variant, const std::vector<VkFormat>& colors,
+                const LightChunk& chunk) {
     for (const ImageRef image : frame.gbuffer)
         if (image.valid()) pass.samples(image);
+    chunk.read(pass);
     pass.samples(frame.depth).depthTest(frame.depth);
+    variant.set(gpu::FEATURE_light_chunk, chunk.kind);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "full_screen.vert",
                                                                  .fragment = fragment,
                                                                  .variant = variant,
@@ -75,9 +66,16 @@ void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const F
                                                                  .depth = depthFormat,
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
                                                                  .depth_write = false});
-    const auto set = std::make_shared<GBufferSet>(passes, inputs, frame);
-    pass.record([&inputs, pipeline, set](VkCommandBuffer commands) {
-        recordFullScreen(commands, inputs, pipeline, set->sets[0]);
+    const auto set = std::make_shared<DescriptorSets>(gbufferSet(passes, inputs, frame));
+    pass.record([&inputs, pipeline, set, chunk](VkCommandBuffer commands) {
+        recordFullScreen(commands, inputs, pipeline, (*set)[0], chunk);
+    });
+}
+
+LightChunk addEarlier(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
+    return addEarlierLights(passes, inputs, [&](Pass& pass, const LightChunk& chunk) {
+        addResolve(passes, pass, inputs, frame, "deferred_carry.frag", inputs.variant, {litFormat, litFormat},
+                   chunk);
     });
 }
 
@@ -95,22 +93,24 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     }
     geometry.record(recordDraws(inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item); }));
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
+    const LightChunk last = addEarlier(passes, inputs, images);
     images.lit = passes.image("lit", litFormat);
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
-    addResolve(passes, shade, inputs, images, "deferred_shade.frag", inputs.variant, {litFormat});
+    addResolve(passes, shade, inputs, images, "deferred_shade.frag", inputs.variant, {litFormat}, last);
     return images;
 }
 
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
+    const LightChunk last = addEarlier(passes, inputs, frame);
     for (const CaptureGroup& group : captureGroups(request.modes)) {
         Pass& pass = passes.draw("capture");
         for (const CapturedImage& image : addCaptureImages(passes, pass, group)) images.push_back(image);
         Variant variant = inputs.variant;
         group.specialise(variant);
         addResolve(passes, pass, inputs, frame, fmt::format("deferred_capture.frag.{}", group.modes.size()),
-                   variant, group.formats);
+                   variant, group.formats, last);
     }
     return images;
 }

@@ -8,7 +8,7 @@ namespace diptych {
 namespace {
 
 // Of the scene's features those that forward shading reads: the timed pipeline has no G-buffer.
-PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item) {
+PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item, const LightChunk& chunk) {
     PipelineKey key{.vertex = "surface.vert",
                     .fragment = "forward_shade.frag",
                     .variant = item.variant,
@@ -22,17 +22,24 @@ PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item) {
           gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_light_lists,
           gpu::FEATURE_list_width, gpu::FEATURE_orthographic})
         key.variant.set(feature, inputs.variant.get(feature));
+    key.variant.set(gpu::FEATURE_light_chunk, chunk.kind);
     return key;
 }
 
+// A surface that goes through the G-buffer's encoding and back before it is shaded, or only its geometric
+// normal.
+void quantise(PipelineKey& key, const FrameInputs& inputs, bool throughGBuffer) {
+    inputs.gbuffer.specialise(key.variant);
+    key.variant.set(gpu::FEATURE_quantise_surface, throughGBuffer);
+}
+
 PipelineKey captureKey(const FrameInputs& inputs, const DrawItem& item, const CaptureGroup& group,
-                       bool throughGBuffer) {
-    PipelineKey key = shadeKey(inputs, item);
+                       bool throughGBuffer, const LightChunk& chunk) {
+    PipelineKey key = shadeKey(inputs, item, chunk);
     key.fragment = fmt::format("forward_capture.frag.{}", group.modes.size());
     key.colors = group.formats;
     key.depth_write = false;
-    inputs.gbuffer.specialise(key.variant);
-    key.variant.set(gpu::FEATURE_quantise_surface, throughGBuffer);
+    quantise(key, inputs, throughGBuffer);
     group.specialise(key.variant);
     return key;
 }
@@ -45,31 +52,68 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     if (inputs.prepass)
         passes.draw("depth pre-pass").depth(images.depth, Load::clear).record(recordDraws(inputs, depthKey));
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
+    // The first draw that shades makes the depth where no pre-pass has.
+    bool drawn = inputs.prepass;
+    const auto addShading = [&](Pass& pass, const LightChunk& chunk, const char* fragment,
+                                const std::vector<VkFormat>& colors) {
+        if (drawn)
+            pass.depthTest(images.depth);
+        else
+            pass.depth(images.depth, Load::clear);
+        chunk.read(pass);
+        pass.record(recordDraws(
+            inputs,
+            [&](const DrawItem& item) {
+                PipelineKey key = shadeKey(inputs, item, chunk);
+                key.fragment = fragment;
+                key.colors = colors;
+                key.depth_write = !drawn;
+                return key;
+            },
+            chunk));
+        drawn = true;
+    };
+    const LightChunk last = addEarlierLights(passes, inputs, [&](Pass& pass, const LightChunk& chunk) {
+        addShading(pass, chunk, "forward_carry.frag", {litFormat, litFormat});
+    });
     images.lit = passes.image("lit", litFormat);
-    Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
-    if (inputs.prepass)
-        shade.depthTest(images.depth);
-    else
-        shade.depth(images.depth, Load::clear);
-    shade.record(recordDraws(inputs, [&](const DrawItem& item) { return shadeKey(inputs, item); }));
+    addShading(passes.draw("shade").color(images.lit, Load::clear), last, "forward_shade.frag", {litFormat});
     return images;
 }
 
 std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
                                                  const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    for (const bool throughGBuffer : {false, true})
-        for (const CaptureGroup& group :
-             captureGroups(throughGBuffer ? request.through_gbuffer : request.modes)) {
+    for (const bool throughGBuffer : {false, true}) {
+        const std::vector<int>& modes = throughGBuffer ? request.through_gbuffer : request.modes;
+        if (modes.empty()) continue;
+        const LightChunk last = addEarlierLights(passes, inputs, [&](Pass& pass, const LightChunk& chunk) {
+            pass.depthTest(frame.depth);
+            pass.record(recordDraws(
+                inputs,
+                [&](const DrawItem& item) {
+                    PipelineKey key = shadeKey(inputs, item, chunk);
+                    key.fragment = "forward_carry.frag";
+                    key.colors = {litFormat, litFormat};
+                    key.depth_write = false;
+                    quantise(key, inputs, throughGBuffer);
+                    return key;
+                },
+                chunk));
+        });
+        for (const CaptureGroup& group : captureGroups(modes)) {
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
+            last.read(pass);
             for (CapturedImage image : addCaptureImages(passes, pass, group)) {
                 image.through_gbuffer = throughGBuffer;
                 images.push_back(image);
             }
-            pass.record(recordDraws(inputs, [&](const DrawItem& item) {
-                return captureKey(inputs, item, group, throughGBuffer);
-            }));
+            pass.record(recordDraws(
+                inputs,
+                [&](const DrawItem& item) { return captureKey(inputs, item, group, throughGBuffer, last); },
+                last));
         }
+    }
     return images;
 }
 

@@ -259,6 +259,7 @@ public:
           across_((request.view.width + tileSide - 1) / tileSide),
           down_((request.view.height + tileSide - 1) / tileSide) {
         for (const DebugMode& mode : debugModes()) {
+            if (mode.maker == MadeBy::paths_only) continue;
             const bool copied = request.mode == ReferenceMode::surface && !isLight(mode.number);
             Image& image = picture_.channels[mode.number];
             if (copied) {
@@ -352,7 +353,7 @@ private:
 std::vector<int> surfaceChannels() {
     std::vector<int> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isLight(mode.number)) modes.push_back(mode.number);
+        if (!isLight(mode.number) && mode.maker != MadeBy::paths_only) modes.push_back(mode.number);
     return modes;
 }
 

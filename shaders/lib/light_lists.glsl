@@ -53,7 +53,7 @@ bool listOverflowed(PixelLights lights) {
 
 // Of groups [begin, end) of a list those that this draw walks.
 uvec2 walked(PixelLights lights, uint begin, uint end) {
-    if (!on(feature_light_chunk)) return uvec2(begin, end);
+    if (feature_light_chunk == CHUNK_WHOLE) return uvec2(begin, end);
     uint first = lights.groups.begin;
     return clamp(uvec2(begin, end), first + constants.light_first, first + constants.light_end);
 }

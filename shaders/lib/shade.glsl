@@ -4,6 +4,7 @@
 #define SHADE_GLSL
 
 #include "shaders/lib/brdf.glsl"
+#include "shaders/lib/carry.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/lights.glsl"
 #include "shaders/lib/position.glsl"
@@ -65,7 +66,11 @@ Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, makeBrdf(s, v));
     precise Radiance radiance = Radiance(vec3(0.0), vec3(0.0), s.emission);
-    if (on(feature_directional_lights))
+    if (feature_light_chunk == CHUNK_LATER) {
+        radiance.diffuse = carriedDiffuse();
+        radiance.specular = carriedSpecular();
+    }
+    if (on(feature_directional_lights) && feature_light_chunk != CHUNK_LATER)
         for (uint i = 0; i < view.directional_light_count; ++i)
             addIncident(shading, fromDirectionalLight(lightAt(i)), radiance);
     if (on(feature_point_lights)) ADD_GROUPS(addPoint, walked(lights, lights.groups.begin, lights.groups.point_end))

@@ -10,6 +10,7 @@ CONTRACT_BEGIN
 CONTRACT_CONST(uint, SET_FRAME, 0);     // what every pass of a frame reads
 CONTRACT_CONST(uint, SET_MATERIAL, 1);  // the textures of one material, bindings SLOT_*
 CONTRACT_CONST(uint, SET_LISTS, 1);     // of the kernels that make light lists, bindings of light_list.h
+CONTRACT_CONST(uint, SET_CARRIED, 3);   // sums that an earlier draw's lights left: diffuse, specular
 CONTRACT_CONST(uint, SET_GBUFFER, 2);   // deferred: the attachments, bindings GBUFFER_*, then depth
 
 CONTRACT_CONST(uint, BINDING_VIEW, 0);       // uniform View
@@ -22,6 +23,9 @@ CONTRACT_CONST(uint, BINDING_LIGHT_GRID, 7);    // uniform LightGrid
 CONTRACT_CONST(uint, BINDING_LIST_HEADS, 8);    // texels of LightListHead[lists]
 CONTRACT_CONST(uint, BINDING_LIST_INDICES, 9);  // texels of uint[]: into the lights, list_width at once
 CONTRACT_CONST(uint, BINDING_LIST_COUNTS, 10);  // buffer uint[lists]
+
+CONTRACT_CONST(uint, BINDING_CARRIED_DIFFUSE, 0);  // of SET_CARRIED
+CONTRACT_CONST(uint, BINDING_CARRIED_SPECULAR, 1);
 
 CONTRACT_CONST(uint, BINDING_DEPTH, 6);      // of SET_GBUFFER
 

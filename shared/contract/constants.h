@@ -29,7 +29,7 @@ CONTRACT_CONST(float, DEFAULT_DIELECTRIC_F0, 0.04f);
 CONTRACT_CONST(float, MAX_TEXCOORD, 1e9f);
 
 // Mesa lavapipe ends all loops of one shader invocation, silently, after 65,535 iterations together.
-// One draw or dispatch may therefore walk this many lights; the rest is left to its other loops.
+// One draw may therefore walk so many groups of lights; the rest is left to its other loops.
 CONTRACT_CONST(uint, MAX_LIGHTS_PER_DRAW, 65000);
 
 CONTRACT_END

@@ -12,7 +12,8 @@
 //   width   components; kind names them in an EXR: color .R.G.B, vector .X.Y.Z, scalar .Y, id .Y
 //   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
-//   made by both, or forward_only where the G-buffer does not carry it
+//   made by both (and the reference), forward_only where the G-buffer does not carry it, or by the two paths
+//   alone (paths_only): how they work, of which the reference knows nothing
 #define DEBUG_MODES(X)                                                                                    \
     X(0,  lit,              3, relative, color,  both,         "radiance, W/(sr m^2)")                    \
     X(1,  albedo,           3, absolute, color,  both,         "base colour, linear Rec.709")             \
@@ -27,8 +28,8 @@
     X(10, depth,            1, relative, scalar, both,         "view depth, m (EXR layer Z)")             \
     X(11, position,         3, relative, vector, both,         "shading position, world axes, from the camera, m") \
     X(12, geometric_normal, 3, angular,  vector, both,         "normal of the triangle, world")           \
-    X(20, light_count,      1, absolute, scalar, both,         "lights evaluated at the pixel")           \
-    X(21, list_overflow,    1, exact,    scalar, both,         "1 where the pixel's light list found no room") \
+    X(20, light_count,      1, absolute, scalar, paths_only,   "lights evaluated at the pixel")           \
+    X(21, list_overflow,    1, exact,    scalar, paths_only,   "1 where the pixel's light list found no room") \
     X(40, lit_diffuse,      3, relative, color,  both,         "reflected by the diffuse lobe, W/(sr m^2)") \
     X(41, lit_specular,     3, relative, color,  both,         "reflected by the specular lobe, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, both,         "F90 of the dielectric layer, 0 to 1")

@@ -41,7 +41,7 @@
     X(29, unlit)                      /* KHR_materials_unlit: emits its base colour, reflects nothing */ \
     X(30, spot_lights)                                                                                \
     X(32, light_lists)                /* LISTS_* of light_list.h */                                   \
-    X(33, light_chunk)                /* a draw walks only a part of each list: lavapipe's loops end */ \
+    X(33, light_chunk)                /* CHUNK_* of light_list.h: a draw walks a part of each list */  \
     X(34, list_width)                 /* lights that one turn of a list's loop takes: 1 or 4 */
 
 CONTRACT_BEGIN

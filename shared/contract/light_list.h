@@ -12,6 +12,12 @@ CONTRACT_CONST(uint, LISTS_NONE, 0);       // every light at every pixel
 CONTRACT_CONST(uint, LISTS_CLUSTERED, 1);  // a cell is a froxel: a tile of pixels x a slice of view depth
 CONTRACT_CONST(uint, LISTS_TILED, 2);      // a cell is a tile with the depths that it covers
 
+// Values of FEATURE_light_chunk. Lists of more groups than MAX_LIGHTS_PER_DRAW are walked by several draws, which hand
+// the float32 sums on: so the sum is the same bits as one loop's.
+CONTRACT_CONST(uint, CHUNK_WHOLE, 0);
+CONTRACT_CONST(uint, CHUNK_FIRST, 1);  // directional lights and the first groups
+CONTRACT_CONST(uint, CHUNK_LATER, 2);  // goes on from SET_CARRIED
+
 // Cells over a picture, numbered (slice * tiles.y + tile y) * tiles.x + tile x. Lists are of local lights
 // (point, spot, area): directional ones reach everything. Light numbers count from the first local one.
 struct LightGrid {

@@ -21,6 +21,9 @@ constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
 constexpr std::array frameTypes{uniform, storage, storage, texels, texels, storage,
                                 storage, uniform, texels,  texels, storage};
 
+constexpr std::array carriedTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+
 constexpr VkShaderStageFlags drawStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 bool needsLight(int mode) {
@@ -40,7 +43,8 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material) : frame(makeSet
     std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> gbufferTypes;
     gbufferTypes.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     gbuffer = makeSetLayout(device, gbufferTypes);
-    const std::array<VkDescriptorSetLayout, 3> sets{frame, material, gbuffer};
+    carried = makeSetLayout(device, carriedTypes);
+    const std::array<VkDescriptorSetLayout, 4> sets{frame, material, gbuffer, carried};
     const VkPushConstantRange constants{drawStages, 0, sizeof(gpu::DrawConstants)};
     const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           .pNext = nullptr,
@@ -52,6 +56,7 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material) : frame(makeSet
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
     pipeline = OwnedPipelineLayout(device.handle(), layout);
+    nearest = makeNearestSampler(device);
     lists = ListLayouts(device, frame);
 }
 
@@ -96,16 +101,18 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
     return variant;
 }
 
-std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf) {
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
+                                                 const LightChunk& chunk) {
     std::vector<PipelineKey> keys;
     for (const DrawItem& item : inputs.draws.items) keys.push_back(keyOf(item));
     std::vector<VkPipeline> pipelines = inputs.pipelines.get(keys);
-    return [&inputs, pipelines = std::move(pipelines)](VkCommandBuffer commands) {
+    return [&inputs, chunk, pipelines = std::move(pipelines)](VkCommandBuffer commands) {
         const auto bind = [&](gpu::uint set, VkDescriptorSet descriptors) {
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline, set,
                                     1, &descriptors, 0, nullptr);
         };
         bind(gpu::SET_FRAME, inputs.frame_set);
+        if (chunk.carried) bind(gpu::SET_CARRIED, (*chunk.carried)[0]);
         inputs.geometry.bind(commands);
         const DrawItem* last = nullptr;
         VkPipeline lastPipeline = VK_NULL_HANDLE;
@@ -120,7 +127,7 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
             // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
             vkCmdSetFrontFace(commands,
                               item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-            const gpu::DrawConstants constants{item.draw, item.range.material, 0, 0};
+            const gpu::DrawConstants constants{item.draw, item.range.material, chunk.first, chunk.end};
             vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants,
                                &constants);
             vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
@@ -132,15 +139,48 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
 }
 
 void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
-                      VkDescriptorSet gbuffer) {
+                      VkDescriptorSet gbuffer, const LightChunk& chunk) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
                             gpu::SET_FRAME, 1, &inputs.frame_set, 0, nullptr);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
                             gpu::SET_GBUFFER, 1, &gbuffer, 0, nullptr);
+    if (chunk.carried) {
+        const VkDescriptorSet carried = (*chunk.carried)[0];
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
+                                gpu::SET_CARRIED, 1, &carried, 0, nullptr);
+    }
+    const gpu::DrawConstants constants{0, 0, chunk.first, chunk.end};
+    vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+void LightChunk::read(Pass& pass) const {
+    if (carried)
+        for (const ImageRef image : images) pass.samples(image);
+}
+
+LightChunk addEarlierLights(PassList& passes, const FrameInputs& inputs, const AddChunk& add) {
+    const gpu::uint groups = inputs.light_groups, most = gpu::MAX_LIGHTS_PER_DRAW;
+    if (groups <= most) return {};
+    LightChunk chunk{gpu::CHUNK_FIRST, 0, most};
+    while (chunk.first + most < groups) {
+        Pass& pass = passes.draw("shade earlier lights");
+        chunk.read(pass);
+        const std::array<ImageRef, 2> sums{passes.image("carried diffuse", litFormat),
+                                           passes.image("carried specular", litFormat)};
+        for (const ImageRef sum : sums) pass.color(sum, Load::clear);
+        add(pass, chunk);
+        auto carried =
+            std::make_shared<DescriptorSets>(inputs.device, inputs.layouts.carried, carriedTypes, 1);
+        for (gpu::uint i = 0; i < sums.size(); ++i)
+            carried->image(0, i, passes.view(sums[i]), inputs.layouts.nearest,
+                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        chunk = {gpu::CHUNK_LATER, chunk.end, std::min(chunk.end + most, groups), sums, std::move(carried)};
+    }
+    return chunk;
 }
 
 PipelineKey depthKey(const DrawItem& item) {

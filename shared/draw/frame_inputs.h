@@ -9,17 +9,19 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace diptych {
 
-// The pipeline layout of every pass: SET_FRAME, SET_MATERIAL, SET_GBUFFER.
+// The pipeline layout of every pass: SET_FRAME, SET_MATERIAL, SET_GBUFFER, SET_CARRIED.
 struct Layouts {
     Layouts(Device& device, VkDescriptorSetLayout material);
-    OwnedDescriptorSetLayout frame, gbuffer;
+    OwnedDescriptorSetLayout frame, gbuffer, carried;
     OwnedPipelineLayout pipeline;
+    OwnedSampler nearest;
     ListLayouts lists;
 };
 
@@ -53,7 +55,8 @@ struct FrameInputs {
     LightLists& lists;
     Variant variant;  // of the scene and the view: lights there, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
-    bool prepass = true;  // forward+
+    bool prepass = true;         // forward+
+    gpu::uint light_groups = 0;  // of the longest list that there may be
 };
 
 struct FrameImages {
@@ -69,14 +72,32 @@ constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
                      const GBufferLayout& gbuffer);
 
+// The groups of each light list that one draw walks, and the sums that it goes on from.
+struct LightChunk {
+    gpu::uint kind = gpu::CHUNK_WHOLE;
+    gpu::uint first = 0, end = 0;         // groups from a list's begin
+    std::array<ImageRef, 2> images = {};  // the sums, which the pass must declare that it samples
+    std::shared_ptr<const DescriptorSets> carried = {};
+
+    void read(Pass& pass) const;  // declares the images, where there are some
+};
+
 // Draws every item in order with the pipeline of its key; pipelines that are not there yet are made on all
 // cores.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
-std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf);
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
+                                                 const LightChunk& chunk = {});
 
 // One triangle over the screen.
 void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
-                      VkDescriptorSet gbuffer);
+                      VkDescriptorSet gbuffer, const LightChunk& chunk);
+
+// Adds a draw for each chunk of the lights but the last, which is returned for the pass that ends the sum:
+// with up to MAX_LIGHTS_PER_DRAW groups there is one chunk, CHUNK_WHOLE, and no draw. `add` declares depth
+// and what is read besides, and records the drawing of one chunk into attachments 0 (diffuse) and 1
+// (specular).
+using AddChunk = std::function<void(Pass&, const LightChunk&)>;
+LightChunk addEarlierLights(PassList& passes, const FrameInputs& inputs, const AddChunk& add);
 
 // The depth pipeline's key: only what can cut a hole matters to it.
 PipelineKey depthKey(const DrawItem& item);

@@ -11,7 +11,7 @@ namespace diptych {
 
 enum class Metric { relative, absolute, angular, exact };
 enum class ChannelKind { color, vector, scalar, id };
-enum class MadeBy { both, forward_only };
+enum class MadeBy { both, forward_only, paths_only };
 
 // How a channel becomes a picture; usual: as its kind and metric say.
 enum class Shown { usual, radiance, display, normalised };

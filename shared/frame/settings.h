@@ -32,7 +32,7 @@ struct Rgb {
 
 struct Settings {
     Path path = Path::forward_plus;
-    Assignment assign = Assignment::every;
+    Assignment assign = Assignment::clustered;
     Switch prepass = Switch::automatic;
     GBufferEncoding gbuffer = GBufferEncoding::standard;
     Size size;

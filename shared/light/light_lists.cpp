@@ -106,11 +106,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     overflow_ =
         GpuBuffer(device, "overflow", 4,
                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-    VkSamplerCreateInfo samplerInfo{};
-    samplerInfo.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &samplerInfo, nullptr, &sampler), "vkCreateSampler");
-    sampler_ = OwnedSampler(device.handle(), sampler);
+    sampler_ = makeNearestSampler(device);
     sets_ = DescriptorSets(device, layouts.lists(), listTypes, 1);
     sets_.buffer(0, gpu::BINDING_BOUNDS, bounds_.handle());
     sets_.buffer(0, gpu::BINDING_MASKS, masks_.handle());

@@ -39,6 +39,14 @@ std::uint32_t bytesPerTexel(VkFormat format) {
     }
 }
 
+OwnedSampler makeNearestSampler(Device& device) {
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    VkSampler sampler = VK_NULL_HANDLE;
+    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+    return {device.handle(), sampler};
+}
+
 GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size, VkBufferUsageFlags usage,
                      MemoryUse use)
     : size_(std::max<VkDeviceSize>(size, 1)) {

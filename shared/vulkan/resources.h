@@ -11,6 +11,9 @@
 
 namespace diptych {
 
+// For texelFetch, which filters nothing.
+OwnedSampler makeNearestSampler(Device& device);
+
 class GpuBuffer {
 public:
     GpuBuffer() = default;
