@@ -79,8 +79,8 @@ Shares sharesOf(const RenderOptions& render) {
     return {frames / (frames + 4), (frames + 1) / (frames + 4)};
 }
 
-Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device, KeptReferences& kept,
-           Progress& progress) {
+Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device,
+           KeptReferences& kept, Progress& progress) {
     RenderOptions render = bothOptions(options);
     render.keep = [&kept] { return kept.next(); };
     const std::size_t together = pathsOf(options).size();
@@ -127,7 +127,7 @@ const Frame& renewing(const Options& options, const Frame* old, const std::vecto
 }
 
 Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> baseline,
-                   const ReportDevice& device, const Stage& progress) {
+                const ReportDevice& device, const Stage& progress) {
     CompareOptions compare = compareOptions(options);
     compare.progress = progress;
     if (againstTruth(options))
@@ -147,6 +147,7 @@ int runCompare(const Options& options) {
     const std::filesystem::path folder = reportFolder(options);
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare draws both");
+    if (options.heat) note(options, "--heat is not used: the report shows every channel, light_count too");
     if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
     std::optional<Frame> baseline;
     if (!options.baseline_file.empty()) {
@@ -167,8 +168,7 @@ int runCompare(const Options& options) {
                                  renewing(options, baseline ? &*baseline : nullptr, drawn.frames), here);
     const Stage stage(progress, folder.string());
     const auto [drawing, comparing] = sharesOf(bothOptions(options));
-    const Report report =
-        reportOf(options, drawn, std::move(baseline), here, stage.part(drawing, comparing));
+    const Report report = reportOf(options, drawn, std::move(baseline), here, stage.part(drawing, comparing));
     const std::string json = writeReport(
         report, folder, {options.picture, options.single_file, options.force, stage.part(comparing, 1)});
     kept.remove();

@@ -3,6 +3,7 @@
 
 #include "compare/command_options.h"
 #include "compare/version.h"
+#include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
 
@@ -68,12 +69,13 @@ Settings settingsOf(const Said& said) {
 }
 
 void resolveBaseline(Options& options, const Said& said) {
-    const auto path = std::ranges::find(enumNames<Path>(), said.baseline, &std::pair<Path, std::string_view>::second);
+    const auto path =
+        std::ranges::find(enumNames<Path>(), said.baseline, &std::pair<Path, std::string_view>::second);
     const bool isPath = path != enumNames<Path>().end();
     if (isPath) options.baseline = path->first;
     if (!isPath && !said.baseline.ends_with(".exr"))
-        throw std::runtime_error(
-            fmt::format("--baseline {}: is none of deferred, forward_plus, reference, and no .exr file", said.baseline));
+        throw std::runtime_error(fmt::format(
+            "--baseline {}: is none of deferred, forward_plus, reference, and no .exr file", said.baseline));
     if (!isPath) options.baseline_file = said.baseline;
     if (options.update_baseline && isPath)
         throw std::runtime_error("--update-baseline: --baseline FILE.exr says which file");
@@ -105,6 +107,7 @@ void resolve(Options& options, const Said& said) {
         std::ranges::any_of(said.settings, [](const auto& pair) { return pair.first == "path"; });
     options.debug_given = !said.debug.empty();
     if (options.debug_given) options.shown = channelNumber(said.debug, "--debug");
+    if (options.heat) options.shown = static_cast<int>(gpu::DEBUG_light_count);
     if (said.channels != "all") options.channels = channelNumbers(said.channels);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 

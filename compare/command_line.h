@@ -31,6 +31,7 @@ struct Options {
     Path baseline = Path::deferred;        // compare: the left panel
     int shown = 0;                         // debug mode of the picture
     bool debug_given = false;              // --debug stood on the command line
+    bool heat = false;                     // --heat: shown is the light count, whatever --debug says
     std::vector<int> channels;             // debug modes, ascending; empty: all that can be made
     int runs = 5;                          // timed frames
     PictureChoice picture;

@@ -46,11 +46,6 @@ void addLater(CLI::App& app, Said& said, const std::string& option, const std::s
         ->type_name(type)
         ->group(later_group);
 }
-void addLaterFlag(CLI::App& app, Said& said, const std::string& option, const std::string& help) {
-    app.add_flag_callback(
-           option, [&said, option] { said.not_built.push_back(option); }, help)
-        ->group(later_group);
-}
 
 void addSettings(CLI::App& app, Said& said, const std::string& except = "") {
     app.option_defaults()->group(pixel_group);
@@ -75,13 +70,15 @@ void addSettings(CLI::App& app, Said& said, const std::string& except = "") {
         ->type_name("FILE.json");
     app.add_option("--frames", said.frames, "frames of an animation (1)")->type_name("N");
     app.add_option("--fps", said.fps, "their rate (30)")->type_name("F");
-    addLaterFlag(app, said, "--heat", "light-count heat map");
 }
 
 void addPicture(CLI::App& app, Options& options, Said& said) {
     app.option_defaults()->group(picture_group);
     app.add_option("--debug", said.debug, "the channel that the picture shows (lit)")
         ->type_name("NAME|NUMBER");
+    app.add_flag(
+        "--heat", options.heat,
+        "the picture shows how many lights each pixel evaluates, with a legend, whatever --debug says");
     app.add_option("--channels", said.channels, "the channels to make, separated by commas (all)")
         ->type_name("NAME|NUMBER,...");
     CLI::Option* exposure =
@@ -214,9 +211,9 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
 
     if (command == "compare") {
         addFiles(app, options, "folder of the report (diptych-report)");
-        app.add_option(
-               "--baseline", said.baseline,
-               "the left panel: deferred, forward_plus; or reference or an EXR, with which both are compared (deferred)")
+        app.add_option("--baseline", said.baseline,
+                       "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "
+                       "compared (deferred)")
             ->type_name("PATH|FILE.exr");
         app.add_flag("--single-file", options.single_file, "embed the pictures in index.html at half size");
         app.add_flag("--update-baseline", options.update_baseline,

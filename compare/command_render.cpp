@@ -63,15 +63,18 @@ int listScenes(const Options& options) {
 
 // Asked for by name, it must be there; of "all", a path gives what it can.
 void checkChannels(const Options& options) {
-    if (options.settings.path != Path::deferred) return;
-    const auto check = [](const DebugMode& mode, const char* option) {
-        if (mode.maker == MadeBy::forward_only)
+    const auto check = [&](const DebugMode& mode, const char* option) {
+        if (mode.maker == MadeBy::paths_only && options.settings.path == Path::reference)
+            throw std::runtime_error(fmt::format(
+                "{} {}: the reference evaluates every light; --path forward_plus and deferred show it",
+                option, mode.name));
+        if (mode.maker == MadeBy::forward_only && options.settings.path == Path::deferred)
             throw std::runtime_error(fmt::format(
                 "{} {}: the deferred path's G-buffer does not carry it; --path forward_plus makes it", option,
                 mode.name));
     };
     for (const int channel : options.channels) check(debugMode(channel), "--channels");
-    check(debugMode(options.shown), "--debug");
+    check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");
 }
 
 // What the files need: an EXR the channels asked for; a picture the one that it shows, lit for its exposure,

@@ -114,8 +114,15 @@ void readCounters(const Frame& frame, Comparison& comparison) {
             "to another picture",
             frame.name, counters.unreproduced_pixels));
     if (counters.overflowed_lists > 0)
-        comparison.failures.push_back(fmt::format("{}: {} light lists overflowed: lights are missing",
-                                                  frame.name, counters.overflowed_lists));
+        comparison.notes.push_back(fmt::format(
+            "{}: {} light list(s) found no room, so every light was evaluated there: exact, but slow",
+            frame.name, counters.overflowed_lists));
+    if (counters.energy_cut > 0)
+        comparison.notes.push_back(
+            fmt::format("{}: --light-cutoff {} takes away {:.3g} % of the flux that lights without a range "
+                        "send onto the scene's "
+                        "surfaces, unshadowed",
+                        frame.name, frame.settings.light_cutoff, 100 * counters.energy_cut));
     if (counters.nonfinite_pixels > 0)
         comparison.failures.push_back(
             fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/picture.h"
 
+#include "compare/heat.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -38,9 +39,12 @@ bool isRadiance(const DebugMode& mode) {
     if (mode.shown != Shown::usual) return mode.shown == Shown::radiance;
     return mode.kind == ChannelKind::color && mode.metric == Metric::relative;
 }
+bool isHeat(const DebugMode& mode) {
+    return mode.shown == Shown::usual && mode.number == gpu::DEBUG_light_count;
+}
 bool isNormalised(const DebugMode& mode) {
     if (mode.shown != Shown::usual) return mode.shown == Shown::normalised;
-    return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position;
+    return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position || isHeat(mode);
 }
 
 Rgb8 display(Color radiance, const Exposure& exposure) {
@@ -66,6 +70,7 @@ Rgb8 pixelColor(const DebugMode& mode, const float* p, const PictureScale& scale
         return byteOf((double{v} - scale.low) / (scale.high - scale.low));
     };
     if (isRadiance(mode)) return display({p[0], p[1], p[2]}, scale.exposure);
+    if (isHeat(mode)) return heatColor(double{p[0]} / scale.high);
     if (mode.shown == Shown::display) return {byteOf(p[0]), byteOf(p[1]), byteOf(p[2])};
     switch (mode.kind) {
         case ChannelKind::color:
@@ -158,6 +163,8 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
                     }
         }
         if (!(low <= high)) low = high = 0;
+        if (isHeat(mode))
+            return {0, heatTop(high), exposure, fmt::format("heat, 0 to {:g} lights", heatTop(high))};
         const std::string range =
             fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::usual ? " m" : "");
         if (low == high) high = low + 1;
@@ -193,6 +200,7 @@ Image8 picture(const DebugMode& mode, const Frame& frame, const PictureScale& sc
         else
             put(result, i, pixelColor(mode, p, scale));
     }
+    if (isHeat(mode)) drawHeatLegend(result, scale.high);
     return result;
 }
 

@@ -9,7 +9,9 @@
 #include "deferred/deferred.h"
 #include "forward_plus/forward_plus.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/draw/overdraw.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/light/cutoff.h"
 #include "shared/scene/requirements.h"
 #include "shared/scene/rig.h"
 #include "shared/scene/view.h"
@@ -58,6 +60,14 @@ gpu::uint listsOf(Assignment assign) {
     return gpu::LISTS_NONE;
 }
 
+// A workgroup a cell suits a GPU's wide groups; lavapipe runs them eight threads at a time and tests every
+// light in every cell (README, "Many lights").
+ListKernel kernelOf(LightKernel kernel, const Device& device) {
+    if (kernel == LightKernel::automatic)
+        return device.info().isCpu() ? ListKernel::scatter : ListKernel::gather;
+    return kernel == LightKernel::scatter ? ListKernel::scatter : ListKernel::gather;
+}
+
 // One view of the scene under one Settings, ready for passes.
 class Shot {
 public:
@@ -66,10 +76,10 @@ public:
           view(makeView(scene, pose, settings.camera, settings.size.width, settings.size.height)),
           needs(requirements(scene, pose)),
           lit_by(litBy(scene, pose, settings)),
-          lights(gpuLights(lit_by, view.eye())),
+          lights(gpuLights(withCutoff(lit_by, double{settings.light_cutoff}), view.eye())),
           draws(makeDrawList(pose, shared.geometry, shared.materials, view)),
           buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights,
-                  {listsOf(settings.assign), ListKernel::scatter}),
+                  {listsOf(settings.assign), kernelOf(settings.light_kernel, device)}),
           gbuffer(gbufferLayout(settings.gbuffer, needs)),
           inputs{device,
                  shared.layouts,
@@ -83,11 +93,30 @@ public:
                  gbuffer,
                  settings.prepass != Switch::off} {
         buffers.lists().specialise(inputs.variant);
-        inputs.light_groups = buffers.lists().any() ? buffers.lists().grid().all_end : lights.local();
+        const LightLists& lists = buffers.lists();
+        inputs.light_groups = lists.any() ? lists.grid().all_end : lights.local();
+        if (settings.path == Path::forward_plus && settings.prepass == Switch::automatic)
+            decidePrepass(settings);
     }
     Shot(const Shot&) = delete;
     Shot& operator=(const Shot&) = delete;
 
+    // Tiles are bounded by depth, so they need it first.
+    void decidePrepass(const Settings& settings) {
+        if (settings.assign == Assignment::tiled) return;
+        const LightLists& lists = buffers.lists();
+        const gpu::LightGrid& grid = lists.grid();
+        const std::uint64_t atPixel =
+            lists.any() ? std::uint64_t{grid.capacity} * grid.width / grid.lists : lights.local();
+        const PrepassChoice choice =
+            choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
+                                          static_cast<std::uint32_t>(settings.size.height)),
+                          static_cast<double>(atPixel + lights.directional), inputs.device.info().isCpu());
+        inputs.prepass = choice.on;
+        notes.push_back(choice.because);
+    }
+
+    std::vector<std::string> notes;  // what was decided for this view
     Pose pose;
     View view;
     Requirements needs;
@@ -175,7 +204,10 @@ public:
         frame_.notes = scene_.notes;
         for (const std::string& note : shared_.materials.notes()) frame_.notes.push_back(note);
         for (std::string& note : leftOutNotes()) frame_.notes.push_back(std::move(note));
+        for (const std::string& note : shot_.notes) frame_.notes.push_back(note);
         frame_.counters.lights = shot_.lights.count();
+        frame_.counters.energy_cut =
+            energyCut(scene_, shot_.pose, shot_.lit_by, double{settings_.light_cutoff});
         PassList passes(device_, static_cast<std::uint32_t>(settings_.size.width),
                         static_cast<std::uint32_t>(settings_.size.height));
         const FrameImages images = path_.add(passes, shot_.inputs);
@@ -413,6 +445,7 @@ std::vector<PathPlan> planPaths(Device& device, const Scene& scene, const std::v
         PassList passes(device, 1, 1);
         path.add(passes, shot.inputs);
         PathPlan plan{std::string(nameOf(s.path)), passes.names(), path.bytesPerPixel(shot.inputs), {}};
+        for (const std::string& note : shot.notes) plan.notes.push_back(note);
         plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", shot.draws.items.size(),
                                          shot.draws.culled, shared.pipelines.count() - pipelinesBefore));
         plans.push_back(std::move(plan));

@@ -141,7 +141,8 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_specular:
             return specularTolerance(pair, bits);
         case gpu::DEBUG_dielectric_f90:
-            if (!pair.needs.dielectric_specular) return {0, "every dielectric has F90 = 1: nothing is stored"};
+            if (!pair.needs.dielectric_specular)
+                return {0, "every dielectric has F90 = 1: nothing is stored"};
             return unormTolerance(gpu::SPECULAR_BITS);
         case gpu::DEBUG_material_id:
             return {0, "the index is carried whole"};
@@ -195,7 +196,8 @@ double encodingEffect(const DebugMode& mode, const FramePair& pair) {
 Tolerance truthTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& truth = isTruth(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isTruth(pair.baseline) ? pair.test : pair.baseline;
-    const bool packed = path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
+    const bool packed =
+        path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
     const bool own = truth.settings.reference_mode == ReferenceMode::scene;
     Tolerance result;
     if (isLit(mode)) {
@@ -203,12 +205,14 @@ Tolerance truthTolerance(const DebugMode& mode, const FramePair& pair) {
         if (const double effect = packed ? encodingEffect(mode, pair) : 0; effect > 0) {
             result.max += effect;
             result.because += fmt::format(
-                "; and what forward+ changes by at 99.9 % of the pixels when it shades what the {} G-buffer gives "
+                "; and what forward+ changes by at 99.9 % of the pixels when it shades what the {} G-buffer "
+                "gives "
                 "back, {:.3g}",
                 nameOf(path.settings.gbuffer), effect);
         }
         if (!truth.uncertainty.empty())
-            result.because += "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
+            result.because +=
+                "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
     } else {
         // Surfaces that are forward+'s own capture.
         result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
@@ -223,7 +227,8 @@ Tolerance truthTolerance(const DebugMode& mode, const FramePair& pair) {
             result.because += "; and float32 on the way to the pixel, 1e-4";
         }
     }
-    if (own) result.because += "; rasterisation and texture filtering are judged, so nothing is granted for them";
+    if (own)
+        result.because += "; rasterisation and texture filtering are judged, so nothing is granted for them";
     result.most_pixels = true;
     return result;
 }

@@ -74,6 +74,7 @@ Settings surfaceSettings(const Settings& settings) {
     const Settings usual;
     Settings surfaces = withoutReference(referenceSettings(settings));
     surfaces.path = Path::forward_plus;
+    surfaces.prepass = Switch::on;
     surfaces.gbuffer = GBufferEncoding::full;  // the geometric normal is not packed either
     surfaces.shadows = usual.shadows;
     surfaces.env = usual.env;
@@ -82,16 +83,19 @@ Settings surfaceSettings(const Settings& settings) {
 }
 
 bool isTruth(const Frame& frame) {
-    return frame.settings.path == Path::reference && (frame.origin.file.empty() || !frame.origin.device.empty());
+    return frame.settings.path == Path::reference &&
+           (frame.origin.file.empty() || !frame.origin.device.empty());
 }
 
-Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfaces, const RenderOptions& options) {
+Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfaces,
+                const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const Pose pose = poseAt(scene, settings.time);
     const View view = makeView(scene, pose, settings.camera, settings.size.width, settings.size.height);
     const std::vector<Light> lights = litBy(scene, pose, settings);
-    const std::string step = settings.reference_mode == ReferenceMode::surface ? "reference: shade every surface"
-                                                                              : "reference: trace every pixel";
+    const std::string step = settings.reference_mode == ReferenceMode::surface
+                                 ? "reference: shade every surface"
+                                 : "reference: trace every pixel";
     const reference::Request request{
         .scene = scene,
         .pose = pose,
@@ -141,9 +145,11 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
 fs::path KeptReferences::next() {
     files_.push_back(besideOutput(output_, fmt::format("reference-{}", files_.size() + 1)));
     std::error_code ignored;  // what cannot be made is said by who writes there
-    if (is_folder_ && files_.back().has_parent_path()) fs::create_directories(files_.back().parent_path(), ignored);
-    sayWhenInterrupted(fmt::format("what is done of the reference is kept in {}: the same command goes on from there",
-                                   files_.back().string()));
+    if (is_folder_ && files_.back().has_parent_path())
+        fs::create_directories(files_.back().parent_path(), ignored);
+    sayWhenInterrupted(
+        fmt::format("what is done of the reference is kept in {}: the same command goes on from there",
+                    files_.back().string()));
     return files_.back();
 }
 

@@ -60,6 +60,8 @@ std::string costs(const Frame& a, const Frame& b) {
     row("G-buffer and depth per pixel", [](const Frame& f) { return bytes(f.bytes.gbuffer_per_pixel); });
     count("lights", &FrameCounters::lights);
     count("overflowed light lists", &FrameCounters::overflowed_lists);
+    row("flux of lights without a range that the cutoff takes",
+        [](const Frame& f) { return fmt::format("{:.3g} %", 100 * f.counters.energy_cut); });
     count("NaN or infinite lit pixels", &FrameCounters::nonfinite_pixels);
     row("pixels that a second run changed", [](const Frame& f) {
         std::uint64_t pixels = 0;

@@ -42,7 +42,7 @@ void warn(TradeoffRow& row, const Frame& frame) {
         if (count > 0) row.warnings.push_back(fmt::format("{}: {} {}", cameraTitle(frame), count, what));
     };
     add(frame.counters.nonfinite_pixels, "pixel(s) of lit are NaN or infinite");
-    add(frame.counters.overflowed_lists, "light list(s) overflowed: lights are missing");
+    add(frame.counters.overflowed_lists, "light list(s) found no room: every light was evaluated there");
     add(frame.counters.unreproduced_pixels, "pixel(s) of the capture are not the timed pipeline's");
 }
 

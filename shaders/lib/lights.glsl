@@ -21,8 +21,9 @@ Incident fromPointLight(Light light, vec3 position) {
     float d2 = max(dot(to_light, to_light), MIN_LIGHT_DISTANCE_SQUARED);
     float x = d2 * light.inverse_range_squared;
     float window = x < 1.0 ? 1.0 - x * x : 0.0;
+    float inverse = inversesqrt(d2);
     // Zero, and no light, in the light's own centre.
-    return Incident(to_light * inversesqrt(d2), light.intensity * (window / d2));
+    return Incident(to_light * inverse, light.intensity * (window * (inverse * inverse)));
 }
 
 Incident fromSpotLight(Light light, SpotCone cone, vec3 position) {

@@ -138,23 +138,25 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
     };
 }
 
-void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
-                      VkDescriptorSet gbuffer, const LightChunk& chunk) {
+void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
-                            gpu::SET_FRAME, 1, &inputs.frame_set, 0, nullptr);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
-                            gpu::SET_GBUFFER, 1, &gbuffer, 0, nullptr);
-    if (chunk.carried) {
-        const VkDescriptorSet carried = (*chunk.carried)[0];
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline,
-                                gpu::SET_CARRIED, 1, &carried, 0, nullptr);
-    }
-    const gpu::DrawConstants constants{0, 0, chunk.first, chunk.end};
-    vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
+                      VkDescriptorSet gbuffer, const LightChunk& chunk) {
+    const auto bind = [&](gpu::uint set, VkDescriptorSet descriptors) {
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline, set, 1,
+                                &descriptors, 0, nullptr);
+    };
+    bind(gpu::SET_FRAME, inputs.frame_set);
+    bind(gpu::SET_GBUFFER, gbuffer);
+    if (chunk.carried) bind(gpu::SET_CARRIED, (*chunk.carried)[0]);
+    const gpu::DrawConstants constants{0, 0, chunk.first, chunk.end};
+    vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
+    recordTriangle(commands, pipeline);
 }
 
 void LightChunk::read(Pass& pass) const {

@@ -88,7 +88,9 @@ using KeyOf = std::function<PipelineKey(const DrawItem&)>;
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightChunk& chunk = {});
 
-// One triangle over the screen.
+// One triangle over the screen, with what is bound.
+void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
+// The same, reading the G-buffer.
 void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
                       VkDescriptorSet gbuffer, const LightChunk& chunk);
 

@@ -32,6 +32,12 @@ const std::vector<std::pair<Assignment, std::string_view>>& enumNames() {
     return names;
 }
 template <>
+const std::vector<std::pair<LightKernel, std::string_view>>& enumNames() {
+    static const std::vector<std::pair<LightKernel, std::string_view>> names{
+        {LightKernel::automatic, "auto"}, {LightKernel::scatter, "scatter"}, {LightKernel::gather, "gather"}};
+    return names;
+}
+template <>
 const std::vector<std::pair<Switch, std::string_view>>& enumNames() {
     static const std::vector<std::pair<Switch, std::string_view>> names{
         {Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}};

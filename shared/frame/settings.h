@@ -13,6 +13,7 @@ namespace diptych {
 
 enum class Path { deferred, forward_plus, reference };
 enum class Assignment { every, tiled, clustered, per_object };
+enum class LightKernel { automatic, scatter, gather };
 enum class Switch { automatic, on, off };
 enum class GBufferEncoding { compact, standard, full };
 enum class AreaLights { ltc, representative };
@@ -33,6 +34,7 @@ struct Rgb {
 struct Settings {
     Path path = Path::forward_plus;
     Assignment assign = Assignment::clustered;
+    LightKernel light_kernel = LightKernel::automatic;
     Switch prepass = Switch::automatic;
     GBufferEncoding gbuffer = GBufferEncoding::standard;
     Size size;
@@ -43,7 +45,7 @@ struct Settings {
     Rgb ambient;                     // W/(sr m^2)
     std::string lights;              // "" none, "point:64,spot:16", or a file's name
     std::uint32_t seed = 0;
-    float light_cutoff = 0.0f;
+    float light_cutoff = 0.0f;       // W/(sr m^2)
     int pixel_lights = 4;
     AreaLights area_lights = AreaLights::ltc;
     Shadows shadows = Shadows::off;
@@ -81,6 +83,8 @@ struct Field {
 template <class Self, class Visit> void Settings::fields(Self& s, Visit&& visit) {
     visit(Field{"path", "deferred, forward_plus or reference", "all"}, s.path);
     visit(Field{"assign", "how lights are chosen for a pixel", "all"}, s.assign);
+    visit(Field{"light-kernel", "how lists are filled: by a thread a light, or a workgroup a cell", "scatter,gather"},
+          s.light_kernel);
     visit(Field{"prepass", "depth pre-pass of the forward+ path", "on,off"}, s.prepass);
     visit(Field{"gbuffer", "encoding of the deferred path's G-buffer", "all"}, s.gbuffer);
     visit(Field{"size", "picture size, WxH", "1/4,1/2,3/4"}, s.size);
@@ -91,7 +95,7 @@ template <class Self, class Visit> void Settings::fields(Self& s, Visit&& visit)
     visit(Field{"ambient", "constant ambient radiance R,G,B"}, s.ambient);
     visit(Field{"lights", "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights"}, s.lights);
     visit(Field{"seed", "seed of the light rig"}, s.seed);
-    visit(Field{"light-cutoff", "luminance at which a light without a range ends", "0,1e-4,1e-3,1e-2"},
+    visit(Field{"light-cutoff", "luminance of a white surface where a light without a range ends; 0: nowhere", "0,1e-4,1e-3,1e-2"},
           s.light_cutoff);
     visit(Field{"pixel-lights", "lights shaded per pixel with --assign per_object", "0,1,2,4,8"}, s.pixel_lights);
     visit(Field{"area-lights", "how area lights are evaluated", "all"}, s.area_lights);
@@ -140,6 +144,7 @@ Settings readSettings(const Settings& settings);
 template <class E> const std::vector<std::pair<E, std::string_view>>& enumNames();
 template <> const std::vector<std::pair<Path, std::string_view>>& enumNames();
 template <> const std::vector<std::pair<Assignment, std::string_view>>& enumNames();
+template <> const std::vector<std::pair<LightKernel, std::string_view>>& enumNames();
 template <> const std::vector<std::pair<Switch, std::string_view>>& enumNames();
 template <> const std::vector<std::pair<GBufferEncoding, std::string_view>>& enumNames();
 template <> const std::vector<std::pair<AreaLights, std::string_view>>& enumNames();

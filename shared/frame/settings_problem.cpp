@@ -22,7 +22,6 @@ constexpr Fixed fixed[] = {
     {"time", "is not built yet but in --path reference --reference-mode scene"},
     {"ibl-intensity", "has no meaning without --env", "env"},
     {"ambient", not_built},
-    {"light-cutoff", not_built},
     {"pixel-lights", "has no meaning without --assign per_object"},
     {"area-lights", not_built},
     {"shadows", not_built},
@@ -47,6 +46,8 @@ constexpr std::string_view only_reference = "the reference alone takes samples o
 constexpr std::string_view not_blended = "no path blends yet";
 constexpr Unread unread[] = {
     {"assign", Path::reference, "the reference evaluates every light"},
+    {"light-kernel", Path::reference, "the reference evaluates every light"},
+    {"light-cutoff", Path::reference, "the reference lets every light go on as far as its range"},
     {"prepass", Path::deferred, "deferred has no depth pre-pass"},
     {"prepass", Path::reference, "the reference has no depth pre-pass"},
     {"gbuffer", Path::forward_plus, "forward_plus has no G-buffer"},
@@ -87,9 +88,12 @@ std::optional<std::string> Settings::problem() const {
     if (!(ibl_intensity >= 0 && std::isfinite(ibl_intensity)))
         return fmt::format("--ibl-intensity {}: is finite and at least 0", ibl_intensity);
 
+    if (!(light_cutoff >= 0 && std::isfinite(light_cutoff)))
+        return fmt::format("--light-cutoff {}: is finite and at least 0", light_cutoff);
     if (assign == Assignment::per_object) return "--assign per_object is not built yet; use every";
     if (assign == Assignment::tiled && path == Path::forward_plus && prepass == Switch::off)
-        return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; use "
+        return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; "
+               "use "
                "--prepass on";
 
     const Settings usual;

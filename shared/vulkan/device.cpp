@@ -218,6 +218,11 @@ Device::~Device() {
 const DeviceInfo& Device::info() const {
     return state_->info;
 }
+bool Device::countsFragments() const {
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(state_->physical, &features);
+    return features.occlusionQueryPrecise == VK_TRUE;
+}
 const VkPhysicalDeviceLimits& Device::limits() const {
     return state_->limits;
 }

@@ -62,6 +62,7 @@ public:
     VkDevice handle() const;
     VkPhysicalDevice physical() const;
     Memory& memory();
+    bool countsFragments() const;  // occlusion queries are exact
 
     // Records, submits, and waits until the device is done. Returns the wall clock from submit to fence, ms.
     double submit(const std::function<void(VkCommandBuffer)>& record);

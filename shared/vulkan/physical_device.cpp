@@ -186,6 +186,9 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v13.maintenance4 = VK_TRUE;  // a workgroup's size by a constant
     wanted.v12.scalarBlockLayout = VK_TRUE;
     wanted.v10.features.fullDrawIndexUint32 = VK_TRUE;
+    VkPhysicalDeviceFeatures there{};
+    vkGetPhysicalDeviceFeatures(physical, &there);
+    wanted.v10.features.occlusionQueryPrecise = there.occlusionQueryPrecise;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .pNext = nullptr,

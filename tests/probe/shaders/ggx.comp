@@ -8,5 +8,8 @@
 // alpha, n, h -> D
 void main() {
     if (PROBE_ROW >= probe_rows) return;
-    OUT(1, 0) = distributionGgx(IN(7, 0), IN3(7, 1), IN3(7, 4));
+    float alpha = IN(7, 0);
+    vec3 n = IN3(7, 1), h = IN3(7, 4);
+    float k = alpha * dot(h, h) / ggxDenominator(alpha * alpha, n, h);
+    OUT(1, 0) = k * k * INVERSE_PI;
 }

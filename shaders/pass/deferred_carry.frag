@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/gbuffer_read.glsl"
+#include "shaders/lib/shade.glsl"
+
+layout(location = 0) out vec4 out_diffuse;
+layout(location = 1) out vec4 out_specular;
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    float z = depthAt(p);
+    Radiance radiance = shade(surfaceFromGBuffer(p, z), lightsAt(gl_FragCoord.xy, z));
+    out_diffuse = vec4(radiance.diffuse, 1.0);
+    out_specular = vec4(radiance.specular, 1.0);
+}

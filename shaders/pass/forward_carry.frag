@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/forward.glsl"
+#include "shaders/lib/shade.glsl"
+
+layout(location = 0) out vec4 out_diffuse;
+layout(location = 1) out vec4 out_specular;
+
+void main() {
+    Radiance radiance = shade(forwardSurface(), lightsAt(gl_FragCoord.xy, gl_FragCoord.z));
+    out_diffuse = vec4(radiance.diffuse, 1.0);
+    out_specular = vec4(radiance.specular, 1.0);
+}

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: MIT
+// Whatever chooses the lights of a pixel, the picture is that of every light, bit for bit.
+#include "shared/contract/debug_mode.h"
+#include "shared/scene/rig.h"
+#include "tests/image/scenes.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <random>
+#include <tuple>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int lit = static_cast<int>(gpu::DEBUG_lit), lightCount = static_cast<int>(gpu::DEBUG_light_count),
+              listOverflow = static_cast<int>(gpu::DEBUG_list_overflow);
+
+RenderOptions untimed(std::vector<int> channels = {lit}) {
+    RenderOptions options;
+    options.channels = std::move(channels);
+    options.runs = 0;
+    return options;
+}
+
+// Pixels that are not the same: a NaN equals nothing, itself neither.
+std::size_t wrongPixels(const Image& a, const Image& b) {
+    std::size_t nans = 0;
+    for (std::size_t i = 0; i < a.pixels(); ++i)
+        nans += std::any_of(a.pixel(i), a.pixel(i) + a.components, [](float v) { return std::isnan(v); });
+    return differingPixels(a, b) + nans;
+}
+
+// The ways to choose lights that must change nothing.
+struct Way {
+    Assignment assign;
+    LightKernel kernel;
+};
+constexpr Way ways[] = {{Assignment::clustered, LightKernel::scatter},
+                        {Assignment::clustered, LightKernel::gather},
+                        {Assignment::tiled, LightKernel::scatter},
+                        {Assignment::tiled, LightKernel::gather}};
+
+// The scene with exactly `count` lights: its own first, then a seeded rig's, every eighth a spot.
+Scene withLights(Scene scene, std::size_t count) {
+    if (scene.lights.size() < count) {
+        const std::size_t more = count - scene.lights.size(), spots = more / 8;
+        std::string rig = "point:" + std::to_string(more - spots);
+        if (spots > 0) rig += ",spot:" + std::to_string(spots);
+        const Pose pose = poseAt(scene, 0);
+        for (Light& light : makeLights(rig, 7, boundsAtStart(scene, pose))) scene.lights.push_back(light);
+    }
+    scene.lights.resize(count);
+    return scene;
+}
+
+Settings picture(Size size, Path path, Assignment assign, LightKernel kernel = LightKernel::automatic) {
+    Settings settings;
+    settings.path = path;
+    settings.size = size;
+    settings.assign = assign;
+    settings.light_kernel = kernel;
+    settings.gbuffer = GBufferEncoding::full;
+    return settings;
+}
+
+// Every way on both paths against `every` on forward+; `kernels`: both of each, else the device's own.
+void expectEveryWayEqual(Renderer& renderer, Size size, bool kernels) {
+    const Frame every = renderer.draw(picture(size, Path::forward_plus, Assignment::every), untimed());
+    EXPECT_EQ(every.counters.nonfinite_pixels, 0u);
+    EXPECT_EQ(every.counters.unreproduced_pixels, 0u);
+    const Image& expected = every.channels.at(lit);
+    const Frame deferred = renderer.draw(picture(size, Path::deferred, Assignment::every), untimed());
+    EXPECT_EQ(wrongPixels(expected, deferred.channels.at(lit)), 0u) << "deferred, every";
+    for (const Path path : {Path::forward_plus, Path::deferred})
+        for (const Way& way : ways) {
+            if (!kernels && way.kernel == LightKernel::gather) continue;
+            const Frame frame = renderer.draw(
+                picture(size, path, way.assign, kernels ? way.kernel : LightKernel::automatic), untimed());
+            EXPECT_EQ(wrongPixels(expected, frame.channels.at(lit)), 0u)
+                << nameOf(path) << ", " << nameOf(way.assign) << ", " << nameOf(way.kernel);
+            EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
+            EXPECT_EQ(frame.counters.overflowed_lists, 0u);
+        }
+}
+
+class LightMatrix : public testing::TestWithParam<std::tuple<const char*, int, Size>> {};
+
+TEST_P(LightMatrix, EveryWayIsEvery) {
+    const auto [name, count, size] = GetParam();
+    const std::string scene = std::string("builtin:") + name;
+    const bool spheres = scene == "builtin:spheres";
+    const Scene lit_scene = spheres ? loadScene(scene + "?lights=" + std::to_string(count))
+                                    : withLights(loadScene(scene), static_cast<std::size_t>(count));
+    Renderer renderer(device(), lit_scene);
+    // Both kernels where a workgroup a cell is not too slow on this device.
+    expectEveryWayEqual(renderer, size, size.width * count <= 640 * 257);
+}
+
+std::string matrixName(const testing::TestParamInfo<std::tuple<const char*, int, Size>>& info) {
+    const auto& [name, count, size] = info.param;
+    return std::string(name) + "_" + std::to_string(count) + "_lights_" + std::to_string(size.width) + "x" +
+           std::to_string(size.height);
+}
+
+const auto scenes = testing::Values("spheres", "gallery");
+INSTANTIATE_TEST_SUITE_P(Small, LightMatrix,
+                         testing::Combine(scenes, testing::Values(1, 255, 256, 257, 1024, 4096),
+                                          testing::Values(Size{1, 1}, Size{15, 17})),
+                         matrixName);
+INSTANTIATE_TEST_SUITE_P(Medium, LightMatrix,
+                         testing::Combine(scenes, testing::Values(1, 255, 256, 257),
+                                          testing::Values(Size{640, 360})),
+                         matrixName);
+// Large by large is every light at every pixel four times over: seconds each.
+INSTANTIATE_TEST_SUITE_P(Odd, LightMatrix,
+                         testing::Combine(scenes, testing::Values(1, 257), testing::Values(Size{1279, 719})),
+                         matrixName);
+INSTANTIATE_TEST_SUITE_P(ManyOnMedium, LightMatrix,
+                         testing::Combine(testing::Values("spheres"), testing::Values(1024),
+                                          testing::Values(Size{640, 360})),
+                         matrixName);
+
+// The other scenes in pairs: each with two of the counts and one size, so that every count meets every size.
+class LightPairs : public testing::TestWithParam<std::string> {};
+
+TEST_P(LightPairs, EveryWayIsEvery) {
+    const std::vector<std::string> names = builtinScenes();
+    const auto at = static_cast<std::size_t>(std::ranges::find(names, GetParam()) - names.begin());
+    constexpr std::size_t counts[] = {1, 255, 256, 257, 1024};
+    constexpr Size sizes[] = {{1, 1}, {15, 17}, {160, 90}, {213, 119}};
+    const Scene scene = loadScene(GetParam());
+    for (const std::size_t i : {at, at + 2}) {
+        const Scene many = withLights(scene, counts[i % std::size(counts)]);
+        Renderer renderer(device(), many);
+        expectEveryWayEqual(renderer, sizes[at % std::size(sizes)], at % 3 == 0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, LightPairs, testing::ValuesIn(builtinScenes()),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+// ---- extremes ----------------------------------------------------------------------------------------
+
+Light pointAt(glm::dvec3 position, float intensity, float range) {
+    Light light;
+    light.kind = LightKind::point;
+    light.position = position;
+    light.intensity = intensity;
+    light.range = range;
+    return light;
+}
+
+Light spotAt(glm::dvec3 position, glm::dvec3 direction, float outer, float range) {
+    Light light = pointAt(position, 20, range);
+    light.kind = LightKind::spot;
+    light.direction = glm::normalize(direction);
+    light.outer_cone = outer;
+    light.inner_cone = 0.5f * outer;
+    return light;
+}
+
+void expectEqualUnder(const std::string& name, std::vector<Light> lights, Size size = {213, 119}) {
+    Scene scene = loadScene(name);
+    scene.lights = std::move(lights);
+    Renderer renderer(device(), scene);
+    expectEveryWayEqual(renderer, size, true);
+}
+
+glm::dvec3 eyeOf(const std::string& name) {
+    const Scene scene = loadScene(name);
+    return makeView(scene, poseAt(scene, 0), "", 64, 36).eye();
+}
+
+TEST(LightExtremes, TheCameraInsideLights) {
+    const glm::dvec3 eye = eyeOf("builtin:spheres");
+    std::vector<Light> lights;
+    for (const float range : {0.05f, 1.0f, 30.0f, 1e5f}) lights.push_back(pointAt(eye, 5, range));
+    lights.push_back(pointAt(eye + glm::dvec3(0.01, 0, 0), 5, 20));
+    lights.push_back(spotAt(eye, {0, -6, -14}, 0.3f, 40));
+    lights.push_back(spotAt(eye, {0, 6, 14}, 1.2f, 40));
+    expectEqualUnder("builtin:spheres", std::move(lights));
+}
+
+TEST(LightExtremes, LightsBehindTheCameraAndAtTheNearPlane) {
+    const Scene scene = loadScene("builtin:spheres");
+    const View view = makeView(scene, poseAt(scene, 0), "", 64, 36);
+    std::vector<Light> lights;
+    for (const double along : {-30.0, -5.0, -0.1, 0.1, 0.1 + 1e-6}) {
+        const glm::dvec3 at = view.eye() - view.backward() * along;
+        for (const float range : {0.1f, 1.0f, 25.0f}) {
+            lights.push_back(pointAt(at, 9, range));
+            lights.push_back(spotAt(at, -view.backward(), 0.4f, range));
+            lights.push_back(spotAt(at, view.backward(), 0.4f, range));
+        }
+    }
+    expectEqualUnder("builtin:spheres", std::move(lights));
+}
+
+TEST(LightExtremes, ConesFromNothingToAHemisphere) {
+    std::vector<Light> lights;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-15, 15), up(0.2, 4), turn(-1, 1);
+    for (const double degrees : {0.0, 0.01, 0.5, 2.0, 10.0, 45.0, 90.0, 120.0, 150.0, 170.0, 178.0, 179.0})
+        for (int i = 0; i < 8; ++i) {
+            Light light = spotAt({place(random), up(random), place(random)}, {turn(random), -1, turn(random)},
+                                 static_cast<float>(glm::radians(degrees / 2)), 8);
+            if (i % 2 == 0)
+                light.inner_cone = light.outer_cone;  // hard: no difference of cosines to divide by
+            if (i % 4 == 1) light.direction = {0, -1, 0};
+            lights.push_back(light);
+        }
+    expectEqualUnder("builtin:spheres", lights);
+    expectEqualUnder("builtin:ortho", lights);
+}
+
+TEST(LightExtremes, RangesFromAMillimetreToAMillionMetres) {
+    std::vector<Light> lights;
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> place(-12, 12);
+    for (int decade = -3; decade <= 6; ++decade)
+        for (int i = 0; i < 20; ++i) {
+            const auto range = static_cast<float>(std::pow(10.0, decade));
+            const double height = decade < 0 ? 0.3 * std::pow(10.0, decade) : 0.4;
+            lights.push_back(pointAt({place(random), height, place(random)}, 3, range));
+            lights.push_back(spotAt({place(random), height, place(random)}, {1, -0.5, 0}, 0.6f, range));
+        }
+    lights.push_back(pointAt({0, 3, 0}, 3, std::numeric_limits<float>::infinity()));
+    lights.push_back(spotAt({0, 3, 0}, {0, -1, 0}, 0.6f, std::numeric_limits<float>::infinity()));
+    for (const char* scene : {"builtin:spheres", "builtin:deep", "builtin:far_away", "builtin:ortho"})
+        expectEqualUnder(scene, lights);
+}
+
+TEST(LightExtremes, LightsOfNothingAndThousandsInOnePlace) {
+    std::vector<Light> lights(3000, pointAt({0.3, 1, 0.2}, 0.01f, 4));
+    for (std::size_t i = 0; i < lights.size(); i += 3) lights[i].intensity = 0;
+    for (std::size_t i = 1; i < lights.size(); i += 30) lights[i].range = 0;
+    lights.resize(3400, spotAt({0.3, 1, 0.2}, {0, -1, 0}, 0.5f, 5));
+    expectEqualUnder("builtin:spheres", std::move(lights), {96, 54});
+}
+
+// Lights before, in and beyond the slices' end; pixels behind the last light.
+TEST(LightExtremes, LightsBeyondTheLastSliceStillLight) {
+    std::vector<Light> lights(40, pointAt({0, 0.5, 13}, 1, 0.5f));  // the median: slices are short
+    for (double z = 5; z > -20; z -= 1) lights.push_back(pointAt({0, 1, z}, 4, 3));
+    lights.push_back(pointAt({0, 2, -15}, 50, 200));
+    expectEqualUnder("builtin:spheres", lights);
+}
+
+// ---- beyond one draw, beyond the buffer ----------------------------------------------------------------
+
+TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
+    const Scene scene = withLights(loadScene("builtin:gallery"), 65600);
+    Renderer renderer(device(), scene);
+    expectEveryWayEqual(renderer, {24, 14}, false);
+    // Its twin: the last light of all is among those that were added up.
+    Scene without = scene;
+    for (Light& light : without.lights) light.intensity *= 1e-3f;
+    without.lights.back() = pointAt(eyeOf("builtin:gallery"), 100, 1000);
+    Scene dark = without;
+    dark.lights.back().intensity = 0;
+    const Settings every = picture({24, 14}, Path::forward_plus, Assignment::every);
+    const Frame a = Renderer(device(), without).draw(every, untimed());
+    const Frame b = Renderer(device(), dark).draw(every, untimed());
+    EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 100u);
+}
+
+// ---- what the lists say of themselves ------------------------------------------------------------------
+
+TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
+    const Scene scene = loadScene("builtin:spheres?lights=256");
+    Renderer renderer(device(), scene);
+    const RenderOptions options = untimed({lit, lightCount, listOverflow, 8});
+    const auto counts = [&](Assignment assign) {
+        return renderer.draw(picture({160, 90}, Path::forward_plus, assign), options);
+    };
+    const Frame every = counts(Assignment::every);
+    for (const Assignment assign : {Assignment::tiled, Assignment::clustered}) {
+        const Frame frame = counts(assign);
+        double sum = 0;
+        std::size_t covered = 0;
+        for (std::size_t i = 0; i < frame.channels.at(lightCount).pixels(); ++i) {
+            const float count = frame.channels.at(lightCount).pixel(i)[0];
+            const bool background = frame.channels.at(8).pixel(i)[0] < 0;
+            EXPECT_EQ(every.channels.at(lightCount).pixel(i)[0], background ? 0.0f : 257.0f) << "the sun too";
+            EXPECT_LE(count, 257.0f);
+            if (background) continue;
+            EXPECT_GE(count, 1.0f) << "the sun";
+            sum += double{count};
+            ++covered;
+            EXPECT_EQ(frame.channels.at(listOverflow).pixel(i)[0], 0.0f);
+        }
+        // The scene's own figure: 5.07 point lights reach a covered pixel; a list holds a few more.
+        const double mean = sum / static_cast<double>(covered) - 1;
+        EXPECT_GT(mean, 4.5);
+        EXPECT_LT(mean, 5.07 * 4) << nameOf(assign);
+    }
+}
+
+TEST(LightLists, BothPathsHaveTheSameLists) {
+    const Scene scene = loadScene("builtin:gallery");
+    Renderer renderer(device(), scene);
+    for (const Assignment assign : {Assignment::tiled, Assignment::clustered}) {
+        const Frame a = renderer.draw(picture({213, 119}, Path::deferred, assign), untimed({lightCount}));
+        const Frame b = renderer.draw(picture({213, 119}, Path::forward_plus, assign), untimed({lightCount}));
+        EXPECT_EQ(differingPixels(a.channels.at(lightCount), b.channels.at(lightCount), true), 0u);
+    }
+}
+
+// ---- the comparison is awake -----------------------------------------------------------------------------
+
+TEST(LightTwins, OneMoreLightChangesEvery) {
+    const Scene scene = loadScene("builtin:spheres?lights=64");
+    Scene more = scene;
+    more.lights.push_back(pointAt({0, 1, 0}, 0.01f, 2));
+    const Settings every = picture({160, 90}, Path::forward_plus, Assignment::every);
+    const Frame a = Renderer(device(), scene).draw(every, untimed());
+    const Frame b = Renderer(device(), more).draw(every, untimed());
+    EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 0u);
+}
+
+TEST(LightTwins, NoNanEqualsAnything) {
+    Image a(2, 1, 3, 1.0f), b = a;
+    EXPECT_EQ(wrongPixels(a, b), 0u);
+    a.pixel(1)[2] = b.pixel(1)[2] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(wrongPixels(a, b), 1u);
+}
+
+// ---- light cutoff ----------------------------------------------------------------------------------------
+
+TEST(LightCutoff, GivesRangesAndSaysWhatIsCut) {
+    Scene scene = loadScene("builtin:spheres?lights=4");
+    for (Light& light : scene.lights)
+        if (light.kind == LightKind::point) light.range = std::numeric_limits<float>::infinity();
+    Renderer renderer(device(), scene);
+    Settings settings = picture({160, 90}, Path::forward_plus, Assignment::clustered);
+    const Frame whole = renderer.draw(settings, untimed({lit, lightCount}));
+    EXPECT_EQ(whole.counters.energy_cut, 0.0);
+    double before = 0;
+    for (const float cutoff : {1e-3f, 1e-2f, 1e-1f}) {
+        settings.light_cutoff = cutoff;
+        const Frame cut = renderer.draw(settings, untimed({lit, lightCount}));
+        EXPECT_GT(cut.counters.energy_cut, before);
+        EXPECT_LT(cut.counters.energy_cut, 1.0);
+        before = cut.counters.energy_cut;
+        EXPECT_GT(differingPixels(whole.channels.at(lit), cut.channels.at(lit)), 0u);
+        Settings every = settings;
+        every.assign = Assignment::every;
+        const Frame same = renderer.draw(every, untimed());
+        EXPECT_EQ(wrongPixels(same.channels.at(lit), cut.channels.at(lit)), 0u);
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/light_cull.glsl"
+#include "tests/probe/shaders/probe.glsl"
+
+// A bound (12), a cell's sides x, y and depths (6) -> whether the ball reaches it, whether the cone does.
+void main() {
+    if (PROBE_ROW >= probe_rows) return;
+    LightBound bound;
+    bound.centre = IN3(18, 0);
+    bound.radius = IN(18, 3);
+    bound.apex = IN3(18, 4);
+    bound.cos_cone = IN(18, 7);
+    bound.axis = IN3(18, 8);
+    bound.sin_cone = IN(18, 11);
+    CellBounds cell = CellBounds(vec2(IN(18, 12), IN(18, 13)), vec2(IN(18, 14), IN(18, 15)), vec2(IN(18, 16), IN(18, 17)));
+    OUT(2, 0) = ballReaches(bound.centre, bound.radius, cell) ? 1.0 : 0.0;
+    OUT(2, 1) = coneReaches(bound, cell) ? 1.0 : 0.0;
+}
