@@ -81,17 +81,12 @@ public:
           buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights,
                   {listsOf(settings.assign), kernelOf(settings.light_kernel, device)}),
           gbuffer(gbufferLayout(settings.gbuffer, needs)),
-          inputs{device,
-                 shared.layouts,
-                 shared.pipelines,
-                 shared.geometry,
-                 shared.materials,
-                 draws,
-                 buffers.set(),
-                 buffers.lists(),
-                 sceneVariant(needs, lights, view, gbuffer),
-                 gbuffer,
-                 settings.prepass != Switch::off} {
+          inputs{device,           shared.layouts,
+                 shared.pipelines, shared.geometry,
+                 shared.materials, draws,
+                 buffers.set(),    buffers.carriedNothing(),
+                 buffers.lists(),  sceneVariant(needs, lights, view, gbuffer),
+                 gbuffer,          settings.prepass != Switch::off} {
         buffers.lists().specialise(inputs.variant);
         const LightLists& lists = buffers.lists();
         inputs.light_groups = lists.any() ? lists.grid().all_end : lights.local();

@@ -43,21 +43,22 @@ bool isCutOut(vec4 base_color) {
     return on(feature_alpha_mask) && base_color.a < materials[constants.material].alpha_cutoff;
 }
 
-// Of the triangle, towards the viewer. The derivatives are scaled first: in a tiny scene the square of their
-// product's length would underflow.
-vec3 triangleNormal(vec3 v) {
+float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+
+// Of the triangle, towards the viewer, who is in the direction of `towards` (of any length). The derivatives are scaled
+// first: in a tiny scene the square of their product's length would underflow. Seen edge-on, or without area: what
+// looks at the viewer.
+vec3 triangleNormal(vec3 towards) {
     vec3 dx = dFdxFine(in_world), dy = dFdyFine(in_world);
-    vec3 ax = abs(dx), ay = abs(dy);
-    precise vec3 n = cross(dx / max(max(ax.x, max(ax.y, ax.z)), 1e-37), dy / max(max(ay.x, max(ay.y, ay.z)), 1e-37));
-    float length2 = dot(n, n);
-    if (!(length2 > 0.0)) return v;  // seen edge-on, or without area
-    precise vec3 unit = n * inversesqrt(length2);
-    return dot(unit, v) < 0.0 ? -unit : unit;
+    precise vec3 n = cross(dx * (1.0 / max(largestOf(dx), 1e-37)), dy * (1.0 / max(largestOf(dy), 1e-37)));
+    precise vec3 facing = dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
+    precise vec3 unit = facing * inversesqrt(dot(facing, facing));
+    return dot(unit, towards) < 0.0 ? -unit : unit;
 }
 
 // glTF 2.0: tangent space is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as MikkTSpace
 // asks; a back face of a double-sided material turns the result round. `triangle` stands in where a normal has
-// vanished: flattened by the node's scale, or by interpolation.
+// vanished: flattened by the node's scale, or by interpolation. What is known to have none asks no further.
 vec3 shadingNormal(vec3 triangle) {
     precise vec3 n = in_normal;
     if (on(feature_normal_texture)) {
@@ -67,7 +68,7 @@ vec3 shadingNormal(vec3 triangle) {
         n = t.x * in_tangent.xyz + t.y * bitangent + t.z * in_normal;
     }
     float length2 = dot(n, n);
-    if (!(length2 > 0.0)) return triangle;
+    if (on(feature_vanishing_normals) && !(length2 > 0.0)) return triangle;
     precise vec3 unit = n * inversesqrt(length2);
     return on(feature_double_sided) && !gl_FrontFacing ? -unit : unit;
 }
@@ -76,7 +77,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
     Material m = materials[constants.material];
     precise Surface s;  // the same bits in every shader that asks
     s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
-    s.geometric_normal = triangleNormal(viewVector(s.position));
+    s.geometric_normal = triangleNormal(on(feature_orthographic) ? view.backward : -s.position);
     s.normal = shadingNormal(s.geometric_normal);
     s.material_id = constants.material;
     s.texcoord = in_texcoord0;

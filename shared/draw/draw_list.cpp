@@ -32,6 +32,14 @@ gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye) {
             glm::determinant(linear) < 0 ? -1.0f : 1.0f};
 }
 
+// A sum of normals with positive weights that does not vanish in the object does not in the world either,
+// where the transform flattens nothing; short of 1 : 64 float32 is trusted with that.
+bool flattens(const glm::dmat4& worldFromObject) {
+    const glm::dmat3 m(worldFromObject);
+    const double longest = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+    return !(std::abs(glm::determinant(m)) > longest * longest * longest / 64);
+}
+
 // Whether all corners of the box are beyond one of the clip planes (far excepted where it is at infinity:
 // there z = 0 is reached by nothing). The slack keeps a box that float32 might still touch.
 bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
@@ -77,6 +85,9 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         item.draw = static_cast<std::uint32_t>(list.draws.size());
         item.variant = materials.variant(range.material);
         if (range.vertex_color) item.variant.set(gpu::FEATURE_vertex_color);
+        if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
+            flattens(instance.world_from_object))
+            item.variant.set(gpu::FEATURE_vanishing_normals);
         list.draws.push_back(gpuDraw(instance.world_from_object, eye));
         item.mirrored = list.draws.back().handedness < 0;
         list.items.push_back(item);

@@ -64,7 +64,10 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                            const Materials& materials, const View& view, const DrawList& draws,
                            const GpuLights& lights, const LightLists::Choice& choice)
     : lists_(device, uploader, layouts.lists, choice, view, lights),
-      sets_(device, layouts.frame, frameTypes, 1) {
+      nothing_(device, {"nothing carried", litFormat, 1, 1, 1,
+                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}),
+      sets_(device, layouts.frame, frameTypes, 1),
+      carried_nothing_(device, layouts.carried, carriedTypes, 1) {
     gpu::View gpuView = view.gpuView();
     gpuView.directional_light_count = lights.directional;
     gpuView.point_light_count = lights.point;
@@ -80,6 +83,12 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     lights_view_ = makeTexelView(device, "lights", lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
     spot_cones_view_ = makeTexelView(device, "spot cones", spot_cones_, VK_FORMAT_R32G32B32A32_SFLOAT);
     uploader.flush();
+    constexpr std::array<float, 4> black{};
+    uploader.level(nothing_, 0, std::as_bytes(std::span(black)));
+    uploader.flush();
+    for (gpu::uint i = 0; i < carriedTypes.size(); ++i)
+        carried_nothing_.image(0, i, nothing_.view(), layouts.nearest,
+                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
     sets_.buffer(0, gpu::BINDING_DRAWS, draws_.handle());
     sets_.buffer(0, gpu::BINDING_MATERIALS, materials.buffer());
@@ -112,7 +121,7 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
                                     1, &descriptors, 0, nullptr);
         };
         bind(gpu::SET_FRAME, inputs.frame_set);
-        if (chunk.carried) bind(gpu::SET_CARRIED, (*chunk.carried)[0]);
+        bind(gpu::SET_CARRIED, chunk.carried ? (*chunk.carried)[0] : inputs.carried_nothing);
         inputs.geometry.bind(commands);
         const DrawItem* last = nullptr;
         VkPipeline lastPipeline = VK_NULL_HANDLE;
@@ -153,7 +162,7 @@ void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPip
     };
     bind(gpu::SET_FRAME, inputs.frame_set);
     bind(gpu::SET_GBUFFER, gbuffer);
-    if (chunk.carried) bind(gpu::SET_CARRIED, (*chunk.carried)[0]);
+    bind(gpu::SET_CARRIED, chunk.carried ? (*chunk.carried)[0] : inputs.carried_nothing);
     const gpu::DrawConstants constants{0, 0, chunk.first, chunk.end};
     vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
     recordTriangle(commands, pipeline);

@@ -32,6 +32,7 @@ public:
                  const View& view, const DrawList& draws, const GpuLights& lights,
                  const LightLists::Choice& choice);
     VkDescriptorSet set() const { return sets_[0]; }
+    VkDescriptorSet carriedNothing() const { return carried_nothing_[0]; }
     LightLists& lists() { return lists_; }
     std::uint64_t bytes() const {
         return view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + lists_.bytes();
@@ -41,7 +42,8 @@ private:
     GpuBuffer view_, draws_, lights_, spot_cones_;
     OwnedBufferView lights_view_, spot_cones_view_;
     LightLists lists_;
-    DescriptorSets sets_;
+    GpuImage nothing_;  // one black texel
+    DescriptorSets sets_, carried_nothing_;
 };
 
 struct FrameInputs {
@@ -52,6 +54,7 @@ struct FrameInputs {
     const Materials& materials;
     const DrawList& draws;
     VkDescriptorSet frame_set;
+    VkDescriptorSet carried_nothing;  // SET_CARRIED of draws that carry nothing on: shaders name it all the same
     LightLists& lists;
     Variant variant;  // of the scene and the view: lights there, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;

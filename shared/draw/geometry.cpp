@@ -3,6 +3,8 @@
 
 #include "shared/contract/geometry.h"
 
+#include <glm/geometric.hpp>
+
 #include <array>
 #include <limits>
 #include <stdexcept>
@@ -15,6 +17,19 @@ gpu::VertexAttributes attributesOf(const Primitive& p, std::size_t i) {
     return {p.normals[i], p.tangents[i], p.texcoords[0].empty() ? glm::vec2(0) : p.texcoords[0][i],
             p.texcoords[1].empty() ? glm::vec2(0) : p.texcoords[1][i],
             p.colors.empty() ? glm::vec4(1) : p.colors[i]};
+}
+
+// Interpolated normals stay away from zero where a triangle's three are unit vectors less than 90 degrees
+// apart, with room for rounding: their mean is then at least 1 / sqrt(3) long.
+bool mayVanish(const Primitive& p) {
+    const auto apart = [&](std::uint32_t a, std::uint32_t b) {
+        return !(glm::dot(p.normals[a], p.normals[b]) > 0.01f);
+    };
+    for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3)
+        if (apart(p.indices[i], p.indices[i + 1]) || apart(p.indices[i + 1], p.indices[i + 2]) ||
+            apart(p.indices[i + 2], p.indices[i]))
+            return true;
+    return false;
 }
 
 }  // namespace
@@ -36,6 +51,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
             range.vertex_offset = static_cast<std::int32_t>(positions.size());
             range.material = static_cast<std::uint32_t>(p.material);
             range.vertex_color = !p.colors.empty();
+            range.vanishing_normals = mayVanish(p);
             if (!p.positions.empty()) range.bounds_min = range.bounds_max = p.positions[0];
             for (std::size_t i = 0; i < p.positions.size(); ++i) {
                 attributes.push_back(attributesOf(p, i));

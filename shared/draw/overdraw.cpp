@@ -55,7 +55,7 @@ private:
 Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::uint32_t height) {
     Overdraw overdraw;
     for (const DrawItem& item : inputs.draws.items) overdraw.triangles += item.range.index_count / 3;
-    if (!inputs.device.countsFragments()) return overdraw;
+    if (inputs.draws.items.empty() || !inputs.device.countsFragments()) return overdraw;
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
     const Queries queries(inputs.device);

@@ -2,6 +2,7 @@
 // Whatever chooses the lights of a pixel, the picture is that of every light, bit for bit.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/rig.h"
+#include "shared/scene/view.h"
 #include "tests/image/scenes.h"
 
 #include <glm/geometric.hpp>
@@ -272,7 +273,7 @@ TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
     Renderer renderer(device(), scene);
     const RenderOptions options = untimed({lit, lightCount, listOverflow, 8});
     const auto counts = [&](Assignment assign) {
-        return renderer.draw(picture({160, 90}, Path::forward_plus, assign), options);
+        return renderer.draw(picture({640, 360}, Path::forward_plus, assign), options);
     };
     const Frame every = counts(Assignment::every);
     for (const Assignment assign : {Assignment::tiled, Assignment::clustered}) {

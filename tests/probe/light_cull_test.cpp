@@ -146,6 +146,43 @@ std::vector<Case> randomCases(std::size_t count, bool spots, unsigned seed) {
     return cases;
 }
 
+// Tiny cells just within what is felt: at the rim of a cone's cap, on its side, on a ball's surface.
+std::vector<Case> edgeCases(std::size_t count, bool spots, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
+    std::vector<Case> cases;
+    while (cases.size() < count) {
+        Case c;
+        const double depth = std::pow(10.0, 2 * unit(random));
+        const glm::dvec3 p(both(random) * depth, both(random) * depth, depth);
+        c.felt.range = static_cast<double>(static_cast<float>(depth * (0.1 + unit(random))));
+        c.felt.axis = glm::normalize(glm::dvec3(both(random), both(random), both(random)));
+        glm::dvec3 towards = c.felt.axis;
+        if (spots) {
+            c.felt.half = glm::radians(1 + 88 * unit(random));
+            const glm::dvec3 across =
+                glm::normalize(glm::cross(c.felt.axis, glm::dvec3(both(random), both(random), both(random))));
+            const double angle = 0.998 * c.felt.half;
+            towards = c.felt.axis * std::cos(angle) + across * std::sin(angle);
+        }
+        const double along = spots && unit(random) < 0.5 ? 0.2 + 0.7 * unit(random) : 0.998;
+        c.felt.apex = glm::dvec3(glm::vec3(p - towards * (along * c.felt.range)));
+        c.cell.x = glm::dvec2(p.x / depth) + glm::dvec2(-1e-5, 1e-5);
+        c.cell.y = glm::dvec2(p.y / depth) + glm::dvec2(-1e-5, 1e-5);
+        c.cell.z = depth * glm::dvec2(1 - 1e-5, 1 + 1e-5);
+        if (!spots && unit(random) < 0.5) {
+            // Or a froxel as deep as a slice, whose near or far face the ball just passes.
+            const bool far = unit(random) < 0.5;
+            c.cell = {{-0.05, 0.05}, {-0.05, 0.05}, {depth, 1.1 * depth}};
+            c.felt.apex = {
+                0, 0, far ? 1.1 * depth + c.felt.range - 2e-4 * depth : depth - c.felt.range + 2e-4 * depth};
+            c.felt.apex = glm::dvec3(glm::vec3(c.felt.apex));
+        }
+        cases.push_back(c);
+    }
+    return cases;
+}
+
 // Bounds as the program makes them: view axes that are the world's, but for y and z.
 std::vector<gpu::LightBound> boundsOf(const std::vector<Case>& cases, bool spots) {
     std::vector<Light> lights;
@@ -204,7 +241,8 @@ struct Tally {
 };
 
 Tally tally(Probes& probes, bool spots, Shrunk shrunk, unsigned seed) {
-    const std::vector<Case> cases = randomCases(spots ? 20000 : 40000, spots, seed);
+    std::vector<Case> cases = randomCases(spots ? 10000 : 20000, spots, seed);
+    for (const Case& c : edgeCases(4000, spots, seed)) cases.push_back(c);
     const std::vector<Answer> answers = ask(probes, cases, spots, shrunk);
     Tally t;
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -234,7 +272,8 @@ TEST(LightCull, ABallIsNeverMissed) {
     EXPECT_EQ(t.false_no, 0);
     EXPECT_GT(t.felt, 5000);
     EXPECT_GT(t.apart, 5000);
-    EXPECT_LT(t.false_yes, t.apart / 20) << "a test that keeps everything would pass the rest";
+    // Half of these are nearly felt; of random lights in a scene far fewer are kept for nothing.
+    EXPECT_LT(t.false_yes, t.apart / 4) << "a test that keeps everything would pass the rest";
 }
 
 TEST(LightCull, ASpotIsNeverMissed) {

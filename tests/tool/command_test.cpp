@@ -68,13 +68,13 @@ TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
 TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
     const Folder folder;
     for (const std::string option :
-         {"--assign tiled", "--assign clustered", "--assign per_object", "--time 1",
-          "--frames 2", "--ambient 0.1,0.1,0.1", "--light-cutoff 0.1", "--area-lights representative",
+         {"--assign per_object", "--time 1",
+          "--frames 2", "--ambient 0.1,0.1,0.1", "--area-lights representative",
           "--shadows pcf", "--shadows evsm", "--shadows clipmap", "--shadow-lights 1", "--msaa 4",
           "--haze on"})
         for (const std::string command : {"compare ", "render ", "plan "})
             EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
-    EXPECT_TRUE(runTool(folder, "render --heat").failedOver("--heat is not built yet"));
+    EXPECT_TRUE(runTool(folder, "render --heat --path reference").failedOver("--heat: light_count: the reference"));
     EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("a.png: no such file"));
     EXPECT_TRUE(runTool(folder, "bench --paths deferred").failedOver("bench is not built yet"));
 }

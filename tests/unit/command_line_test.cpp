@@ -126,7 +126,6 @@ TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
         {{"view", "a.glb", "--size", "64x64"}, "view"},
         {{"bench", "--paths", "deferred,forward_plus", "--assign", "every,tiled", "--runs", "3"}, "bench"},
         {{"compare", "--pixel", "3,4"}, "--pixel 3,4"},
-        {{"render", "--heat"}, "--heat"},
         {{"render", "--frames", "2", "--fps", "30"}, "--frames 2"},
     };
     for (const auto& [words, name] : later) {

@@ -21,6 +21,7 @@ Settings everythingChanged() {
     Settings s;
     s.path = Path::deferred;
     s.assign = Assignment::per_object;
+    s.light_kernel = LightKernel::gather;
     s.prepass = Switch::off;
     s.gbuffer = GBufferEncoding::full;
     s.size = {1920, 17};
@@ -169,13 +170,31 @@ TEST(Settings, TheUsualOnesHaveNoProblem) {
 
 TEST(Settings, WhatIsBuiltHasNoProblem) {
     const std::pair<const char*, const char*> built[] = {
-        {"path", "deferred"}, {"path", "forward_plus"}, {"assign", "every"},
-        {"prepass", "on"},    {"prepass", "off"},       {"gbuffer", "compact"},
-        {"gbuffer", "full"},  {"size", "1x1"},          {"size", "16384x1"},
-        {"camera", "0"},      {"lights", "point:3"},    {"lights", "none"},
-        {"seed", "9"},        {"env", "none"},          {"shadows", "off"},
-        {"haze", "off"},      {"sort", "off"},          {"msaa", "1"},
-        {"spp", "1"},         {"ibl-intensity", "1"},   {"env", "sky.exr"},
+        {"path", "deferred"},
+        {"path", "forward_plus"},
+        {"assign", "every"},
+        {"assign", "tiled"},
+        {"assign", "clustered"},
+        {"light-kernel", "gather"},
+        {"light-cutoff", "0.01"},
+        {"prepass", "on"},
+        {"prepass", "off"},
+        {"gbuffer", "compact"},
+        {"gbuffer", "full"},
+        {"size", "1x1"},
+        {"size", "16384x1"},
+        {"camera", "0"},
+        {"lights", "point:3"},
+        {"lights", "none"},
+        {"seed", "9"},
+        {"env", "none"},
+        {"shadows", "off"},
+        {"haze", "off"},
+        {"sort", "off"},
+        {"msaa", "1"},
+        {"spp", "1"},
+        {"ibl-intensity", "1"},
+        {"env", "sky.exr"},
         {"path", "reference"},
     };
     for (const auto& [option, value] : built) {
@@ -187,8 +206,6 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
 
 TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
     const std::pair<const char*, const char*> rest[] = {
-        {"assign", "tiled"},
-        {"assign", "clustered"},
         {"assign", "per_object"},
         {"size", "0x5"},
         {"size", "5x16385"},
@@ -197,7 +214,7 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         {"ibl-intensity", "2"},
         {"ibl-intensity", "-1"},
         {"ambient", "0,0.1,0"},
-        {"light-cutoff", "0.01"},
+        {"light-cutoff", "-0.01"},
         {"pixel-lights", "8"},
         {"area-lights", "representative"},
         {"shadows", "pcf"},
@@ -240,7 +257,8 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
     }
     s.spp = 1;
     s.path = Path::deferred;
-    EXPECT_EQ(s.problem().value_or("none"), "--reference-mode scene has no meaning without --path reference; use surface");
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--reference-mode scene has no meaning without --path reference; use surface");
 }
 
 // Beside a path's capture it stands where the path does.
@@ -254,7 +272,8 @@ TEST(Settings, OnlyTheReferenceInModeSceneKnowsTime) {
     }
     s.reference_mode = ReferenceMode::scene;
     EXPECT_EQ(s.problem().value_or("none"), "none");
-    for (const double time : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double time :
+         {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         s.time = time;
         EXPECT_EQ(s.problem().value_or("none"), fmt::format("--time {}: is finite and at least 0 s", time));
     }

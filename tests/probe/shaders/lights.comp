@@ -12,7 +12,7 @@ void main() {
     light.position = IN3(9, 0);
     light.inverse_range_squared = IN(9, 3);
     light.intensity = vec3(1.0);
-    SpotCone cone = SpotCone(IN3(9, 4), IN(9, 7), IN(9, 8));
+    SpotCone cone = SpotCone(IN3(9, 4), IN(9, 7), IN(9, 8), vec3(0.0));
     Incident incident = fromSpotLight(light, cone, vec3(0.0));
     OUT(4, 0) = incident.irradiance.r;
     for (uint i = 0; i < 3; ++i) OUT(4, 1 + i) = incident.direction[i];
