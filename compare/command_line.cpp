@@ -99,6 +99,20 @@ void resolveWhatCounts(Options& options, const Said& said) {
         throw std::runtime_error("--failing: --tolerance says above which error a pixel fails");
 }
 
+void resolveBench(BenchOptions& bench, const Said& said) {
+    if (!said.bench_paths.empty()) bench.paths = benchPaths(said.bench_paths);
+    if (!said.bench_assign.empty()) bench.assign = benchAssignments(said.bench_assign);
+    if (!said.bench_sizes.empty()) bench.sizes = benchSizes(said.bench_sizes);
+    if (!said.light_counts.empty()) bench.light_counts = benchLightCounts(said.light_counts);
+    bench.max_ms = said.max_ms;
+    if (!(said.max_ms > 0) || !std::isfinite(said.max_ms))
+        throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", said.max_ms));
+    if (said.kernels != "on" && said.kernels != "off" && said.kernels != "only")
+        throw std::runtime_error(fmt::format("--kernels {}: takes on, off or only", said.kernels));
+    bench.kernels = said.kernels != "off";
+    bench.frames = said.kernels != "only";
+}
+
 // What each word means together with the others.
 void resolve(Options& options, const Said& said) {
     options.settings = settingsOf(said);
@@ -126,6 +140,7 @@ void resolve(Options& options, const Said& said) {
     if (!said.not_built.empty()) throw std::runtime_error(said.not_built.front() + " is not built yet");
     resolveBaseline(options, said);
     resolveWhatCounts(options, said);
+    resolveBench(options.bench, said);
 }
 
 // CLI11 calls an option that was given too often "--size: At Most 1 required but received 3".

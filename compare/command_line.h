@@ -2,6 +2,7 @@
 // From the words of the command line to what is asked for.
 #pragma once
 
+#include "compare/bench/plan.h"
 #include "compare/picture_diff.h"
 #include "compare/selection.h"
 #include "shared/frame/debug_modes.h"
@@ -46,6 +47,7 @@ struct Options {
     bool update_baseline = false;
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
+    BenchOptions bench;
     std::string grid;                  // tradeoff: a file or JSON; empty: what is usual
 };
 

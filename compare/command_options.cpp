@@ -25,7 +25,7 @@ const Command commands[] = {
      "diptych plan helmet.glb --gbuffer compact", true},
     {"view", "A window with both paths live", "diptych view helmet.glb", false},
     {"bench", "Frame and pass times of several Settings side by side",
-     "diptych bench helmet.glb --paths deferred,forward_plus --runs 20", false},
+     "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9", true},
     {"devices", "Vulkan devices and what each can and cannot do here", "diptych devices", true},
 };
 
@@ -165,6 +165,25 @@ void addDiff(CLI::App& app, PictureDiffOptions& diff, Said& said) {
         ->check(CLI::Range(1, 1000));
 }
 
+// What is timed; every list is separated by commas.
+void addBench(CLI::App& app, Said& said) {
+    app.option_defaults()->group("What is timed");
+    app.add_option("--paths", said.bench_paths, "the paths (deferred,forward_plus)")->type_name("PATH,...");
+    app.add_option("--assign", said.bench_assign, "the assignments (all that can be drawn)")
+        ->type_name(acceptedValues("assign") + ",...");
+    app.add_option("--sizes", said.bench_sizes, "picture sizes (--size)")->type_name("WxH,...");
+    app.add_option("--light-counts", said.light_counts,
+                   "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "
+                   "seeded rig (the scene's own)")
+        ->type_name("N,...");
+    app.add_option("--max-ms", said.max_ms,
+                   "a frame that takes longer is not repeated, nor tried with more lights (2000)")
+        ->type_name("T");
+    app.add_option("--kernels", said.kernels,
+                   "one light at one pixel beside hand-written AVX2: on, off, or only (on)")
+        ->type_name("on|off|only");
+}
+
 void addDevice(CLI::App& app, Options& options) {
     app.option_defaults()->group(device_group);
     app.add_option("--device", options.device, "index or part of a name, see diptych devices (a GPU first)")
@@ -235,10 +254,13 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
                        "is every combination, a list of such one after the other (each by itself, and "
                        "declared pairs)")
             ->type_name("FILE.json|JSON");
+    } else if (command == "bench") {
+        addFiles(app, options, "folder of the table, the plot and the page (diptych-bench)");
     } else {
         addFiles(app, options,
                  command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
     }
+    if (command == "bench") addBench(app, said);
     addOutput(app, options);
     if (command == "choose") {
         addLater(app, said, "--max-error", "E", "error budget");
@@ -247,9 +269,6 @@ void describe(CLI::App& app, const std::string& command, Options& options, Said&
     } else if (command == "audit") {
         addLater(app, said, "--quantity", "NAME,...", "what to push");
         addLater(app, said, "--require", "NAME=MAGNITUDE", "how far each must go");
-    } else if (command == "bench") {
-        addLater(app, said, "--paths", "PATH,...", "the paths to time");
-        addLater(app, said, "--assign", "ASSIGNMENT,...", "the assignments to time");
     }
 }
 

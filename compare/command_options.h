@@ -31,6 +31,8 @@ struct Said {
     std::vector<std::string> not_built;  // options that parse but cannot be done
     int frames = 1;
     double fps = 30;
+    std::string bench_paths, bench_assign, bench_sizes, light_counts, kernels = "on";
+    double max_ms = 2000;
 };
 
 // Everything that `command` understands; the parser fills `options` and `said`.

@@ -22,6 +22,7 @@ int runCompare(const Options& options);
 int runRender(const Options& options);
 int runDiff(const Options& options);
 int runTradeoff(const Options& options);
+int runBench(const Options& options);
 int runPlan(const Options& options);
 int runDevices(const Options& options);
 

@@ -3,15 +3,11 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
+#include "compare/shot.h"
 #include "compare/tolerance.h"
 #include "compare/truth.h"
-#include "compare/undrawn.h"
-#include "deferred/deferred.h"
-#include "forward_plus/forward_plus.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/draw/overdraw.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/light/cutoff.h"
 #include "shared/scene/requirements.h"
 #include "shared/scene/rig.h"
 #include "shared/scene/view.h"
@@ -22,158 +18,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 
 namespace diptych {
 
 namespace {
-
-// What all Settings share: uploaded and compiled once.
-struct SharedResources {
-    SharedResources(Device& d, const Scene& scene)
-        : uploader(d),
-          geometry(d, uploader, scene),
-          materials(d, uploader, scene),
-          layouts(d, materials.layout()),
-          pipelines(d, layouts.pipeline) {
-        uploader.flush();
-    }
-    Uploader uploader;
-    Geometry geometry;
-    Materials materials;
-    Layouts layouts;
-    Pipelines pipelines;
-};
-
-gpu::uint listsOf(Assignment assign) {
-    switch (assign) {
-        case Assignment::tiled:
-            return gpu::LISTS_TILED;
-        case Assignment::clustered:
-            return gpu::LISTS_CLUSTERED;
-        case Assignment::every:
-        case Assignment::per_object:
-            break;
-    }
-    return gpu::LISTS_NONE;
-}
-
-// A workgroup a cell suits a GPU's wide groups; lavapipe runs them eight threads at a time and tests every
-// light in every cell (README, "Many lights").
-ListKernel kernelOf(LightKernel kernel, const Device& device) {
-    if (kernel == LightKernel::automatic)
-        return device.info().isCpu() ? ListKernel::scatter : ListKernel::gather;
-    return kernel == LightKernel::scatter ? ListKernel::scatter : ListKernel::gather;
-}
-
-// One view of the scene under one Settings, ready for passes.
-class Shot {
-public:
-    Shot(Device& device, SharedResources& shared, const Scene& scene, const Settings& settings)
-        : pose(poseAt(scene, settings.time)),
-          view(makeView(scene, pose, settings.camera, settings.size.width, settings.size.height)),
-          needs(requirements(scene, pose)),
-          lit_by(litBy(scene, pose, settings)),
-          lights(gpuLights(withCutoff(lit_by, double{settings.light_cutoff}), view.eye())),
-          draws(makeDrawList(pose, shared.geometry, shared.materials, view)),
-          buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights,
-                  {listsOf(settings.assign), kernelOf(settings.light_kernel, device)}),
-          gbuffer(gbufferLayout(settings.gbuffer, needs)),
-          inputs{device,           shared.layouts,
-                 shared.pipelines, shared.geometry,
-                 shared.materials, draws,
-                 buffers.set(),    buffers.carriedNothing(),
-                 buffers.lists(),  sceneVariant(needs, lights, view, gbuffer),
-                 gbuffer,          settings.prepass != Switch::off} {
-        buffers.lists().specialise(inputs.variant);
-        const LightLists& lists = buffers.lists();
-        inputs.light_groups = lists.any() ? lists.grid().all_end : lights.local();
-        if (settings.path == Path::forward_plus && settings.prepass == Switch::automatic)
-            decidePrepass(settings);
-    }
-    Shot(const Shot&) = delete;
-    Shot& operator=(const Shot&) = delete;
-
-    // Tiles are bounded by depth, so they need it first.
-    void decidePrepass(const Settings& settings) {
-        if (settings.assign == Assignment::tiled) return;
-        const LightLists& lists = buffers.lists();
-        const gpu::LightGrid& grid = lists.grid();
-        const std::uint64_t atPixel =
-            lists.any() ? std::uint64_t{grid.capacity} * grid.width / grid.lists : lights.local();
-        const PrepassChoice choice =
-            choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
-                                          static_cast<std::uint32_t>(settings.size.height)),
-                          static_cast<double>(atPixel + lights.directional), inputs.device.info().isCpu());
-        inputs.prepass = choice.on;
-        notes.push_back(choice.because);
-    }
-
-    std::vector<std::string> notes;  // what was decided for this view
-    Pose pose;
-    View view;
-    Requirements needs;
-    std::vector<Light> lit_by;
-    GpuLights lights;
-    DrawList draws;
-    FrameBuffers buffers;
-    GBufferLayout gbuffer;
-    FrameInputs inputs;
-};
-
-// The paths, one row each.
-struct PathFunctions {
-    Path path;
-    FrameImages (*add)(PassList&, const FrameInputs&);
-    std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, const FrameImages&,
-                                          const CaptureRequest&);
-    std::uint32_t (*bytesPerPixel)(const FrameInputs&);
-};
-
-const PathFunctions paths[] = {
-    {Path::deferred, addDeferred, addDeferredCapture,
-     [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; }},
-    {Path::forward_plus, addForwardPlus, addForwardPlusCapture,
-     [](const FrameInputs&) { return std::uint32_t{4}; }},
-};
-
-const PathFunctions& functionsOf(Path path) {
-    for (const PathFunctions& functions : paths)
-        if (functions.path == path) return functions;
-    throw std::logic_error(fmt::format("--path {} is drawn by no device", nameOf(path)));
-}
-
-void checkSize(const Device& device, const Size& size) {
-    const auto limit = static_cast<int>(std::min(device.limits().maxImageDimension2D, 1u << 24));
-    if (size.width > limit || size.height > limit)
-        throw std::runtime_error(fmt::format("--size {}x{}: {} draws up to {}x{}", size.width, size.height,
-                                             device.info().name, limit, limit));
-}
-
-std::vector<Image> readImages(PassList& passes, const std::vector<PassList::ReadBack>& requests) {
-    std::vector<std::vector<float>> data = passes.readBack(requests);
-    std::vector<Image> images(requests.size());
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        images[i].width = static_cast<int>(passes.width());
-        images[i].height = static_cast<int>(passes.height());
-        images[i].components = requests[i].components;
-        images[i].data = std::move(data[i]);
-    }
-    return images;
-}
-
-FrameTime timeOf(std::vector<double> ms) {
-    FrameTime time;
-    time.runs = static_cast<int>(ms.size());
-    if (ms.empty()) return time;
-    std::sort(ms.begin(), ms.end());
-    time.min = ms.front();
-    time.max = ms.back();
-    time.median = 0.5 * (ms[(ms.size() - 1) / 2] + ms[ms.size() / 2]);
-    return time;
-}
 
 constexpr double captureFrames = 3;  // a capture of all channels; measured, lavapipe
 
@@ -186,31 +36,16 @@ public:
           scene_(scene),
           settings_(settings),
           options_(options),
-          shot_(device, shared, scene, settings),
-          path_(functionsOf(settings.path)) {}
+          drawn_(device, shared, scene, settings) {}
 
     Frame make() {
         const auto start = std::chrono::steady_clock::now();
-        frame_.name = std::string(nameOf(settings_.path));
-        frame_.scene = scene_.name;
-        frame_.settings = settings_;
-        frame_.camera = cameraOf(shot_.view);
-        frame_.background = {scene_.background.r, scene_.background.g, scene_.background.b};
-        frame_.notes = scene_.notes;
-        for (const std::string& note : shared_.materials.notes()) frame_.notes.push_back(note);
-        for (std::string& note : leftOutNotes()) frame_.notes.push_back(std::move(note));
-        for (const std::string& note : shot_.notes) frame_.notes.push_back(note);
-        frame_.counters.lights = shot_.lights.count();
-        frame_.counters.energy_cut =
-            energyCut(scene_, shot_.pose, shot_.lit_by, double{settings_.light_cutoff});
-        PassList passes(device_, static_cast<std::uint32_t>(settings_.size.width),
-                        static_cast<std::uint32_t>(settings_.size.height));
-        const FrameImages images = path_.add(passes, shot_.inputs);
-        drawTimed(passes);
-        lit_ = readLit(passes, images);
-        frame_.counters.overflowed_lists = shot_.buffers.lists().overflowed();
+        frame_ = describedFrame(drawn_, shared_, scene_, settings_);
+        drawTimed();
+        lit_ = readLit(drawn_);
+        frame_.counters.overflowed_lists = drawn_.shot.buffers.lists().overflowed();
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
-        if (!options_.channels.empty()) capture(passes, images);
+        if (!options_.channels.empty()) capture();
         frame_.asked = options_.asked;
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -230,18 +65,9 @@ private:
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
-    // What this path does not draw, or otherwise, and the reference does.
-    std::vector<std::string> leftOutNotes() const {
-        Pose pose = shot_.pose;
-        pose.lights = shot_.lit_by;
-        const Requirements needs = requirements(scene_, pose);
-        std::vector<std::string> notes = undrawnLight(settings_.path, needs);
-        std::ranges::move(undrawnMotion(settings_.path, needs), std::back_inserter(notes));
-        return notes;
-    }
-
     // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
-    void drawTimed(PassList& passes) {
+    void drawTimed() {
+        PassList& passes = drawn_.passes;
         say("draw");
         step("first frame");
         passes.run();
@@ -255,10 +81,7 @@ private:
         if (options_.runs > 0)
             for (const PassMs& pass : passes.profile(0, passes.size()))
                 frame_.passes.push_back({pass.name, pass.ms});
-        frame_.bytes.images = passes.imageBytes() + shared_.materials.imageBytes();
-        frame_.bytes.buffers =
-            shared_.geometry.bytes() + shared_.materials.bufferBytes() + shot_.buffers.bytes();
-        frame_.bytes.gbuffer_per_pixel = path_.bytesPerPixel(shot_.inputs);
+        frame_.bytes = bytesOf(drawn_, shared_);
     }
 
     // lit, to be held against the timed one, and every channel asked for that this path can make.
@@ -275,17 +98,14 @@ private:
         return request;
     }
 
-    Image readLit(PassList& passes, const FrameImages& images) const {
-        return std::move(readImages(passes, {{images.lit, 3}}).front());
-    }
-
     // Every channel, over what the timed frame left; lit itself stays the timed pipeline's.
-    void capture(PassList& passes, const FrameImages& images) {
+    void capture() {
+        PassList& passes = drawn_.passes;
         say("capture");
         step("capture channels", captureFrames);
         const std::size_t first = passes.size();
         const std::vector<CapturedImage> captured =
-            path_.capture(passes, shot_.inputs, images, captureRequest());
+            drawn_.path.capture(passes, drawn_.shot.inputs, drawn_.images, captureRequest());
         std::vector<PassList::ReadBack> requests;
         for (const CapturedImage& c : captured) requests.push_back({c.image, debugMode(c.mode).width});
         const auto read = [&] {
@@ -303,7 +123,7 @@ private:
             say("once more");
             step("draw once more", 2);
             passes.run(0, first);
-            addNoise(lit, readLit(passes, images));
+            addNoise(lit, readLit(drawn_));
             step("capture once more", captureFrames);
             channels = read();
             for (std::size_t i = 0; i < captured.size(); ++i)
@@ -331,8 +151,7 @@ private:
     const Settings& settings_;
     const RenderOptions& options_;
     double framesDone_ = 0;
-    Shot shot_;
-    const PathFunctions& path_;
+    DrawnShot drawn_;
     Frame frame_;
     Image lit_;
 };
@@ -389,6 +208,12 @@ struct Renderer::State {
     SharedResources shared;
 };
 
+struct PreparedFrames::State {
+    SharedResources& shared;
+    std::vector<std::unique_ptr<DrawnShot>> shots;
+    std::vector<Frame> described;
+};
+
 Renderer::Renderer(Device& device, const Scene& scene)
     : state_(new State{device, scene, SharedResources(device, scene)}) {}
 Renderer::~Renderer() = default;
@@ -411,6 +236,53 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
         FrameMaker(state_->device, state_->shared, state_->scene, surfaceSettings(settings), capture).make();
     Frame truth = drawTruth(state_->scene, settings, &surfaces, options);
     return truth;
+}
+
+std::size_t Renderer::pipelines() const {
+    return state_->shared.pipelines.count();
+}
+
+PreparedFrames Renderer::prepare(std::span<const Settings> settings) {
+    auto state = std::make_unique<PreparedFrames::State>(PreparedFrames::State{state_->shared, {}, {}});
+    for (const Settings& s : settings) {
+        checkSize(state_->device, s.size);
+        state->shots.push_back(std::make_unique<DrawnShot>(state_->device, state_->shared, state_->scene, s));
+        DrawnShot& drawn = *state->shots.back();
+        state->described.push_back(describedFrame(drawn, state_->shared, state_->scene, s));
+        state->described.back().bytes = diptych::bytesOf(drawn, state_->shared);
+    }
+    return PreparedFrames(std::move(state));
+}
+
+PreparedFrames::PreparedFrames(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PreparedFrames::PreparedFrames(PreparedFrames&&) noexcept = default;
+PreparedFrames::~PreparedFrames() = default;
+
+std::size_t PreparedFrames::size() const {
+    return state_->shots.size();
+}
+
+double PreparedFrames::draw(std::size_t i) {
+    return state_->shots.at(i)->passes.run();
+}
+
+std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
+    PassList& passes = state_->shots.at(i)->passes;
+    std::vector<PassTime> times;
+    for (const PassMs& pass : passes.profile(0, passes.size())) times.push_back({pass.name, pass.ms});
+    return times;
+}
+
+Image PreparedFrames::lit(std::size_t i) {
+    return readLit(*state_->shots.at(i));
+}
+
+std::uint64_t PreparedFrames::overflowedLists(std::size_t i) const {
+    return state_->shots.at(i)->shot.buffers.lists().overflowed();
+}
+
+const Frame& PreparedFrames::described(std::size_t i) const {
+    return state_->described.at(i);
 }
 
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,

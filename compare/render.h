@@ -33,6 +33,33 @@ struct RenderOptions {
 // What making one Frame takes, in the time of drawing one frame: for a progress line.
 double framesIn(const RenderOptions& options);
 
+// Frames of one scene, ready to be drawn again and again and in any order: going from one to another uploads
+// nothing and makes no pipeline, only what a frame itself makes (light lists) is made anew. It outlives
+// neither its Renderer nor the scene.
+class PreparedFrames {
+public:
+    PreparedFrames(PreparedFrames&&) noexcept;
+    ~PreparedFrames();
+
+    std::size_t size() const;
+    // One whole frame, ms, as FrameTime has it. The first one of each may take longer: drivers compile then.
+    double draw(std::size_t i);
+    // Each pass timed by itself, over another frame.
+    std::vector<PassTime> profile(std::size_t i);
+    // lit of the frame drawn last, W x H x 3.
+    Image lit(std::size_t i);
+    // Light lists of that frame that found no room.
+    std::uint64_t overflowedLists(std::size_t i) const;
+    // What is known without drawing: Settings, camera, lights, bytes, notes.
+    const Frame& described(std::size_t i) const;
+
+private:
+    friend class Renderer;
+    struct State;
+    explicit PreparedFrames(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
 // Frames of one scene, one after another as they are asked for: everything is uploaded once for all of them
 // and every pipeline is compiled once. Device and scene outlive it. Throws std::runtime_error: one line.
 class Renderer {
@@ -43,6 +70,11 @@ public:
     Renderer& operator=(const Renderer&) = delete;
 
     Frame draw(const Settings& settings, const RenderOptions& options);
+
+    // Of the two paths; all their images at once. Throws std::runtime_error as draw() does.
+    PreparedFrames prepare(std::span<const Settings> settings);
+    // How many pipelines there are by now.
+    std::size_t pipelines() const;
 
 private:
     Frame drawReference(const Settings& settings, const RenderOptions& options);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/plot.h"
 
+#include "compare/plot/drawing.h"
+#include "compare/plot/log_axis.h"
 #include "compare/report/text.h"
-#include "compare/tradeoff/log_axis.h"
-#include "compare/tradeoff/page/page.h"
 
 #include <fmt/format.h>
 
@@ -16,10 +16,6 @@ namespace {
 // Of the drawing, in its own units.
 constexpr double width = 720, height = 440, left = 74, right = 16, top = 32, bottom = 56;
 constexpr double lane = 26;  // of errors that no logarithm shows
-
-std::string at(double value) {
-    return fmt::format("{:.1f}", value);
-}
 
 class Plot {
 public:
@@ -43,20 +39,12 @@ public:
         const std::string title =
             fmt::format("{} over time, {}{}", errorFigures[figure_].title, tradeoff_.scene,
                         path_ ? ", " + std::string(nameOf(*path_)) : "");
-        std::string out = fmt::format(
-            "<svg class=\"tradeoff\" viewBox=\"0 0 {:.0f} {:.0f}\" {}role=\"{}\" aria-label=\"{}\">", width,
-            height, file ? "xmlns=\"http://www.w3.org/2000/svg\" " : "", file ? "img" : "group",
-            markup(title));
-        if (file)
-            out += fmt::format(
-                "<title>{}</title><style>{}</style><rect class=\"paper\" width=\"100%\" height=\"100%\"/>",
-                markup(title), plotStyle);
-        out += axes() + frontLine();
+        std::string out = axes() + frontLine();
         for (const bool front : {false, true})  // the front on top
             for (const std::size_t row : rows_)
                 if ((std::ranges::count(front_, row) > 0) == front) out += point(row, front, file);
         if (!path_) out += legend();
-        return out + "</svg>\n";
+        return plotElement(width, height, title, place, out);
     }
 
 private:
@@ -87,38 +75,19 @@ private:
 
     std::string axes() const {
         const double foot = height - bottom;
-        std::string out, texts;
-        const auto line = [&](const char* kind, double x1, double y1, double x2, double y2) {
-            out += fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", kind, at(x1),
-                               at(y1), at(x2), at(y2));
-        };
-        const auto text = [&](const char* kind, double tx, double ty, const std::string& words) {
-            texts += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>", kind, at(tx), at(ty),
-                                 markup(words));
-        };
-        for (const Tick& tick : time_.ticks()) {
-            line(tick.text.empty() ? "minor" : "grid", x(tick.value), top, x(tick.value), foot);
-            text("tick middle", x(tick.value), foot + 20, tick.text);
-        }
-        for (const Tick& tick : error_.ticks()) {
-            line(tick.text.empty() ? "minor" : "grid", left, y(tick.value), width - right, y(tick.value));
-            text("tick end", left - 8, y(tick.value) + 4, tick.text);
-        }
+        Drawing drawing;
+        drawing.axes({left, top, width - right, foot}, time_.ticks(), [this](double ms) { return x(ms); },
+                     "time of a frame, ms", error_.ticks(), [this](double error) { return y(error); },
+                     std::string(errorFigures[figure_].title));
         if (zeros_) {
-            line("gap", left, foot - lane, width - right, foot - lane);
-            text("tick end", left - 8, y(0) + 4, "0");
+            drawing.line("gap", left, foot - lane, width - right, foot - lane);
+            drawing.text("tick end", left - 8, y(0) + 4, "0");
         }
         if (infinities_) {
-            line("gap", left, top + lane, width - right, top + lane);
-            text("tick end", left - 8, top + lane / 2 + 4, "\u221e");
+            drawing.line("gap", left, top + lane, width - right, top + lane);
+            drawing.text("tick end", left - 8, top + lane / 2 + 4, "\u221e");
         }
-        line("axis", left, foot, width - right, foot);
-        line("axis", left, top, left, foot);
-        text("name middle", (left + width - right) / 2, height - 9, "time of a frame, ms");
-        texts +=
-            fmt::format("<text class=\"name middle\" transform=\"translate(18 {}) rotate(-90)\">{}</text>",
-                        at((top + foot) / 2), markup(errorFigures[figure_].title));
-        return "<g>" + out + texts + "</g>";
+        return drawing.group();
     }
 
     // What is reached at most that time: less error only at the next point.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "compare/plot/drawing.h"
 #include "compare/tradeoff/tradeoff.h"
 
 #include <optional>
@@ -9,9 +10,7 @@
 namespace diptych {
 
 // Error over time of the rows of one path, or of all, as SVG: a point a row with error bars, the Pareto front
-// a step line. Both axes are logarithmic; errors of 0, and infinite ones, have a lane of their own. A file by
-// itself has its style and titles; in the page both come from there.
-enum class PlotPlace { file, page };
+// a step line. Both axes are logarithmic; errors of 0, and infinite ones, have a lane of their own.
 std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path,
                          PlotPlace place);
 

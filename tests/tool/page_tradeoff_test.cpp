@@ -52,7 +52,7 @@ TEST(PageTradeoff, AnotherErrorAndAnotherOrder) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const Visit seen = visitSweep(folder, R"(
-  const plots = () => $$('svg.tradeoff').filter(svg => svg.getBoundingClientRect().height > 0).map(svg => svg.getAttribute('aria-label').split(' over')[0]);
+  const plots = () => $$('svg.chart').filter(svg => svg.getBoundingClientRect().height > 0).map(svg => svg.getAttribute('aria-label').split(' over')[0]);
   const told = { plots: plots(), width: document.documentElement.scrollWidth };
   $('[data-shows=relative_p99]').click(); told.others = plots();
   const column = head => $$('.rows tbody tr').map(row => +row.cells[[...$$('.rows th')].indexOf(head)].dataset.value);

@@ -4,7 +4,6 @@
 
 namespace diptych {
 
-extern const char* const plotStyle;  // of every plot, in the page and by itself
 extern const char* const tradeoffStyle;
 extern const char* const tradeoffScript;
 

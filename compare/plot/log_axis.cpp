@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/log_axis.h"
+#include "compare/plot/log_axis.h"
 
 #include <fmt/format.h>
 

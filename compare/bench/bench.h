@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A whole benchmark, and what is made of it.
+#pragma once
+
+#include "compare/bench/kernels.h"
+#include "compare/bench/plan.h"
+#include "compare/diff.h"
+#include "compare/plot/drawing.h"
+#include "compare/render.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What is measured of one Settings.
+struct BenchRow {
+    Settings settings;
+    std::string scene;                   // with its number of lights
+    std::optional<std::uint32_t> asked;  // lights asked for
+    std::string camera;                  // its title
+    FrameTime time;
+    std::vector<double> ms;        // every timed frame, in order
+    std::vector<PassTime> passes;  // medians of a few profiled frames
+    FrameBytes bytes;
+    FrameCounters counters;
+};
+
+// What makes light lists: its passes' names begin so.
+inline constexpr std::string_view assignPasses = "assign";
+// Of the profiled passes, ms: those that make light lists; and their share of all, 0 to 1.
+double assignMs(const BenchRow& row);
+double assignShare(const BenchRow& row);
+
+struct Bench {
+    std::string scene;  // as asked for
+    Settings given;
+    BenchOptions options;
+    ReportDevice device;
+    int runs = 0;
+    std::vector<BenchRow> rows;
+    std::vector<BenchSkip> skips;
+    std::optional<KernelReport> kernels;
+    std::vector<std::string> notes;
+};
+
+// The rows of one group: one frame each to warm up, which also tells those that take over options.max_ms, then
+// `runs` rounds of one frame each, then the profiled ones. What is left out goes into bench.skips; earlier rows
+// of `bench` predict what need not be tried. `said` before each step, for -v.
+void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
+                  const Stage& progress);
+
+// Sizes of the rows, in their order.
+std::vector<Size> sizesOf(const Bench& bench);
+
+// On a terminal: rows from `first` on, under a head where `first` is 0; then skips, kernels and notes.
+std::string benchTable(const Bench& bench, std::size_t first);
+std::string benchEnd(const Bench& bench);
+std::string kernelTable(const KernelReport& kernels);
+
+// Time over light count, a line a mode with bars from the least to the most; a panel a size. Both axes are
+// logarithmic.
+std::string benchPlot(const Bench& bench, PlotPlace place);
+std::string benchHtml(const Bench& bench);
+// bench.json, schema 1; `files`: all of the folder.
+std::string benchJson(const Bench& bench, const std::vector<std::string>& files);
+
+// Writes the folder. Returns bench.json.
+std::string writeBench(const Bench& bench, const std::filesystem::path& folder, bool force);
+inline constexpr const char* benchMark = "bench.json";
+
+}  // namespace diptych

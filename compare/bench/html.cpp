@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/bench.h"
+#include "compare/bench/style.h"
+#include "compare/report/page.h"
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace diptych {
+namespace {
+
+std::string cell(const std::string& text) {
+    return "<td>" + markup(text) + "</td>";
+}
+std::string numberCell(const std::string& text) {
+    return "<td class=\"n\">" + markup(text) + "</td>";
+}
+
+std::string head(std::initializer_list<std::pair<const char*, bool>> columns) {
+    std::string out = "<div class=\"box scroll rows\"><table><thead><tr>";
+    for (const auto& [name, isNumber] : columns)
+        out += fmt::format("<th{}>{}</th>", isNumber ? " class=\"n\"" : "", markup(name));
+    return out + "</tr></thead>\n<tbody>";
+}
+
+std::string rows(const Bench& bench) {
+    if (bench.rows.empty()) return {};
+    std::string out = "<h2>Every mode</h2>\n" + head({{"lights", true},
+                                                      {"size", true},
+                                                      {"path", false},
+                                                      {"assign", false},
+                                                      {"ms", true},
+                                                      {"least", true},
+                                                      {"most", true},
+                                                      {"assign ms", true},
+                                                      {"share", true},
+                                                      {"memory", true},
+                                                      {"passes, ms", false}});
+    for (const BenchRow& row : bench.rows) {
+        std::string passes;
+        for (const PassTime& pass : row.passes)
+            passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
+        out += "<tr>" + numberCell(fmt::format("{}", row.counters.lights)) +
+               numberCell(fmt::format("{}x{}", row.settings.size.width, row.settings.size.height)) +
+               cell(std::string(nameOf(row.settings.path))) +
+               cell(std::string(nameOf(row.settings.assign))) +
+               numberCell(fmt::format("{:.4g}", row.time.median)) +
+               numberCell(fmt::format("{:.4g}", row.time.min)) +
+               numberCell(fmt::format("{:.4g}", row.time.max)) +
+               numberCell(fmt::format("{:.3g}", assignMs(row))) +
+               numberCell(fmt::format("{:.1f} %", 100 * assignShare(row))) +
+               numberCell(bytes(row.bytes.images + row.bytes.buffers)) + cell(passes) + "</tr>\n";
+    }
+    return out + "</tbody></table></div>\n";
+}
+
+std::string skips(const Bench& bench) {
+    if (bench.skips.empty()) return {};
+    std::string out = "<h2>Not timed, and why</h2>\n<div class=\"box skips\"><dl>";
+    for (const BenchSkip& skip : bench.skips)
+        out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(skipName(skip)), markup(skip.reason));
+    return out + "</dl></div>\n";
+}
+
+std::string kernels(const Bench& bench) {
+    if (!bench.kernels) return {};
+    const KernelReport& report = *bench.kernels;
+    std::string out =
+        fmt::format("<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">{}x{}, the slope between "
+                    "lists of {} and {} of {} lights, {} runs in turn, {} threads</p>\n",
+                    report.size.width, report.size.height, report.short_list, report.long_list,
+                    report.lights, report.runs, report.threads) +
+        head({{"kernel", false}, {"ns", true}, {"over the CPU's", true}, {"goal", true}});
+    for (const KernelRow& row : report.rows)
+        out += "<tr>" + cell(row.name) + numberCell(fmt::format("{:.3f}", row.ns)) +
+               numberCell(row.ratio ? fmt::format("{:.2f}", *row.ratio) : "") +
+               numberCell(row.goal ? fmt::format("at most {:.1f}", *row.goal) : "") + "</tr>\n";
+    out += "</tbody></table></div>\n";
+    for (const std::string& note : report.notes) out += "<p class=\"soft\">" + markup(note) + "</p>\n";
+    return out;
+}
+
+std::string how(const Bench& bench) {
+    std::string out =
+        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, unsplit, "
+        "from culling to linear lit, lists made anew, the scene already uploaded: the median. Bars and columns "
+        "least and most are those of single frames.</li><li>All modes and sizes of one light count are drawn in "
+        "turn, one frame each and again from the first, so that a device that slows down does so for all "
+        "alike.</li><li>Passes are medians of a few other frames, each pass timed by itself; the share is that "
+        "of the passes that make light lists, of all passes.</li>";
+    for (const std::string& note : bench.notes) out += "<li>" + markup(note) + "</li>";
+    return out + "</ul></div>\n<footer><p><a href=\"bench.json\">bench.json</a>" +
+           (bench.rows.empty() ? "" : " <a href=\"bench.svg\">bench.svg</a>") + "</p></footer>\n";
+}
+
+}  // namespace
+
+std::string benchHtml(const Bench& bench) {
+    return fmt::format(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, {0}</title>\n"
+        "<style>{1}{2}{3}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>Times side by "
+        "side: {0}</h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
+        "{8}{9}{10}{11}{12}</body></html>\n",
+        markup(bench.scene), pageStyle, plotStyle, benchStyle, bench.rows.size(), bench.runs,
+        markup(bench.device.name), markup(bench.device.driver),
+        bench.rows.empty() ? ""
+                           : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
+        rows(bench), kernels(bench), skips(bench), how(bench));
+}
+
+}  // namespace diptych

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/bench.h"
+#include "compare/output.h"
+
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json orNull(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json jsonOf(const Size& size) {
+    return {size.width, size.height};
+}
+
+Json jsonOf(const BenchRow& row) {
+    Json passes = Json::array();
+    for (const PassTime& pass : row.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    return {{"name", modeName(row.settings.path, row.settings.assign)},
+            {"path", nameOf(row.settings.path)},
+            {"assign", nameOf(row.settings.assign)},
+            {"scene", row.scene},
+            {"camera", row.camera},
+            {"size", jsonOf(row.settings.size)},
+            {"light_count", orNull(row.asked)},
+            {"settings", Json::parse(toJson(row.settings))},
+            {"ms",
+             {{"median", row.time.median},
+              {"min", row.time.min},
+              {"max", row.time.max},
+              {"runs", row.time.runs},
+              {"all", row.ms}}},
+            {"passes", passes},
+            {"assign_ms", assignMs(row)},
+            {"assign_share", assignShare(row)},
+            {"bytes",
+             {{"images", row.bytes.images},
+              {"buffers", row.bytes.buffers},
+              {"gbuffer_per_pixel", row.bytes.gbuffer_per_pixel}}},
+            {"counters",
+             {{"nonfinite_pixels", row.counters.nonfinite_pixels},
+              {"overflowed_lists", row.counters.overflowed_lists},
+              {"lights", row.counters.lights}}}};
+}
+
+Json jsonOf(const BenchSkip& skip) {
+    return {{"path", nameOf(skip.path)},
+            {"assign", nameOf(skip.assign)},
+            {"size", skip.size ? jsonOf(*skip.size) : Json(nullptr)},
+            {"light_count", orNull(skip.lights)},
+            {"reason", skip.reason}};
+}
+
+Json jsonOf(const KernelReport& kernels) {
+    Json rows = Json::array();
+    for (const KernelRow& row : kernels.rows)
+        rows.push_back({{"name", row.name},
+                        {"ns", row.ns},
+                        {"ratio", orNull(row.ratio)},
+                        {"goal", orNull(row.goal)}});
+    return {{"size", jsonOf(kernels.size)},
+            {"lists", {kernels.short_list, kernels.long_list}},
+            {"lights", kernels.lights},
+            {"runs", kernels.runs},
+            {"threads", kernels.threads},
+            {"rows", rows},
+            {"notes", kernels.notes}};
+}
+
+}  // namespace
+
+std::string benchJson(const Bench& bench, const std::vector<std::string>& files) {
+    Json rows = Json::array(), skips = Json::array();
+    for (const BenchRow& row : bench.rows) rows.push_back(jsonOf(row));
+    for (const BenchSkip& skip : bench.skips) skips.push_back(jsonOf(skip));
+    const Json json = {{"schema", 1},
+                       {"software", softwareName},
+                       {"device",
+                        {{"name", bench.device.name},
+                         {"driver", bench.device.driver},
+                         {"type", bench.device.type}}},
+                       {"scene", bench.scene},
+                       {"runs", bench.runs},
+                       {"max_ms", bench.options.max_ms},
+                       {"frames", rows},
+                       {"skipped", skips},
+                       {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
+                       {"notes", bench.notes},
+                       {"files", files}};
+    return json.dump(2) + "\n";
+}
+
+}  // namespace diptych

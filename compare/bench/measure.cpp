@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/bench.h"
+#include "compare/report/text.h"
+#include "compare/shot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace diptych {
+namespace {
+
+// Frames whose passes are timed one by one.
+constexpr int profiledFrames = 3;
+
+// Beyond this many times --max-ms the first frame, in which drivers compile, is not given a second chance.
+constexpr double compiling = 4;
+
+BenchSkip skipOf(const Settings& settings, const BenchGroup& group, std::string reason) {
+    return {settings.path, settings.assign, settings.size, group.lights, std::move(reason)};
+}
+
+bool isMode(const Settings& a, const Settings& b) {
+    return a.path == b.path && a.assign == b.assign && a.size == b.size;
+}
+
+// Why the Settings need not be tried with so many lights, after what fewer took; empty: they must.
+std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings& settings) {
+    if (!group.lights) return {};
+    for (const BenchSkip& skip : bench.skips)
+        if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
+            skip.lights && *skip.lights < *group.lights)
+            return fmt::format("over --max-ms {:.6g} with {} lights already", bench.options.max_ms,
+                               *skip.lights);
+    std::vector<std::pair<std::uint32_t, double>> measured;
+    for (const BenchRow& row : bench.rows)
+        if (row.asked && isMode(row.settings, settings))
+            measured.emplace_back(*row.asked, row.time.median);
+    const std::optional<double> predicted = predictedMs(measured, *group.lights);
+    if (!predicted || *predicted <= bench.options.max_ms) return {};
+    return fmt::format("would take {:.4g} ms by what {} and {} lights took; --max-ms {:.6g}", *predicted,
+                       measured[measured.size() - 2].first, measured.back().first, bench.options.max_ms);
+}
+
+std::vector<PassTime> medians(const std::vector<std::vector<PassTime>>& frames) {
+    std::vector<PassTime> passes = frames.front();
+    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+        std::vector<double> ms;
+        for (const std::vector<PassTime>& frame : frames) ms.push_back(frame[pass].ms);
+        passes[pass].ms = timeOf(std::move(ms)).median;
+    }
+    return passes;
+}
+
+}  // namespace
+
+double assignMs(const BenchRow& row) {
+    double ms = 0;
+    for (const PassTime& pass : row.passes)
+        if (pass.name.starts_with(assignPasses)) ms += pass.ms;
+    return ms;
+}
+
+double assignShare(const BenchRow& row) {
+    double all = 0;
+    for (const PassTime& pass : row.passes) all += pass.ms;
+    return all > 0 ? assignMs(row) / all : 0;
+}
+
+std::vector<Size> sizesOf(const Bench& bench) {
+    std::vector<Size> sizes;
+    for (const BenchRow& row : bench.rows)
+        if (std::ranges::find(sizes, row.settings.size) == sizes.end()) sizes.push_back(row.settings.size);
+    return sizes;
+}
+
+void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
+                  const Stage& progress) {
+    std::vector<Settings> tried;
+    for (const Settings& settings : group.settings)
+        if (std::string reason = hopeless(bench, group, settings); reason.empty())
+            tried.push_back(settings);
+        else
+            bench.skips.push_back(skipOf(settings, group, std::move(reason)));
+    if (tried.empty()) return;
+    Renderer renderer(device, scene);
+    PreparedFrames frames = renderer.prepare(tried);
+    const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiledFrames);
+    double done = 0;
+    const auto step = [&](std::size_t i, const char* what) {
+        progress.at(done++ / steps,
+                    fmt::format("{} {}", modeName(tried[i].path, tried[i].assign), what));
+    };
+    std::vector<std::size_t> timed;  // of `frames`
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        step(i, "first frame");
+        double ms = frames.draw(i);
+        if (ms > bench.options.max_ms && ms < compiling * bench.options.max_ms) ms = frames.draw(i);
+        if (ms <= bench.options.max_ms)
+            timed.push_back(i);
+        else
+            bench.skips.push_back(skipOf(tried[i], group,
+                                         fmt::format("its first frame took {:.4g} ms; --max-ms {:.6g}", ms,
+                                                     bench.options.max_ms)));
+    }
+    std::vector<std::vector<double>> ms(frames.size());
+    for (int run = 0; run < bench.runs; ++run)
+        for (const std::size_t i : timed) {
+            step(i, "frames");
+            ms[i].push_back(frames.draw(i));
+        }
+    std::vector<std::vector<std::vector<PassTime>>> passes(frames.size());
+    for (int run = 0; run < profiledFrames; ++run)
+        for (const std::size_t i : timed) {
+            step(i, "passes");
+            passes[i].push_back(frames.profile(i));
+        }
+    for (const std::size_t i : timed) {
+        const Frame& frame = frames.described(i);
+        BenchRow row{tried[i],      group.scene, group.lights, cameraTitle(frame), timeOf(ms[i]), ms[i],
+                     medians(passes[i]), frame.bytes, frame.counters};
+        row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
+        row.counters.overflowed_lists = frames.overflowedLists(i);
+        bench.rows.push_back(std::move(row));
+        for (const std::string& note : frame.notes)
+            if (std::ranges::count(bench.notes, note) == 0) bench.notes.push_back(note);
+    }
+}
+
+}  // namespace diptych

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/bench.h"
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace diptych {
+namespace {
+
+// Of the drawing, in its own units.
+constexpr double width = 720, panel = 380, left = 74, right = 178, top = 34, bottom = 62;
+
+struct Series {
+    Path path;
+    Assignment assign;
+    std::vector<const BenchRow*> rows;  // by lights, ascending
+};
+
+std::vector<Series> seriesOf(const Bench& bench, const Size& size) {
+    std::vector<Series> all;
+    for (const BenchRow& row : bench.rows) {
+        if (row.settings.size != size) continue;
+        const auto known = std::ranges::find_if(all, [&](const Series& s) {
+            return s.path == row.settings.path && s.assign == row.settings.assign;
+        });
+        if (known != all.end())
+            known->rows.push_back(&row);
+        else
+            all.push_back({row.settings.path, row.settings.assign, {&row}});
+    }
+    for (Series& series : all)
+        std::ranges::stable_sort(series.rows, {}, [](const BenchRow* row) { return row->counters.lights; });
+    return all;
+}
+
+// Told by shape as well as by colour: a path has a mark and a dash, an assignment a colour.
+std::string markAt(Path path, double x, double y) {
+    constexpr double r = 4;
+    return path == Path::deferred
+               ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", at(x), at(y), r)
+               : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", at(x - r),
+                             at(y - r), 2 * r, 2 * r);
+}
+
+std::string groupOf(const Series& series, const std::string& inside) {
+    return fmt::format("<g class=\"series {} {}\">{}</g>", nameOf(series.path), nameOf(series.assign), inside);
+}
+
+std::string panelOf(const Bench& bench, const Size& size, double above) {
+    const std::vector<Series> all = seriesOf(bench, size);
+    std::vector<double> lights, ms;
+    for (const Series& series : all)
+        for (const BenchRow* row : series.rows) {
+            lights.push_back(static_cast<double>(row->counters.lights));
+            ms.insert(ms.end(), {row->time.min, row->time.median, row->time.max});
+        }
+    const LogAxis across(lights), up(ms);
+    const PlotBox box{left, above + top, width - right, above + panel - bottom};
+    const auto x = [&](double n) { return box.left + across.place(n) * (box.right - box.left); };
+    const auto y = [&](double t) { return box.bottom - up.place(t) * (box.bottom - box.top); };
+    Drawing drawing;
+    drawing.axes(box, across.ticks(), x, "lights in the scene", up.ticks(), y, "time of a frame, ms");
+    drawing.text("name", box.left, above + top - 12,
+                 fmt::format("{}x{}, {}", size.width, size.height, bench.scene));
+    std::string out = drawing.group();
+    double row = box.top + 4;
+    for (const Series& series : all) {
+        std::string line, marks;
+        for (const BenchRow* r : series.rows) {
+            const double px = x(static_cast<double>(r->counters.lights)), py = y(r->time.median);
+            line += fmt::format("{}{} {}", line.empty() ? "M" : "L", at(px), at(py));
+            marks += fmt::format(
+                "<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
+                markup(fmt::format("{}, {} lights: {:.4g} ms ({:.4g} to {:.4g})",
+                                   modeName(series.path, series.assign), r->counters.lights, r->time.median,
+                                   r->time.min, r->time.max)),
+                at(px), at(y(r->time.min)), at(y(r->time.max)), markAt(series.path, px, py));
+        }
+        out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));
+        const double lx = box.right + 14;
+        out += groupOf(series,
+                       fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}<text class=\"tick\" x=\"{}\" "
+                                   "y=\"{}\">{}</text>",
+                                   at(lx), at(row), markAt(series.path, lx + 12, row), at(lx + 30),
+                                   at(row + 4), markup(modeName(series.path, series.assign))));
+        row += 19;
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string benchPlot(const Bench& bench, PlotPlace place) {
+    std::string panels;
+    double above = 0;
+    for (const Size& size : sizesOf(bench)) {
+        panels += panelOf(bench, size, above);
+        above += panel;
+    }
+    return plotElement(width, std::max(above, panel), "Time against light count, " + bench.scene, place,
+                       panels);
+}
+
+}  // namespace diptych

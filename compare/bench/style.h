@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace diptych {
+
+extern const char* const benchStyle;  // bench.css, embedded at build time
+
+}  // namespace diptych

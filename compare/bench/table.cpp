@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The benchmark on a terminal.
+#include "compare/bench/bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace diptych {
+
+std::string benchTable(const Bench& bench, std::size_t first) {
+    std::string out;
+    if (first == 0)
+        out = fmt::format("{:>8}  {:>9}  {:<12}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9}  {:>6}  passes, ms\n",
+                          "lights", "size", "path", "assign", "ms", "least", "most", "assign ms", "share");
+    for (std::size_t i = first; i < bench.rows.size(); ++i) {
+        const BenchRow& row = bench.rows[i];
+        std::string passes;
+        for (const PassTime& pass : row.passes)
+            passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
+        out += fmt::format(
+            "{:>8}  {:>9}  {:<12}  {:<10}  {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>9.3g}  {:>5.1f}%  {}\n",
+            row.counters.lights, fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
+            nameOf(row.settings.path), nameOf(row.settings.assign), row.time.median, row.time.min,
+            row.time.max, assignMs(row), 100 * assignShare(row), passes);
+    }
+    return out;
+}
+
+std::string kernelTable(const KernelReport& kernels) {
+    std::string out = fmt::format(
+        "\none listed point light at one pixel, {}x{}, lists of {} and {} of {} lights, {} runs, {} threads\n"
+        "{:<44}  {:>6}  {:>8}  {:>6}\n",
+        kernels.size.width, kernels.size.height, kernels.short_list, kernels.long_list, kernels.lights,
+        kernels.runs, kernels.threads, "kernel", "ns", "over CPU", "goal");
+    for (const KernelRow& row : kernels.rows)
+        out += fmt::format("{:<44}  {:>6.3f}  {:>8}  {:>6}\n", row.name, row.ns,
+                           row.ratio ? fmt::format("{:.2f}x", *row.ratio) : "-",
+                           row.goal ? fmt::format("{:.1f}x", *row.goal) : "-");
+    for (const std::string& note : kernels.notes) out += note + "\n";
+    return out;
+}
+
+std::string benchEnd(const Bench& bench) {
+    std::string out;
+    for (const BenchSkip& skip : bench.skips)
+        out += fmt::format("not timed: {}: {}\n", skipName(skip), skip.reason);
+    for (const BenchRow& row : bench.rows)
+        if (row.counters.nonfinite_pixels > 0)
+            out += fmt::format("{}, {} lights: {} pixels are not finite\n",
+                               modeName(row.settings.path, row.settings.assign), row.counters.lights,
+                               row.counters.nonfinite_pixels);
+    if (bench.kernels) out += kernelTable(*bench.kernels);
+    for (const std::string& note : bench.notes) out += note + "\n";
+    return out;
+}
+
+}  // namespace diptych

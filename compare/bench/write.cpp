@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/bench.h"
+#include "compare/output.h"
+#include "compare/report/report_folder.h"
+#include "shared/image/atomic_file.h"
+
+#include <algorithm>
+
+namespace diptych {
+
+std::string writeBench(const Bench& bench, const std::filesystem::path& path, bool force) {
+    const auto earlier = [&] {
+        checkReplaceable({OutputKind::folder, path}, benchMark, force);
+        return markedIn(path, benchMark);
+    };
+    earlier();
+    ReportFolder folder(path);
+    std::vector<std::string> files{benchMark, "index.html"};
+    writeFile(folder / "index.html", benchHtml(bench));
+    if (!bench.rows.empty()) {
+        files.emplace_back("bench.svg");
+        writeFile(folder / "bench.svg", benchPlot(bench, PlotPlace::file));
+    }
+    std::ranges::sort(files);
+    std::string json = benchJson(bench, files);
+    writeFile(folder / benchMark, json);
+    folder.put(files, earlier);
+    return json;
+}
+
+}  // namespace diptych

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "compare/plot/drawing.h"
+
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+
+namespace diptych {
+
+std::string at(double length) {
+    return fmt::format("{:.1f}", length);
+}
+
+void Drawing::line(const char* kind, double x1, double y1, double x2, double y2) {
+    lines_ += fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", kind, at(x1),
+                          at(y1), at(x2), at(y2));
+}
+
+void Drawing::text(const char* kind, double x, double y, const std::string& words) {
+    texts_ +=
+        fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>", kind, at(x), at(y), markup(words));
+}
+
+void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x,
+                   const std::string& xName, const std::vector<Tick>& up, const Place& y,
+                   const std::string& yName) {
+    for (const Tick& tick : across) {
+        line(tick.text.empty() ? "minor" : "grid", x(tick.value), box.top, x(tick.value), box.bottom);
+        text("tick middle", x(tick.value), box.bottom + 20, tick.text);
+    }
+    for (const Tick& tick : up) {
+        line(tick.text.empty() ? "minor" : "grid", box.left, y(tick.value), box.right, y(tick.value));
+        text("tick end", box.left - 8, y(tick.value) + 4, tick.text);
+    }
+    line("axis", box.left, box.bottom, box.right, box.bottom);
+    line("axis", box.left, box.top, box.left, box.bottom);
+    text("name middle", (box.left + box.right) / 2, box.bottom + 47, xName);
+    texts_ += fmt::format("<text class=\"name middle\" transform=\"translate({} {}) rotate(-90)\">{}</text>",
+                          at(box.left - 56), at((box.top + box.bottom) / 2), markup(yName));
+}
+
+std::string plotElement(double width, double height, const std::string& title, PlotPlace place,
+                        const std::string& inside) {
+    const bool file = place == PlotPlace::file;
+    std::string out =
+        fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" {}role=\"{}\" aria-label=\"{}\">",
+                    width, height, file ? "xmlns=\"http://www.w3.org/2000/svg\" " : "",
+                    file ? "img" : "group", markup(title));
+    if (file)
+        out += fmt::format(
+            "<title>{}</title><style>{}</style><rect class=\"paper\" width=\"100%\" height=\"100%\"/>",
+            markup(title), plotStyle);
+    return out + inside + "</svg>\n";
+}
+
+}  // namespace diptych

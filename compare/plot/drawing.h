@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What plots have in common, as SVG in the classes of plot.css. Lengths are in the drawing's own units.
+#pragma once
+
+#include "compare/plot/log_axis.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+extern const char* const plotStyle;  // plot.css, in a page and in a file of its own
+
+// A file by itself has its style and title in it; in a page both come from there.
+enum class PlotPlace { file, page };
+
+// Where the axes stand.
+struct PlotBox {
+    double left, top, right, bottom;  // edges; y grows downwards
+};
+
+class Drawing {
+public:
+    void line(const char* kind, double x1, double y1, double x2, double y2);
+    void text(const char* kind, double x, double y, const std::string& words);  // escaped
+    void add(const std::string& markup) { lines_ += markup; }
+
+    // Ticks, grid and names of two axes; `x` and `y` place values.
+    using Place = std::function<double(double)>;
+    void axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x, const std::string& xName,
+              const std::vector<Tick>& up, const Place& y, const std::string& yName);
+
+    std::string group() const { return "<g>" + lines_ + texts_ + "</g>"; }  // text on top
+
+private:
+    std::string lines_, texts_;
+};
+
+// A length with one digit behind the point.
+std::string at(double length);
+
+// The element around a plot's markup.
+std::string plotElement(double width, double height, const std::string& title, PlotPlace place,
+                        const std::string& markup);
+
+}  // namespace diptych
