@@ -6,6 +6,7 @@
 #include "compare/bench/workload.h"
 #include "compare/progress.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,17 +30,30 @@ struct KernelReport {
     std::vector<std::string> notes;
 };
 
-// `runs` draws of either length, all kernels in turn.
+// `runs` draws of either length, all kernels in turn, the fastest of each. Of a CPU, as hardware or as Vulkan
+// device, CPU time over its threads; of another device PassList's time.
 KernelReport measureKernels(Device& device, int runs, const Stage& progress);
 
-// The picture that the shader of a kernel draws, W x H x 3; `kernel` is one of deviceKernels().
+// A kernel of shaders/pass/bench_*.frag.
 struct DeviceKernel {
     const char* name;
-    const char* shader;  // file of shaders/pass
-    std::optional<double> goal;
+    const char* shader;          // its file
+    bool subgroups;              // it needs ballots in fragment shaders
+    std::optional<double> goal;  // KernelRow::goal
 };
 const std::vector<DeviceKernel>& deviceKernels();
-Image drawKernel(Device& device, const KernelWorkload& workload, int listLength, const DeviceKernel& kernel);
+// Empty where the device can draw it.
+std::string whyNotDrawn(const Device& device, const DeviceKernel& kernel);
+
+// A kernel over a workload, ready to be drawn. Device and workload outlive it.
+class DrawnKernel {
+public:
+    virtual ~DrawnKernel() = default;
+    virtual double draw(int listLength) = 0;  // ms; a multiple of 4 lights, at most the workload's capacity
+    virtual Image picture() = 0;              // of the last draw, W x H x 3
+};
+std::unique_ptr<DrawnKernel> makeDrawnKernel(Device& device, const KernelWorkload& workload,
+                                             const DeviceKernel& kernel);
 
 // Where the CPU has AVX2 and FMA; runCpuKernel() asks for them.
 bool hasCpuKernel();

@@ -39,6 +39,10 @@ VkFormat formatFor(const DebugMode& mode) {
 
 }  // namespace
 
+std::span<const VkDescriptorType> frameBindings() {
+    return frameTypes;
+}
+
 Layouts::Layouts(Device& device, VkDescriptorSetLayout material) : frame(makeSetLayout(device, frameTypes)) {
     std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> gbufferTypes;
     gbufferTypes.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);

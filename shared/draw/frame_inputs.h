@@ -25,6 +25,9 @@ struct Layouts {
     ListLayouts lists;
 };
 
+// Kinds of the bindings of SET_FRAME, in order.
+std::span<const VkDescriptorType> frameBindings();
+
 // The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
 class FrameBuffers {
 public:

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace diptych {
+
+// One tile of 16 x 16 pixels. This and what it is made with are compiled for AVX2 and FMA: only plain types here,
+// so that no template or inline function shared with other files is.
+struct KernelTile {
+    const float* lights;           // 8 floats each: gpu::Light
+    const std::uint32_t* indices;  // the tile's list
+    int count;                     // lights that are walked
+    int x, y;                      // its first pixel
+    float* row;                    // R, G, B of that pixel
+    std::size_t stride;            // floats from one row of pixels to the next
+};
+void shadeTileAvx2(const KernelTile& tile);
+
+}  // namespace diptych
