@@ -2,6 +2,7 @@
 #include "compare/bench/kernels.h"
 
 #include "compare/bench/kernel_avx2.h"
+#include "shared/vulkan/device.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

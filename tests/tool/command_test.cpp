@@ -76,7 +76,6 @@ TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
             EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
     EXPECT_TRUE(runTool(folder, "render --heat --path reference").failedOver("--heat: light_count: the reference"));
     EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("a.png: no such file"));
-    EXPECT_TRUE(runTool(folder, "bench --paths deferred").failedOver("bench is not built yet"));
 }
 
 TEST(Command, BadInputIsNamed) {

@@ -124,7 +124,6 @@ TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
         {{"choose", "--max-ms", "4", "--max-bytes", "100"}, "choose"},
         {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},
         {{"view", "a.glb", "--size", "64x64"}, "view"},
-        {{"bench", "--paths", "deferred,forward_plus", "--assign", "every,tiled", "--runs", "3"}, "bench"},
         {{"compare", "--pixel", "3,4"}, "--pixel 3,4"},
         {{"render", "--frames", "2", "--fps", "30"}, "--frames 2"},
     };

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// What a benchmark times is what is drawn otherwise, and its kernels are one arithmetic.
+#include "compare/bench/kernels.h"
+#include "tests/image/scenes.h"
+
+#include <limits>
+
+namespace diptych::tests {
+namespace {
+
+Settings mode(Path path, Assignment assign) {
+    Settings settings;
+    settings.path = path;
+    settings.assign = assign;
+    settings.size = {64, 48};
+    return settings;
+}
+
+// Modes that can be drawn, of both paths.
+std::vector<Settings> drawnModes() {
+    std::vector<Settings> modes;
+    for (const auto& [assign, name] : enumNames<Assignment>())
+        for (const Path path : {Path::deferred, Path::forward_plus})
+            if (const Settings settings = mode(path, assign); !settings.problem()) modes.push_back(settings);
+    return modes;
+}
+
+TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
+    const Scene scene = makeBuiltin("spheres?lights=64");
+    Renderer renderer(device(), scene);
+    const std::vector<Settings> modes = drawnModes();
+    ASSERT_GE(modes.size(), 2u);
+    PreparedFrames frames = renderer.prepare(modes);
+    ASSERT_EQ(frames.size(), modes.size());
+    const std::size_t pipelines = renderer.pipelines();
+    EXPECT_GT(pipelines, 0u);
+    std::vector<Image> first;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        EXPECT_GT(frames.draw(i), 0);
+        first.push_back(frames.lit(i));
+    }
+    for (int round = 0; round < 2; ++round)
+        for (std::size_t i = modes.size(); i-- > 0;) {
+            frames.draw(i);
+            EXPECT_EQ(frames.lit(i).data, first[i].data) << nameOf(modes[i].assign) << ", round " << round;
+        }
+    EXPECT_EQ(renderer.pipelines(), pipelines);
+    EXPECT_FALSE(frames.profile(0).empty());
+    // Nor does what a Renderer draws by itself differ.
+    RenderOptions options;
+    options.channels = {static_cast<int>(gpu::DEBUG_lit)};
+    options.runs = 0;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        const Frame frame = renderer.draw(modes[i], options);
+        EXPECT_EQ(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)).data, first[i].data);
+        EXPECT_EQ(frames.described(i).counters.lights, frame.counters.lights);
+    }
+    // The twin: another mode does make pipelines.
+    Settings other = mode(Path::deferred, Assignment::every);
+    other.gbuffer = GBufferEncoding::compact;
+    renderer.prepare(std::vector{other});
+    EXPECT_GT(renderer.pipelines(), pipelines);
+}
+
+// The largest difference over a pixel's largest component.
+double furthest(const Image& a, const Image& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+        const float *p = a.pixel(i), *q = b.pixel(i);
+        const double largest = static_cast<double>(std::max({q[0], q[1], q[2]}));
+        for (int c = 0; c < 3; ++c) {
+            const double difference = std::abs(static_cast<double>(p[c]) - static_cast<double>(q[c]));
+            if (!(difference <= most * largest))
+                most = largest > 0 ? difference / largest : std::numeric_limits<double>::infinity();
+        }
+    }
+    return most;
+}
+
+// Sums of 48 lights of one sign, each of some forty roundings of 6e-8 and, in the CPU's kernel alone, of products
+// fused with sums: 1e-5 is several times that, and far below what another formula would differ by.
+constexpr double oneArithmetic = 1e-5;
+
+TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
+    if (!hasCpuKernel()) GTEST_SKIP() << "no AVX2 and FMA here";
+    const KernelWorkload workload = makeWorkload({64, 48}, 256, 48, 3);
+    Image byHand{64, 48, 3, {}};
+    byHand.data.resize(byHand.pixels() * 3);
+    for (const DeviceKernel& kernel : deviceKernels()) {
+        if (!whyNotDrawn(device(), kernel).empty()) continue;
+        const std::unique_ptr<DrawnKernel> drawn = makeDrawnKernel(device(), workload, kernel);
+        for (const int length : {4, 48}) {
+            drawn->draw(length);
+            const Image picture = drawn->picture();
+            runCpuKernel(workload, length, byHand);
+            EXPECT_GT(byHand.data[0], 0.0f);
+            EXPECT_LT(furthest(byHand, picture), oneArithmetic) << kernel.name << ", " << length << " lights";
+        }
+        // The twin: one light more is seen.
+        runCpuKernel(workload, 47, byHand);
+        EXPECT_GT(furthest(byHand, drawn->picture()), 100 * oneArithmetic);
+    }
+}
+
+TEST(BenchKernels, AWorkloadIsTheSameForTheSameSeed) {
+    const KernelWorkload a = makeWorkload({32, 16}, 64, 8, 5), b = makeWorkload({32, 16}, 64, 8, 5),
+                         other = makeWorkload({32, 16}, 64, 8, 6);
+    EXPECT_EQ(a.indices, b.indices);
+    EXPECT_NE(a.indices, other.indices);
+    ASSERT_EQ(a.indices.size(), 2u * 8);
+    for (std::size_t i = 0; i < a.indices.size(); ++i) {
+        EXPECT_LT(a.indices[i], 64u);
+        if (i % 8 > 0) EXPECT_LT(a.indices[i - 1], a.indices[i]) << "ascending, each once";
+    }
+    EXPECT_THROW(makeWorkload({30, 16}, 64, 8, 5), std::logic_error);
+    EXPECT_THROW(makeWorkload({32, 16}, 64, 6, 5), std::logic_error);
+    EXPECT_THROW(makeWorkload({32, 16}, 4, 8, 5), std::logic_error);
+    EXPECT_THROW(makeWorkload({32, 16}, mostKernelLights + 1, 8, 5), std::logic_error);
+}
+
+}  // namespace
+}  // namespace diptych::tests

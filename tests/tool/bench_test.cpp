@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Benchmarks through the whole program.
+#include "tests/tool/sweep.h"
+
+#include <set>
+
+namespace diptych {
+namespace {
+
+constexpr const char* small = "bench builtin:spheres --sizes 32x24,16x12 --assign every --runs 2 ";
+
+TEST(Bench, LeavesTableJsonPlotAndPage) {
+    const Folder folder;
+    const Ran ran = runTool(folder, std::string(small) + "--light-counts 1,4,16 --kernels off --json -q -o b");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    EXPECT_EQ(ran.out, contentsOf(folder / "b/bench.json")) << "--json prints it and nothing else";
+    const Json bench = readJson(folder / "b/bench.json");
+    std::set<std::string> listed, there;
+    for (const Json& name : bench["files"]) listed.insert(name);
+    for (const auto& entry : fs::directory_iterator(folder / "b")) there.insert(entry.path().filename());
+    EXPECT_EQ(listed, there);
+    EXPECT_EQ(there, (std::set<std::string>{"bench.json", "bench.svg", "index.html"}));
+    ASSERT_EQ(bench["frames"].size(), 12u) << "2 paths, 2 sizes, 3 counts";
+    std::set<int> lights;
+    for (const Json& row : bench["frames"]) {
+        EXPECT_EQ(row["ms"]["runs"], 2);
+        EXPECT_GT(row["ms"]["min"], 0);
+        EXPECT_LE(row["ms"]["min"], row["ms"]["median"]);
+        EXPECT_LE(row["ms"]["median"], row["ms"]["max"]);
+        EXPECT_FALSE(row["passes"].empty());
+        EXPECT_EQ(row["counters"]["lights"], row["light_count"].get<int>() + 1) << "and the sun";
+        EXPECT_EQ(row["counters"]["nonfinite_pixels"], 0);
+        EXPECT_GE(row["assign_share"], 0);
+        EXPECT_LE(row["assign_share"], 1);
+        lights.insert(row["light_count"].get<int>());
+    }
+    EXPECT_EQ(lights, (std::set<int>{1, 4, 16}));
+    EXPECT_TRUE(bench["kernels"].is_null());
+    // Its own folder may be written again, another's not.
+    EXPECT_EQ(runTool(folder, std::string(small) + "--kernels off -q -o b").code, 0);
+    folder.write("other/note.txt", "mine");
+    EXPECT_TRUE(runTool(folder, std::string(small) + "-o other").failedOver("-o other"));
+}
+
+TEST(Bench, SkipsWithAReasonWhatIsNotDrawnOrTooSlow) {
+    const Folder folder;
+    const Ran ran = runTool(
+        folder, "bench builtin:triangle --size 16x12 --runs 1 --kernels off --paths deferred "
+                "--assign every,per_object --light-counts 1,2 --max-ms 1e-6 -o b");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json bench = readJson(folder / "b/bench.json");
+    EXPECT_TRUE(bench["frames"].empty());
+    ASSERT_EQ(bench["skipped"].size(), 3u) << bench["skipped"];
+    EXPECT_EQ(bench["skipped"][0]["assign"], "per_object");
+    EXPECT_NE(bench["skipped"][1]["reason"].get<std::string>().find("its first frame took"), std::string::npos);
+    EXPECT_NE(bench["skipped"][2]["reason"].get<std::string>().find("with 1 lights already"), std::string::npos);
+    EXPECT_NE(ran.out.find("not timed: deferred, every, 16x12, 2 lights: over --max-ms 1e-06"),
+              std::string::npos)
+        << ran.out;
+    EXPECT_FALSE(fs::exists(folder / "b/bench.svg")) << "nothing to plot";
+}
+
+TEST(Bench, KernelsAlone) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "bench --kernels only --runs 1 -o b");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json bench = readJson(folder / "b/bench.json");
+    EXPECT_TRUE(bench["frames"].empty());
+    std::set<std::string> names;
+    for (const Json& row : bench["kernels"]["rows"]) {
+        names.insert(row["name"]);
+        EXPECT_TRUE(row["ns"].is_number());
+    }
+    EXPECT_TRUE(names.contains("storage buffer, divergent base"));
+    EXPECT_NE(ran.out.find("over CPU"), std::string::npos);
+}
+
+TEST(Bench, WhatItCannotDoIsNamed) {
+    const Folder folder;
+    EXPECT_TRUE(runTool(folder, "bench --runs 0").failedOver("--runs 0"));
+    EXPECT_TRUE(runTool(folder, "bench a.glb b.glb").failedOver("b.glb: a benchmark is of one scene"));
+    EXPECT_TRUE(runTool(folder, "bench --camera 0 --camera 1").failedOver("--camera"));
+    EXPECT_TRUE(runTool(folder, "bench --path reference").failedOver("--path reference"));
+    EXPECT_TRUE(runTool(folder, "bench -o x.png").failedOver("-o x.png"));
+    EXPECT_TRUE(runTool(folder, "bench no.glb").failedOver("no.glb"));
+    EXPECT_TRUE(runTool(folder, "bench --paths deferred --assign per_object").failedOver("nothing to time"));
+    EXPECT_FALSE(fs::exists(folder / "diptych-bench"));
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// What a benchmark plans, predicts and writes, of made-up times.
+#include "compare/bench/bench.h"
+#include "compare/command_line.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+template <class Call>
+std::string thrownBy(Call&& call) {
+    try {
+        call();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+BenchOptions asked(const std::vector<std::string>& words) {
+    std::vector<std::string> line{"bench", "builtin:spheres"};
+    line.insert(line.end(), words.begin(), words.end());
+    return parseCommandLine(line).bench;
+}
+
+TEST(BenchPlan, ListsParseAndAreNamedWhereTheyDoNot) {
+    const BenchOptions bench =
+        asked({"--paths", "forward_plus", "--assign", "every,tiled,every", "--sizes", "16x12,8x8",
+               "--light-counts", "256,4,16,4", "--max-ms", "12.5", "--kernels", "off"});
+    EXPECT_EQ(bench.paths, std::vector{Path::forward_plus});
+    EXPECT_EQ(bench.assign, (std::vector{Assignment::every, Assignment::tiled}));
+    EXPECT_EQ(bench.sizes, (std::vector{Size{16, 12}, Size{8, 8}}));
+    EXPECT_EQ(bench.light_counts, (std::vector<std::uint32_t>{4, 16, 256}));
+    EXPECT_EQ(bench.max_ms, 12.5);
+    EXPECT_TRUE(bench.frames);
+    EXPECT_FALSE(bench.kernels);
+    EXPECT_FALSE(asked({"--kernels", "only"}).frames);
+    const std::pair<std::vector<std::string>, const char*> wrong[] = {
+        {{"--paths", "sideways"}, "--paths sideways"},
+        {{"--paths", "reference"}, "--paths reference"},
+        {{"--assign", "tiled,,every"}, "--assign 'tiled,,every'"},
+        {{"--assign", "some"}, "--assign some"},
+        {{"--sizes", "12"}, "--sizes 12"},
+        {{"--light-counts", "4,-1"}, "--light-counts -1"},
+        {{"--light-counts", "4.5"}, "--light-counts 4.5"},
+        {{"--light-counts", "4294967296"}, "--light-counts 4294967296"},
+        {{"--max-ms", "0"}, "--max-ms 0"},
+        {{"--max-ms", "nan"}, "--max-ms nan"},
+        {{"--kernels", "yes"}, "--kernels yes"}};
+    for (const auto& [words, message] : wrong)
+        EXPECT_EQ(thrownBy([&] { asked(words); }).find(message), 0u) << words[1];
+}
+
+TEST(BenchPlan, EveryModeOfACountIsTimedInTurn) {
+    BenchOptions options;
+    options.assign = {Assignment::every};
+    options.sizes = {{32, 24}, {16, 12}};
+    options.light_counts = {16, 64};
+    const BenchPlan plan = planBench("builtin:spheres?lights=7", Settings(), options);
+    ASSERT_EQ(plan.groups.size(), 2u);
+    EXPECT_EQ(plan.groups[1].scene, "builtin:spheres?lights=64");
+    EXPECT_EQ(plan.groups[1].lights, 64u);
+    EXPECT_EQ(plan.groups[0].settings.size(), 4u) << "2 paths, 2 sizes";
+    EXPECT_EQ(plan.groups[0].settings[3].path, Path::forward_plus);
+    EXPECT_EQ(plan.groups[0].settings[3].size, (Size{16, 12}));
+}
+
+TEST(BenchPlan, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
+    BenchOptions options;
+    options.assign = {Assignment::every, Assignment::per_object};
+    options.paths = {Path::deferred};
+    options.light_counts = {1, 2, 3};
+    Settings perObject;
+    perObject.path = Path::deferred;
+    perObject.assign = Assignment::per_object;
+    ASSERT_TRUE(perObject.problem());
+    const BenchPlan plan = planBench("builtin:spheres", Settings(), options);
+    ASSERT_EQ(plan.skips.size(), 1u);
+    EXPECT_EQ(plan.skips[0].reason, *perObject.problem());
+    EXPECT_EQ(skipName(plan.skips[0]), "deferred, per_object");
+    EXPECT_EQ(plan.groups.size(), 3u);
+    options.assign = {Assignment::per_object};
+    EXPECT_EQ(thrownBy([&] { planBench("builtin:spheres", Settings(), options); })
+                  .find("nothing to time: deferred, per_object: "),
+              0u);
+}
+
+TEST(BenchPlan, LightsComeFromTheSceneAFileOrARig) {
+    BenchOptions options;
+    options.light_counts = {0, 64};
+    EXPECT_EQ(planBench("a.glb", Settings(), options).groups[0].settings[0].lights, "");
+    EXPECT_EQ(planBench("a.glb", Settings(), options).groups[1].settings[0].lights, "point:64");
+    EXPECT_EQ(planBench("a.glb", Settings(), options).groups[1].scene, "a.glb");
+    EXPECT_EQ(planBench("builtin:triangle", Settings(), options).groups[1].settings[0].lights, "point:64")
+        << "it takes no ?lights=N";
+    Settings files;
+    files.lights = "rigs/{}.lights.json";
+    EXPECT_EQ(planBench("builtin:spheres", files, options).groups[1].settings[0].lights,
+              "rigs/64.lights.json");
+    EXPECT_EQ(planBench("builtin:spheres", files, options).groups[1].scene, "builtin:spheres");
+    files.lights = "spot:4";
+    EXPECT_EQ(thrownBy([&] { planBench("a.glb", files, options); }).find("--lights spot:4: --light-counts"),
+              0u);
+    options.light_counts.clear();
+    EXPECT_EQ(planBench("a.glb", files, options).groups[0].settings[0].lights, "spot:4");
+    EXPECT_FALSE(planBench("a.glb", files, options).groups[0].lights);
+}
+
+TEST(BenchPlan, PredictsAlongTheLastTwo) {
+    using Points = std::vector<std::pair<std::uint32_t, double>>;
+    EXPECT_FALSE(predictedMs(Points{}, 64));
+    EXPECT_FALSE(predictedMs(Points{{16, 20}}, 64));
+    EXPECT_DOUBLE_EQ(*predictedMs(Points{{16, 20}, {64, 68}}, 256), 260.0);
+    EXPECT_DOUBLE_EQ(*predictedMs(Points{{4, 500}, {16, 20}, {64, 68}}, 256), 260.0);
+    EXPECT_DOUBLE_EQ(*predictedMs(Points{{16, 20}, {64, 19}}, 1024), 19.0) << "noise takes no time off";
+}
+
+BenchRow row(const char* path, const char* assign, const char* size, std::uint32_t lights, double ms,
+             std::vector<PassTime> passes) {
+    BenchRow made;
+    set(made.settings, "path", path);
+    set(made.settings, "assign", assign);
+    set(made.settings, "size", size);
+    made.scene = "builtin:spheres";
+    made.asked = lights;
+    made.counters.lights = lights + 1;
+    made.time = {ms, 0.5 * ms, 2 * ms, 3};
+    made.ms = {ms, 0.5 * ms, 2 * ms};
+    made.passes = std::move(passes);
+    return made;
+}
+
+Bench several() {
+    Bench bench;
+    bench.scene = "a & b's <scene>";
+    bench.device = {"llvmpipe", "Mesa", "cpu"};
+    bench.runs = 3;
+    bench.rows = {row("deferred", "every", "64x48", 16, 10, {{"G-buffer", 4}, {"shade", 6}}),
+                  row("deferred", "every", "64x48", 1024, 400, {{"G-buffer", 4}, {"shade", 396}}),
+                  row("forward_plus", "clustered", "64x48", 16, 8,
+                      {{"assign froxels", 0.5}, {"assign lights", 0.5}, {"shade", 7}}),
+                  row("forward_plus", "clustered", "64x48", 1024, 40, {{"assign lights", 10}, {"shade", 30}}),
+                  row("deferred", "every", "32x24", 16, 3, {{"shade", 3}})};
+    bench.skips = {{Path::deferred, Assignment::every, Size{64, 48}, 4096, "would take <long>"}};
+    KernelReport kernels{{640, 352}, 16, 48, 512, 9, 2, {}, {"a note"}};
+    kernels.rows = {{"by hand", 1.25, {}, {}}, {"uniform buffer", 2.5, 2.0, 2.4}};
+    bench.kernels = kernels;
+    bench.notes = {"one note"};
+    return bench;
+}
+
+TEST(BenchOutput, TheShareIsOfThePassesThatAssign) {
+    const Bench bench = several();
+    EXPECT_EQ(assignMs(bench.rows[0]), 0.0);
+    EXPECT_EQ(assignShare(bench.rows[0]), 0.0);
+    EXPECT_DOUBLE_EQ(assignMs(bench.rows[2]), 1.0);
+    EXPECT_DOUBLE_EQ(assignShare(bench.rows[2]), 0.125);
+    EXPECT_DOUBLE_EQ(assignShare(bench.rows[3]), 0.25);
+    EXPECT_EQ(assignShare(BenchRow{}), 0.0);
+}
+
+TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
+    const Bench bench = several();
+    const std::string table = benchTable(bench, 0);
+    EXPECT_EQ(std::ranges::count(table, '\n'), 6) << table;
+    EXPECT_EQ(std::ranges::count(benchTable(bench, 4), '\n'), 1);
+    EXPECT_NE(table.find("25.0%"), std::string::npos) << table;
+    const std::string end = benchEnd(bench);
+    EXPECT_NE(end.find("not timed: deferred, every, 64x48, 4096 lights: would take <long>\n"),
+              std::string::npos);
+    EXPECT_NE(end.find("2.00x"), std::string::npos) << end;
+    EXPECT_NE(end.find("2.4x"), std::string::npos) << end;
+    EXPECT_NE(end.find("one note\n"), std::string::npos);
+}
+
+TEST(BenchOutput, JsonReadsBack) {
+    const Bench bench = several();
+    const Json json = Json::parse(benchJson(bench, {"bench.json"}));
+    EXPECT_EQ(json["schema"], 1);
+    EXPECT_EQ(json["software"], "diptych");
+    ASSERT_EQ(json["frames"].size(), 5u);
+    const Json& row = json["frames"][3];
+    EXPECT_EQ(row["name"], "forward_plus, clustered");
+    EXPECT_EQ(row["light_count"], 1024);
+    EXPECT_EQ(row["counters"]["lights"], 1025);
+    EXPECT_EQ(row["ms"]["median"], 40.0);
+    EXPECT_EQ(row["ms"]["all"].size(), 3u);
+    EXPECT_EQ(row["assign_ms"], 10.0);
+    EXPECT_EQ(row["assign_share"], 0.25);
+    EXPECT_EQ(row["size"], (Json{64, 48}));
+    EXPECT_EQ(row["settings"]["assign"], "clustered");
+    EXPECT_EQ(json["skipped"][0]["reason"], "would take <long>");
+    EXPECT_EQ(json["skipped"][0]["light_count"], 4096);
+    EXPECT_EQ(json["kernels"]["rows"][1]["ratio"], 2.0);
+    EXPECT_TRUE(json["kernels"]["rows"][0]["ratio"].is_null());
+    Bench plain = bench;
+    plain.kernels.reset();
+    plain.rows[0].asked.reset();
+    const Json without = Json::parse(benchJson(plain, {}));
+    EXPECT_TRUE(without["kernels"].is_null());
+    EXPECT_TRUE(without["frames"][0]["light_count"].is_null());
+}
+
+// Where each point of a mode's line stands in the plot, in its order.
+std::vector<std::array<double, 2>> pointsOf(const std::string& svg, const std::string& mode) {
+    std::vector<std::array<double, 2>> points;
+    const std::regex line("<g class=\"series " + mode + "\"><path class=\"trace\" d=\"M([^\"]*)\"");
+    std::smatch match;
+    if (!std::regex_search(svg, match, line)) return points;
+    std::string words = match[1];
+    std::ranges::replace(words, 'L', ' ');
+    std::istringstream stream(words);
+    for (std::array<double, 2> p{}; stream >> p[0] >> p[1];) points.push_back(p);
+    return points;
+}
+
+TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
+    const Bench bench = several();
+    const std::string svg = benchPlot(bench, PlotPlace::file);
+    const auto every = pointsOf(svg, "deferred every"), clustered = pointsOf(svg, "forward_plus clustered");
+    ASSERT_EQ(every.size(), 2u) << svg;
+    ASSERT_EQ(clustered.size(), 2u);
+    EXPECT_LT(every[0][0], every[1][0]) << "more lights stand to the right";
+    EXPECT_GT(every[0][1], every[1][1]) << "longer stands above";
+    EXPECT_EQ(every[1][0], clustered[1][0]);
+    EXPECT_LT(every[1][1], clustered[1][1]);
+    // Both axes are logarithmic: times 40 and times 5 of one axis.
+    EXPECT_NEAR((every[0][1] - every[1][1]) / (clustered[0][1] - clustered[1][1]),
+                std::log(40.0) / std::log(5.0), 0.02);
+    EXPECT_NE(svg.find("64x48, a &amp; b&#39;s &lt;scene&gt;"), std::string::npos) << svg;
+    EXPECT_NE(svg.find(">32x24"), std::string::npos);
+    EXPECT_NE(svg.find("viewBox=\"0 0 720 760\""), std::string::npos) << "two panels";
+    EXPECT_NE(svg.find("xmlns="), std::string::npos);
+    EXPECT_EQ(benchPlot(bench, PlotPlace::page).find("xmlns="), std::string::npos);
+}
+
+TEST(BenchOutput, ThePageHasEverything) {
+    const std::string page = benchHtml(several());
+    for (const char* part : {"<svg class=\"chart\"", "assign lights 10", "25.0 %", "would take &lt;long&gt;",
+                             "uniform buffer", "at most 2.4", "one note", "a note", "bench.json"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_EQ(page.find("<scene>"), std::string::npos);
+    Bench kernelsOnly = several();
+    kernelsOnly.rows.clear();
+    EXPECT_EQ(benchHtml(kernelsOnly).find("<svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace diptych
