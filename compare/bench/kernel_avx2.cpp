@@ -51,21 +51,22 @@ Vec3 normalized(const Vec3& v) {
 struct Brdf {
     Vec3 diffuse, f0;
     float f90, base_f0, base_f90;
-    Float alpha, n_dot_v;
+    Float alpha, alpha2, n_dot_v, smith_v;
 };
 
-Float distributionGgx(Float alpha, const Vec3& n, const Vec3& h) {
-    const Vec3 n_cross_h = cross(n, h);
-    const Float n_dot_h = dot(n, h), a = n_dot_h * alpha;
-    const Float k = alpha / (dot(n_cross_h, n_cross_h) + a * a);
-    return whereGreater(n_dot_h, splat(0), k * k * gpu::INVERSE_PI, splat(0));
+Float ggxDenominator(Float alpha2, const Vec3& n, const Vec3& s) {
+    const Vec3 n_cross_s = cross(n, s);
+    const Float n_dot_s = dot(n, s);
+    return dot(n_cross_s, n_cross_s) + n_dot_s * n_dot_s * alpha2;
 }
 
-Float visibilitySmith(Float alpha, Float n_dot_v, Float n_dot_l) {
-    const Float a2 = alpha * alpha;
-    const Float lambda_v = n_dot_l * root(n_dot_v * n_dot_v * (1.0f - a2) + a2);
-    const Float lambda_l = n_dot_v * root(n_dot_l * n_dot_l * (1.0f - a2) + a2);
-    return 0.5f / (lambda_v + lambda_l);
+Float specularLobe(const Brdf& b, const Vec3& n, const Vec3& s, Float s2, Float n_dot_l) {
+    const Float q = ggxDenominator(b.alpha2, n, s);
+    const Float lambda =
+        n_dot_l * b.smith_v + b.n_dot_v * root(n_dot_l * n_dot_l * (1.0f - b.alpha2) + b.alpha2);
+    const Float a = b.alpha * s2;
+    const Float lobe = a * a * (0.5f * gpu::INVERSE_PI) / larger(q * q * lambda, splat(1e-37f));
+    return whereGreater(dot(n, s), splat(0), whereGreater(s2, splat(1e-12f), lobe, splat(0)), splat(0));
 }
 
 Float schlickWeight(Float v_dot_h) {
@@ -76,15 +77,11 @@ Float schlickWeight(Float v_dot_h) {
 void addLight(const Brdf& b, const Vec3& n, const Vec3& v, const Vec3& l, const Vec3& irradiance, Vec3& diffuse,
               Vec3& specular) {
     const Float n_dot_l = clamped(dot(n, l));
-    const Vec3 sum{l.x + v.x, l.y + v.y, l.z + v.z};
-    const Float length2 = dot(sum, sum), inverse = 1.0f / root(length2), least = splat(1e-12f);
-    const Vec3 h{whereGreater(length2, least, sum.x * inverse, n.x),
-                 whereGreater(length2, least, sum.y * inverse, n.y),
-                 whereGreater(length2, least, sum.z * inverse, n.z)};
-    const Float weight = schlickWeight(dot(v, h));
+    const Vec3 s{l.x + v.x, l.y + v.y, l.z + v.z};
+    const Float s2 = dot(s, s);
+    const Float weight = schlickWeight(0.5f * root(s2));
     const Float base = 1.0f - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
-    const Float lobe = distributionGgx(b.alpha, n, h) *
-                       visibilitySmith(b.alpha, b.n_dot_v, larger(n_dot_l, splat(1e-7f)));
+    const Float lobe = specularLobe(b, n, s, s2, n_dot_l);
     const Vec3 received = scaled(irradiance, n_dot_l);
     diffuse.x += b.diffuse.x * base * received.x;
     diffuse.y += b.diffuse.y * base * received.y;
@@ -115,7 +112,11 @@ Pixels pixelsAt(Float x, Float y) {
               dielectric,
               1,
               roughness * roughness,
-              larger(dot(p.normal, p.view), splat(gpu::MIN_N_DOT_V))};
+              splat(0),
+              larger(dot(p.normal, p.view), splat(gpu::MIN_N_DOT_V)),
+              splat(0)};
+    p.brdf.alpha2 = p.brdf.alpha * p.brdf.alpha;
+    p.brdf.smith_v = root(p.brdf.n_dot_v * p.brdf.n_dot_v * (1.0f - p.brdf.alpha2) + p.brdf.alpha2);
     return p;
 }
 
@@ -135,9 +136,9 @@ void shadeTileAvx2(const KernelTile& tile) {
                 const Float d2 =
                     larger(dot(to_light, to_light), splat(gpu::MIN_LIGHT_DISTANCE_SQUARED));
                 const Float x = d2 * light[3];
-                const Float strength =
-                    whereGreater(splat(1), x, 1.0f - x * x, splat(0)) / d2;
-                addLight(p.brdf, p.normal, p.view, scaled(to_light, 1.0f / root(d2)),
+                const Float window = whereGreater(splat(1), x, 1.0f - x * x, splat(0));
+                const Float inverse = 1.0f / root(d2), strength = window * (inverse * inverse);
+                addLight(p.brdf, p.normal, p.view, scaled(to_light, inverse),
                          {light[4] * strength, light[5] * strength, light[6] * strength}, diffuse, specular);
             }
             const Float lit[3] = {diffuse.x + specular.x, diffuse.y + specular.y, diffuse.z + specular.z};
