@@ -87,7 +87,7 @@ Shot::Shot(Device& device, SharedResources& shared, const Scene& scene, const Se
              buffers.set(),
              buffers.carriedNothing(),
              buffers.lists(),
-             sceneVariant(needs, lights, view, gbuffer),
+             sceneVariant(needs, lights, view, gbuffer, settings.area_lights),
              gbuffer,
              settings.prepass != Switch::off} {
     buffers.lists().specialise(inputs.variant);

@@ -12,7 +12,6 @@ std::vector<std::string> undrawnLight(Path path, const Requirements& needs) {
         notes.push_back(fmt::format("{}: not drawn by {} yet: the reference has {}", what, nameOf(path),
                                     one ? "it" : "them"));
     };
-    if (needs.areaLights() > 0) note(needs.areaLightsInWords(), needs.areaLights() == 1);
     if (needs.sun_discs > 0)
         note(needs.sun_discs == 1 ? "1 sun's disc" : fmt::format("{} suns' discs", needs.sun_discs),
              needs.sun_discs == 1);

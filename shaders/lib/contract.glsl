@@ -5,6 +5,7 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shared/contract/area_light.h"
 #include "shared/contract/bindings.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
@@ -13,6 +14,7 @@
 #include "shared/contract/geometry.h"
 #include "shared/contract/light.h"
 #include "shared/contract/light_list.h"
+#include "shared/contract/ltc.h"
 #include "shared/contract/material.h"
 #include "shared/contract/view.h"
 

@@ -10,6 +10,7 @@
 
 layout(set = SET_FRAME, binding = BINDING_LIGHTS) uniform samplerBuffer light_texels;
 layout(set = SET_FRAME, binding = BINDING_SPOT_CONES) uniform samplerBuffer spot_cone_texels;
+layout(set = SET_FRAME, binding = BINDING_AREA_LIGHTS) uniform samplerBuffer area_light_texels;
 layout(set = SET_FRAME, binding = BINDING_LIST_HEADS) uniform usamplerBuffer list_heads;
 layout(set = SET_FRAME, binding = BINDING_LIST_INDICES) uniform usamplerBuffer list_indices;
 layout(set = SET_FRAME, binding = BINDING_LIST_COUNTS, scalar) readonly buffer Listed { uint listed[]; };
@@ -23,6 +24,17 @@ SpotCone spotConeAt(uint i) {
     uint cone = min(i - view.directional_light_count - view.point_light_count, view.spot_light_count);  // the null light's last
     vec4 a = texelFetch(spot_cone_texels, int(2u * cone)), b = texelFetch(spot_cone_texels, int(2u * cone + 1u));
     return SpotCone(a.xyz, a.w, b.x, b.yzw);
+}
+
+// Of local light i its number among the area lights; the null light's is the last.
+uint areaNumber(uint i) {
+    return min(i - view.directional_light_count - view.point_light_count - view.spot_light_count,
+               view.rect_light_count + view.disc_light_count + view.tube_light_count);
+}
+AreaLight areaLightAt(uint area) {
+    vec4 a = texelFetch(area_light_texels, int(3u * area)), b = texelFetch(area_light_texels, int(3u * area + 1u)),
+         c = texelFetch(area_light_texels, int(3u * area + 2u));
+    return AreaLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
 }
 
 // A pixel's lights as groups of its list; without lists (LISTS_NONE) a group is a light and the list all local ones.
@@ -39,7 +51,8 @@ PixelLights lightsAt(vec2 pixel, float z) {
         return PixelLights(list, LightListHead(head.x, head.y, head.z, head.w));
     }
     uint points = view.point_light_count, spots = points + view.spot_light_count;
-    return PixelLights(0u, LightListHead(0u, points, spots, spots));
+    uint areas = view.rect_light_count + view.disc_light_count + view.tube_light_count;
+    return PixelLights(0u, LightListHead(0u, points, spots, spots + areas));
 }
 
 // Lights that were evaluated at the pixel, the directional ones too; whether its list found no room.
@@ -63,5 +76,10 @@ uvec4 lightsOfGroup(uint group) {
     if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + group);
     return texelFetch(list_indices, int(group));
 }
+// Of the places of groups, list_width each.
+uint lightOfPlace(uint place) {
+    return lightsOfGroup(place / feature_list_width)[place % feature_list_width];
+}
+bool isNullLight(uint i) { return feature_list_width > 1 && i == grid.null_light; }
 
 #endif

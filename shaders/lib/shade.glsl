@@ -3,6 +3,7 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
+#include "shaders/lib/area.glsl"
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/carry.glsl"
 #include "shaders/lib/light_lists.glsl"
@@ -42,6 +43,21 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
     addIncident(shading, fromSpotLight(lightAt(i), spotConeAt(i), shading.surface.position), radiance);
 }
 
+// By its place among the area lights: rectangles, discs, tubes. On lavapipe a light costs what all the shapes that
+// the scene has cost together.
+void addArea(AreaView area, uint i, vec3 position, inout Radiance radiance) {
+    Light light = lightAt(i);
+    uint number = areaNumber(i);
+    AreaLight shape = areaLightAt(number);
+    uint discs = view.rect_light_count, tubes = discs + view.disc_light_count;
+    if (on(feature_rect_lights) && number < discs)
+        addRect(area, light, shape, position, radiance.diffuse, radiance.specular);
+    if (on(feature_disc_lights) && number >= discs && number < tubes)
+        addDisc(area, light, shape, position, radiance.diffuse, radiance.specular);
+    if (on(feature_tube_lights) && number >= tubes)
+        addTube(area, light, shape, position, radiance.diffuse, radiance.specular);
+}
+
 // The groups [x, y) of one kind, one at least with lists: on lavapipe a loop that tests last runs a body less than one
 // that tests first.
 #define ADD_GROUPS(add, groups)                                \
@@ -75,6 +91,18 @@ Radiance shade(Surface s, PixelLights lights) {
             addIncident(shading, fromDirectionalLight(lightAt(i)), radiance);
     if (on(feature_point_lights)) ADD_GROUPS(addPoint, walked(lights, lights.groups.begin, lights.groups.point_end))
     if (on(feature_spot_lights)) ADD_GROUPS(addSpot, walked(lights, lights.groups.point_end, lights.groups.spot_end))
+    if (on(feature_area_lights)) {
+        AreaView area = areaView(shading.brdf, s, v);
+        uvec2 range = walked(lights, lights.groups.spot_end, lights.groups.end) * feature_list_width;
+        uint next = range.x, i = lightOfPlace(next);
+        bool more = next < range.y;
+        while (more) {
+            addArea(area, i, s.position, radiance);
+            i = lightOfPlace(++next);
+            // What fills the last group up is dear here.
+            more = next < range.y && !isNullLight(i);
+        }
+    }
     return radiance;
 }
 

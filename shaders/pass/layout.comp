@@ -17,6 +17,7 @@ layout(set = 3, binding = 8, scalar) buffer LightGridArray { LightGrid light_gri
 layout(set = 3, binding = 9, scalar) buffer LightBoundArray { LightBound light_bound_array[]; };
 layout(set = 3, binding = 10, scalar) buffer LightListHeadArray { LightListHead light_list_head_array[]; };
 layout(set = 3, binding = 11, scalar) buffer LightListCountArray { LightListCount light_list_count_array[]; };
+layout(set = 3, binding = 12, scalar) buffer AreaLightArray { AreaLight area_light_array[]; };
 layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
 
 void main() {
@@ -29,6 +30,7 @@ void main() {
     light_bound_array[0] = light_bound_array[1];
     light_list_head_array[0] = light_list_head_array[1];
     light_list_count_array[0] = light_list_count_array[1];
+    area_light_array[0] = area_light_array[1];
     vertex_attributes_array[0] = vertex_attributes_array[1];
     draw_constants_array[0] = draw_constants_array[1];
     texture_transform_array[0] = texture_transform_array[1];

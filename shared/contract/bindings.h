@@ -18,7 +18,8 @@ CONTRACT_CONST(uint, BINDING_DRAWS, 1);      // buffer Draw[]
 CONTRACT_CONST(uint, BINDING_MATERIALS, 2);  // buffer Material[]
 CONTRACT_CONST(uint, BINDING_LIGHTS, 3);     // texels of Light[]
 CONTRACT_CONST(uint, BINDING_SPOT_CONES, 4); // texels of SpotCone[]
-
+CONTRACT_CONST(uint, BINDING_AREA_LIGHTS, 5); // texels of AreaLight[]
+CONTRACT_CONST(uint, BINDING_LTC_TABLE, 6);   // image: ltc.h
 CONTRACT_CONST(uint, BINDING_LIGHT_GRID, 7);    // uniform LightGrid
 CONTRACT_CONST(uint, BINDING_LIST_HEADS, 8);    // texels of LightListHead[lists]
 CONTRACT_CONST(uint, BINDING_LIST_INDICES, 9);  // texels of uint[]: into the lights, list_width at once

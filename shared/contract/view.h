@@ -26,6 +26,9 @@ struct View {
     uint directional_light_count;
     uint point_light_count;
     uint spot_light_count;
+    uint rect_light_count;
+    uint disc_light_count;
+    uint tube_light_count;
 };
 
 CONTRACT_END

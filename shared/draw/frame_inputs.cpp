@@ -18,8 +18,8 @@ constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                            storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                            texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 // In the order of BINDING_* of SET_FRAME.
-constexpr std::array frameTypes{uniform, storage, storage, texels, texels, storage,
-                                storage, uniform, texels,  texels, storage};
+constexpr std::array frameTypes{uniform, storage, storage, texels, texels, texels,
+                                VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, uniform, texels, texels, storage};
 
 constexpr std::array carriedTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
@@ -76,6 +76,9 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.directional_light_count = lights.directional;
     gpuView.point_light_count = lights.point;
     gpuView.spot_light_count = lights.spot;
+    gpuView.rect_light_count = lights.rect;
+    gpuView.disc_light_count = lights.disc;
+    gpuView.tube_light_count = lights.tube;
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     draws_ =
@@ -86,6 +89,10 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                             VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     lights_view_ = makeTexelView(device, "lights", lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
     spot_cones_view_ = makeTexelView(device, "spot cones", spot_cones_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    area_lights_ = makeBuffer<gpu::AreaLight>(device, uploader, "area lights", lights.area_lights,
+                                              VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    area_lights_view_ = makeTexelView(device, "area lights", area_lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    ltc_ = LtcImage(device, uploader, lights.area() > 0);
     uploader.flush();
     constexpr std::array<float, 4> black{};
     uploader.level(nothing_, 0, std::as_bytes(std::span(black)));
@@ -98,17 +105,26 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     sets_.buffer(0, gpu::BINDING_MATERIALS, materials.buffer());
     sets_.texels(0, gpu::BINDING_LIGHTS, lights_view_);
     sets_.texels(0, gpu::BINDING_SPOT_CONES, spot_cones_view_);
+    sets_.texels(0, gpu::BINDING_AREA_LIGHTS, area_lights_view_);
+    sets_.image(0, gpu::BINDING_LTC_TABLE, ltc_.view(), ltc_.sampler(),
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     lists_.bind(sets_);
 }
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer) {
+                     const GBufferLayout& gbuffer, AreaLights area_lights) {
     Variant variant;
+    if (lights.area() > 0)
+        variant.set(gpu::FEATURE_area_lights, area_lights == AreaLights::ltc ? gpu::AREA_LIGHTS_LTC
+                                                                             : gpu::AREA_LIGHTS_REPRESENTATIVE);
     variant.set(gpu::FEATURE_emission, needs.emission)
         .set(gpu::FEATURE_dielectric_specular, needs.dielectric_specular)
         .set(gpu::FEATURE_directional_lights, lights.directional > 0)
         .set(gpu::FEATURE_point_lights, lights.point > 0)
         .set(gpu::FEATURE_spot_lights, lights.spot > 0)
+        .set(gpu::FEATURE_rect_lights, lights.rect > 0)
+        .set(gpu::FEATURE_disc_lights, lights.disc > 0)
+        .set(gpu::FEATURE_tube_lights, lights.tube > 0)
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;

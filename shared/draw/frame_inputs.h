@@ -4,6 +4,7 @@
 
 #include "shared/draw/draw_list.h"
 #include "shared/light/light_lists.h"
+#include "shared/light/ltc_image.h"
 #include "shared/material/gbuffer_layout.h"
 #include "shared/vulkan/pass_list.h"
 
@@ -38,12 +39,14 @@ public:
     VkDescriptorSet carriedNothing() const { return carried_nothing_[0]; }
     LightLists& lists() { return lists_; }
     std::uint64_t bytes() const {
-        return view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + lists_.bytes();
+        return view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + area_lights_.size() +
+               ltc_.bytes() + lists_.bytes();
     }
 
 private:
-    GpuBuffer view_, draws_, lights_, spot_cones_;
-    OwnedBufferView lights_view_, spot_cones_view_;
+    GpuBuffer view_, draws_, lights_, spot_cones_, area_lights_;
+    OwnedBufferView lights_view_, spot_cones_view_, area_lights_view_;
+    LtcImage ltc_;
     LightLists lists_;
     GpuImage nothing_;  // one black texel
     DescriptorSets sets_, carried_nothing_;
@@ -76,7 +79,7 @@ constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 
 // The features of the scene that a pass's shaders can see; the rest would only make more pipelines.
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer);
+                     const GBufferLayout& gbuffer, AreaLights area_lights);
 
 // The groups of each light list that one draw walks, and the sums that it goes on from.
 struct LightChunk {

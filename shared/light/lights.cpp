@@ -2,6 +2,9 @@
 #include "shared/light/lights.h"
 
 #include "shared/contract/constants.h"
+#include "shared/scene/axes.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +29,28 @@ gpu::SpotCone spotCone(const Light& light) {
     return {glm::vec3(light.direction), static_cast<float>(scale), static_cast<float>(-cosOuter * scale), {}};
 }
 
-// No path draws area lights yet.
+gpu::AreaLight areaLight(const Light& light) {
+    const glm::dvec3 up = glm::cross(light.direction, light.axis);
+    gpu::AreaLight g{.x = {}, .radius = light.radius, .y = {}, .extent = light.radius,
+                     .direction = glm::vec3(light.direction), .two_sided = light.two_sided ? 1.0f : 0.0f};
+    if (light.kind == LightKind::rect) {
+        g.x = glm::vec3(light.axis * (double{light.width} / 2));
+        g.y = glm::vec3(up * (double{light.height} / 2));
+        g.extent = std::hypot(light.width, light.height) / 2;
+    } else if (light.kind == LightKind::disc) {
+        const glm::dvec3 x = perpendicularTo(light.direction) * double{light.radius};
+        g.x = glm::vec3(x);
+        g.y = glm::vec3(glm::cross(light.direction, x));
+    } else {
+        g.x = glm::vec3(light.axis * (double{light.length} / 2));
+        g.direction = glm::vec3(light.axis);
+        g.extent = std::hypot(light.length / 2, light.radius);
+    }
+    return g;
+}
+
 bool shines(const Light& light) {
-    return !isArea(light.kind) && light.color * light.intensity != glm::vec3(0) &&
+    return light.color * light.intensity != glm::vec3(0) &&
            (light.kind == LightKind::directional || light.range > 0);
 }
 
@@ -49,14 +71,19 @@ GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye) {
             if (light.kind != kind || !shines(light)) continue;
             result.lights.push_back(gpuLight(light, eye));
             if (kind == LightKind::spot) result.spot_cones.push_back(spotCone(light));
+            if (isArea(kind)) result.area_lights.push_back(areaLight(light));
             ++count;
         }
     };
     take(LightKind::directional, result.directional);
     take(LightKind::point, result.point);
     take(LightKind::spot, result.spot);
+    take(LightKind::rect, result.rect);
+    take(LightKind::disc, result.disc);
+    take(LightKind::tube, result.tube);
     result.lights.push_back({.position = {}, .inverse_range_squared = 1, .intensity = {}, .range = 0});
     result.spot_cones.push_back({{0, 0, 1}, 0, 0, {}});
+    result.area_lights.push_back({.x = {}, .radius = 0, .y = {}, .extent = 1, .direction = {0, 0, 1}, .two_sided = 0});
     return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/contract/area_light.h"
 #include "shared/contract/light.h"
 #include "shared/scene/scene.h"
 
@@ -12,10 +13,12 @@ namespace diptych {
 // Lights as the shaders read them, by kind and each kind in the order given: every sum over lights in every
 // path runs in this order.
 struct GpuLights {
-    std::vector<gpu::Light> lights;         // directional, point, spot, and the null light
-    std::vector<gpu::SpotCone> spot_cones;  // and the null light's
-    std::uint32_t directional = 0, point = 0, spot = 0;
-    std::uint32_t local() const { return point + spot; }
+    std::vector<gpu::Light> lights;           // directional, point, spot, rect, disc, tube, and the null light
+    std::vector<gpu::SpotCone> spot_cones;    // and the null light's
+    std::vector<gpu::AreaLight> area_lights;  // and the null light's
+    std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;
+    std::uint32_t area() const { return rect + disc + tube; }
+    std::uint32_t local() const { return point + spot + area(); }
     std::uint32_t count() const { return directional + local(); }
 };
 

@@ -149,9 +149,8 @@ std::vector<Requirements::Line> Requirements::lines() const {
         fmt::format("{} point and {} spot in the scene", point_lights, spot_lights),
         "none in the scene: no light lists");
     constexpr const char* notYet = "no path draws them yet; the reference does";
-    result.push_back(
-        {false, "area lights",
-         areaLights() > 0 ? fmt::format("{}: {}", areaLightsInWords(), notYet) : "none in the scene"});
+    say(areaLights() > 0, "area lights", areaLightsInWords() + " in the scene",
+        "none in the scene: no table of linearly transformed cosines");
     result.push_back({false, "suns' discs",
                       sun_discs > 0 ? fmt::format("{} in the scene: {}", sun_discs, notYet)
                                     : "no directional light has an angle"});

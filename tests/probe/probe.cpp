@@ -41,7 +41,8 @@ Device& Probes::device() {
 }
 
 std::vector<float> Probes::run(const std::string& shader, const std::vector<float>& input,
-                               std::size_t inWidth, std::size_t outWidth) {
+                               std::size_t inWidth, std::size_t outWidth,
+                               std::pair<std::uint32_t, std::uint32_t> feature) {
     Device& device = *device_;
     const std::size_t rows = input.size() / inWidth;
     const auto count = static_cast<std::uint32_t>(rows);
@@ -68,6 +69,9 @@ std::vector<float> Probes::run(const std::string& shader, const std::vector<floa
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
+    const VkSpecializationMapEntry entry{feature.first, 0, sizeof feature.second};
+    const VkSpecializationInfo specialization{1, &entry, sizeof feature.second, &feature.second};
+    info.stage.pSpecializationInfo = &specialization;
     info.layout = pipelineLayout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),

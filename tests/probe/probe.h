@@ -3,8 +3,10 @@
 // shaders/lib and maps `in_width` floats to `out_width` floats, once for each row of the input.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -17,9 +19,10 @@ public:
     ~Probes();
 
     // `shader`: file name without ".comp". `input` holds rows of inWidth floats. Returns as many rows of
-    // outWidth floats.
+    // outWidth floats. `feature`: a specialization constant and its value (shared/contract/features.h); all others
+    // are 0.
     std::vector<float> run(const std::string& shader, const std::vector<float>& input, std::size_t inWidth,
-                           std::size_t outWidth);
+                           std::size_t outWidth, std::pair<std::uint32_t, std::uint32_t> feature = {});
 
     Device& device();
 

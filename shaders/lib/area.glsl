@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Rectangles, discs and tubes of constant radiance (shared/contract/area_light.h), by feature_area_lights: with
+// linearly transformed cosines, or each by one representative point (area_point.glsl). No light throws a shadow.
+#ifndef AREA_GLSL
+#define AREA_GLSL
+
+#include "shaders/lib/area_point.glsl"
+#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/ltc_tube.glsl"
+
+// What all area lights of a pixel share.
+struct AreaView {
+    Brdf brdf;
+    vec3 n, v;          // unit, world axes
+    mat3 surface;       // from world axes to the frame of shared/contract/ltc.h
+    Ltc ltc;            // of the specular lobe
+    vec3 reflected;     // its directional albedo, Fresnel included
+};
+
+// A light from where it shines on.
+struct AreaIncident {
+    vec3 centre;    // from the surface, world axes, m
+    vec3 radiance;  // W/(sr m^2); exactly 0 from its range on and from behind
+    float side;     // 1: it shines along `direction`; -1: the other way
+};
+
+// `cell`: in_plane, across, unsheared, magnitude (shared/contract/ltc.h, shared/light/ltc.h).
+AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, vec4 cell, float fresnel) {
+    AreaView a;
+    a.brdf = brdf;
+    a.n = n;
+    a.v = v;
+    vec3 across = v - n * dot(n, v);
+    float sine = length(across);
+    vec3 x = sine > 1e-6 ? across / -sine
+                         : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    a.surface = transpose(mat3(x, cross(n, x), n));
+    float sin2 = max(1.0 - brdf.n_dot_v * brdf.n_dot_v, 0.0);
+    float m2 = brdf.n_dot_v * brdf.n_dot_v + brdf.alpha * brdf.alpha * sin2;
+    a.ltc.inverse_a = m2 / (cell.x * 2.0 * brdf.alpha);
+    a.ltc.inverse_c = 1.0 / (cell.y * 2.0 * brdf.alpha);
+    a.ltc.b = (1.0 - cell.z) * sqrt(sin2 / m2);
+    a.reflected = brdf.f0 * cell.w + (vec3(brdf.f90) - brdf.f0) * fresnel;
+    return a;
+}
+
+layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table;
+
+// Of a surface, with its cell of the table.
+AreaView areaView(Brdf brdf, Surface s, vec3 v) {
+    vec4 cell = vec4(1.0);
+    float fresnel = 0.0;
+    if (feature_area_lights == AREA_LIGHTS_LTC) {
+        float roughness = sqrt(brdf.alpha);
+        vec2 at = vec2((roughness - MIN_PERCEPTUAL_ROUGHNESS) / (1.0 - MIN_PERCEPTUAL_ROUGHNESS),
+                       1.0 - sqrt(min(brdf.n_dot_v, 1.0)));
+        at = at * float(LTC_CELLS - 1) + 0.5;
+        cell = textureLod(ltc_table, at / vec2(LTC_CELLS, 2 * LTC_CELLS), 0.0);
+        fresnel = textureLod(ltc_table, (at + vec2(0.0, LTC_CELLS)) / vec2(LTC_CELLS, 2 * LTC_CELLS), 0.0).x;
+    }
+    return areaViewOf(brdf, s.normal, v, cell, fresnel);
+}
+
+AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool flat_light) {
+    AreaIncident i;
+    i.centre = light.position - position;
+    float d2 = max(dot(i.centre, i.centre), MIN_LIGHT_DISTANCE_SQUARED);
+    float x = d2 * light.inverse_range_squared;
+    float window = x < 1.0 ? 1.0 - x * x : 0.0;
+    float front = -dot(i.centre, shape.direction);
+    i.side = front < 0.0 ? -1.0 : 1.0;
+    bool shines = !flat_light || front > 0.0 || (front < 0.0 && shape.two_sided != 0.0);
+    i.radiance = shines ? light.intensity * window : vec3(0.0);
+    return i;
+}
+
+// `plain`, `lobe`: the factors of the light (ltc.glsl) under the cosine and under the specular lobe. What the
+// dielectric's layer lets through to its base is that of the light's mean direction: exact for a small light.
+void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
+    vec3 l = unitOrZero(transpose(a.surface) * plain);
+    vec3 h = unitOrZero(l + a.v);
+    float base = 1.0 - (a.brdf.base_f0 + (a.brdf.base_f90 - a.brdf.base_f0) * schlickWeight(dot(a.v, h)));
+    bool lit = any(greaterThan(radiance, vec3(0.0)));
+    precise vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
+    precise vec3 from_lobe = a.reflected * max(lobe.z, 0.0) * radiance;
+    if (lit) diffuse += from_base, specular += from_lobe;
+}
+
+// Near a huge light and far from a tiny one alike squares stay within float32: all is measured by the farthest.
+float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (length(i.centre) + shape.extent); }
+
+void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
+    AreaIncident i = fromAreaLight(light, shape, position, true);
+    if (feature_area_lights == AREA_LIGHTS_REPRESENTATIVE) {
+        addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
+        return;
+    }
+    float unit = unitOf(i, shape);
+    Ltc plain = Ltc(1.0, 1.0, 0.0);
+    vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
+         y = a.surface * (shape.y * (-i.side * unit));
+    addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance, diffuse,
+               specular);
+}
+
+void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
+    AreaIncident i = fromAreaLight(light, shape, position, true);
+    if (feature_area_lights == AREA_LIGHTS_REPRESENTATIVE) {
+        addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
+        return;
+    }
+    float unit = unitOf(i, shape);
+    Ltc plain = Ltc(1.0, 1.0, 0.0);
+    vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit), y = a.surface * (shape.y * unit);
+    addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, diffuse, specular);
+}
+
+void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
+    AreaIncident i = fromAreaLight(light, shape, position, false);
+    if (feature_area_lights == AREA_LIGHTS_REPRESENTATIVE) {
+        addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
+        return;
+    }
+    float unit = unitOf(i, shape);
+    Ltc plain = Ltc(1.0, 1.0, 0.0);
+    Tube t = tubeOf(a.surface * (i.centre * unit), a.surface * shape.direction, length(shape.x) * unit,
+                    shape.radius * unit);
+    vec3 radiance = seesTube(t) ? i.radiance : vec3(0.0);
+    addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), radiance, diffuse, specular);
+}
+
+#endif

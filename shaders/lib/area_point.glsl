@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Area lights by one point each: the one nearest to a ray stands for all. For the specular lobe the ray is the
+// mirrored view, and the lobe is flattened as if it were as much wider as the light is (Karis 2013, "Real Shading in
+// Unreal Engine 4"); for the diffuse one it is halfway from the normal to the light's centre (after Drobot 2014,
+// "Physically Based Area Lights", GPU Pro 5). Cheap, and wrong by what one point cannot know.
+#ifndef AREA_POINT_GLSL
+#define AREA_POINT_GLSL
+
+#include "shaders/lib/brdf.glsl"
+
+struct AreaPoint {
+    vec3 diffuse_at, specular_at;  // from the surface, m
+    float solid_angle;             // sr, seen from the surface; at most pi
+    vec2 half_size;                // tangents of the angles that it reaches to both sides of a point
+};
+
+// Where a ray meets the plane through c at right angles to n, or what lies in its direction; from c.
+vec3 onPlane(vec3 ray, vec3 c, vec3 n) {
+    float towards = dot(ray, n), away = dot(c, n);
+    bool meets = towards * away > 0.0;
+    vec3 far_point = ray * (meets ? away / towards : 1e3 * length(c));
+    vec3 from_centre = far_point - c;
+    return from_centre - n * dot(from_centre, n);
+}
+vec3 onRect(vec3 ray, vec3 c, AreaLight s) {
+    vec3 p = onPlane(ray, c, s.direction);
+    return c + s.x * clamp(dot(p, s.x) / dot(s.x, s.x), -1.0, 1.0) + s.y * clamp(dot(p, s.y) / dot(s.y, s.y), -1.0, 1.0);
+}
+vec3 onDisc(vec3 ray, vec3 c, AreaLight s) {
+    vec3 p = onPlane(ray, c, s.direction);
+    return c + p * min(s.radius * inversesqrt(max(dot(p, p), 1e-37)), 1.0);
+}
+// The nearest of its axis, and from there by its radius towards the ray.
+vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
+    float half_length = length(s.x), slope = dot(ray, s.direction), along = dot(c, s.direction);
+    float t = (slope * dot(c, ray) - along) / max(1.0 - slope * slope, 1e-6);
+    vec3 p = c + s.direction * clamp(t, -half_length, half_length);
+    vec3 to_ray = ray * max(dot(p, ray), 0.0) - p;
+    return p + to_ray * min(s.radius * inversesqrt(max(dot(to_ray, to_ray), 1e-37)), 1.0);
+}
+
+// Near its plane a light is no larger than half the sky: pi of cosine.
+float solidAngleOf(float area, float distance2) { return area / (distance2 + area * INVERSE_PI); }
+
+vec3 diffuseRay(vec3 n, vec3 c) {
+    vec3 ray = n + c * inversesqrt(max(dot(c, c), MIN_LIGHT_DISTANCE_SQUARED));
+    return ray * inversesqrt(max(dot(ray, ray), 1e-12));
+}
+
+AreaPoint flatPoint(vec3 diffuse_at, vec3 specular_at, float area, vec2 half_size, vec3 normal) {
+    float d2 = max(dot(diffuse_at, diffuse_at), MIN_LIGHT_DISTANCE_SQUARED);
+    float seen = abs(dot(diffuse_at, normal)) * inversesqrt(d2);
+    return AreaPoint(diffuse_at, specular_at, solidAngleOf(area, d2) * seen, half_size);
+}
+AreaPoint rectPoint(vec3 c, AreaLight s, vec3 n, vec3 v) {
+    vec2 half_size = vec2(length(s.x), length(s.y));
+    // As wide as an ellipse of the same area.
+    return flatPoint(onRect(diffuseRay(n, c), c, s), onRect(reflect(-v, n), c, s), 4.0 * half_size.x * half_size.y,
+                     half_size * (2.0 * inversesqrt(PI)), s.direction);
+}
+AreaPoint discPoint(vec3 c, AreaLight s, vec3 n, vec3 v) {
+    return flatPoint(onDisc(diffuseRay(n, c), c, s), onDisc(reflect(-v, n), c, s), PI * s.radius * s.radius,
+                     vec2(s.radius), s.direction);
+}
+AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 v) {
+    AreaPoint p;
+    p.diffuse_at = onTube(diffuseRay(n, c), c, s);
+    p.specular_at = onTube(reflect(-v, n), c, s);
+    float half_length = length(s.x), d2 = max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED);
+    float cosine = dot(p.diffuse_at, s.direction) * inversesqrt(d2);
+    float area = 4.0 * s.radius * half_length * sqrt(max(1.0 - cosine * cosine, 0.0)) +
+                 PI * s.radius * s.radius * abs(cosine);
+    // A thin line's solid angle from beside its middle is that of its area at the mean of two distances.
+    p.solid_angle = solidAngleOf(area, sqrt(d2 * (d2 + half_length * half_length)));
+    p.half_size = vec2(s.radius, half_length + s.radius);
+    return p;
+}
+
+void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
+    vec3 l = p.diffuse_at * inversesqrt(max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED));
+    vec3 h = l + v;
+    h *= inversesqrt(max(dot(h, h), 1e-12));
+    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(dot(v, h)));
+    float received = max(dot(n, l), 0.0) * p.solid_angle;
+
+    float to_point = inversesqrt(max(dot(p.specular_at, p.specular_at), MIN_LIGHT_DISTANCE_SQUARED));
+    l = p.specular_at * to_point;
+    float n_dot_l = max(dot(n, l), 0.0);
+    h = l + v;
+    h = dot(h, h) > 1e-12 ? h * inversesqrt(dot(h, h)) : n;
+    vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(dot(v, h));
+    // So wide that a mirror shows a large light as bright as it is.
+    vec2 wider = min(b.alpha + p.half_size * (0.5 * to_point), max(b.alpha, 1.0));
+    float lobe = distributionGgx(b.alpha, n, h) * visibilitySmith(b.alpha, b.n_dot_v, max(n_dot_l, 1e-7)) * n_dot_l *
+                 (b.alpha * b.alpha / (wider.x * wider.y)) * p.solid_angle;
+
+    bool lit = any(greaterThan(radiance, vec3(0.0)));
+    precise vec3 from_base = b.diffuse * (base * received) * radiance;
+    precise vec3 from_lobe = fresnel * lobe * radiance;
+    if (lit) diffuse += from_base, specular += from_lobe;
+}
+
+#endif

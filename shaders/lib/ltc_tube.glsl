@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// A closed cylinder under a linearly transformed cosine. All of it that is seen has one radiance, so its outline is
+// all that counts: two straight lines along its side, and at each end the part of the rim that is outermost, the far
+// part where the end's face is seen and the near one where it is not.
+#ifndef LTC_TUBE_GLSL
+#define LTC_TUBE_GLSL
+
+#include "shaders/lib/ltc.glsl"
+
+// From the surface, in the frame z = n.
+struct Tube {
+    vec3 top, bottom;   // centres of its ends
+    vec3 towards, across;  // radius long, at right angles to the axis: towards the surface, and along cross(axis, towards)
+    vec2 tangent;       // (cos, sin) of the angle from towards to where the two lines are
+    bool beside;        // the surface is outside the cylinder made endless: there are lines
+    bool top_shows, bottom_shows;
+};
+
+// `axis`: unit, from the bottom to the top.
+Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
+    float along = -dot(centre, axis);
+    vec3 from_axis = -centre - axis * along;
+    float distance = length(from_axis);
+    vec3 x = distance > 1e-6 * radius ? from_axis / distance
+                                      : normalize(cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    Tube t;
+    t.top = centre + axis * half_length;
+    t.bottom = centre - axis * half_length;
+    t.towards = x * radius;
+    t.across = cross(axis, t.towards);
+    t.beside = distance > radius;
+    float cosine = t.beside ? radius / distance : 1.0;
+    t.tangent = vec2(cosine, sqrt(max(1.0 - cosine * cosine, 0.0)));
+    t.top_shows = along > half_length;
+    t.bottom_shows = -along > half_length;
+    return t;
+}
+// Not inside it.
+bool seesTube(Tube t) { return t.beside || t.top_shows || t.bottom_shows; }
+
+vec2 onRim(Cone cone, vec3 direction) {
+    vec2 t = vec2(dot(direction, cone.x) * max(cone.half_y, 1e-6 * cone.half_x), dot(direction, cone.y) * cone.half_x);
+    return t * inversesqrt(max(dot(t, t), 1e-37));
+}
+
+// The rim from one direction to another, counter-clockwise, or where there are no lines all of it or none.
+void addRim(inout Outline o, Cone cone, vec3 from, vec3 to, bool shows, bool beside) {
+    Horizon h = horizonOf(cone);
+    vec2 p = onRim(cone, from), q = onRim(cone, to);
+    float cosine = dot(p, q), sine = p.x * q.y - p.y * q.x;
+    // Between two ends that are next to one another lies nothing of the near rim, and all of the far one.
+    bool beyond = cosine > 0.9 ? shows : sine < 0.0;
+    float angle = angleOf(cosine, abs(sine));
+    float rim = 0.5 * (beyond ? 2.0 * PI - angle : angle);  // half of it
+    vec2 middle = turned(p, vec2(cos(rim), sin(rim)));
+    if (!beside) p = -h.middle, q = p, middle = h.middle, rim = shows ? PI : 0.0;
+
+    // Angles from its middle; the horizon's part may meet it on both sides.
+    vec2 rises = turned(h.middle, vec2(h.half_angle.x, -h.half_angle.y)), sets = turned(h.middle, h.half_angle);
+    float sky = angleOf(h.half_angle.x, h.half_angle.y);
+    bool whole = h.half_angle.x <= -1.0;
+    float turn = middle.x * h.middle.y - middle.y * h.middle.x;
+    float centre = angleOf(dot(middle, h.middle), abs(turn)) * (turn < 0.0 ? -1.0 : 1.0);
+    for (int i = 0; i < 2; ++i) {
+        bool cut_first = !whole && centre - sky > -rim, cut_last = !whole && centre + sky < rim;
+        float span = (cut_last ? centre + sky : rim) - (cut_first ? centre - sky : -rim);
+        if (span > 0.0 && !(whole && i > 0)) {
+            o.sum += fromCone(cone, arcFactor(cone, cut_first ? rises : p, cut_last ? sets : q, span > PI));
+            if (cut_first) o.returns = onCone(cone, rises);
+            if (cut_last) o.leaves = onCone(cone, sets);
+        }
+        centre += centre > 0.0 ? -2.0 * PI : 2.0 * PI;
+    }
+}
+
+vec3 tubeFactor(Ltc m, Tube t) {
+    vec3 top = toCosine(m, t.top), bottom = toCosine(m, t.bottom);
+    vec3 x = toCosine(m, t.towards), y = toCosine(m, t.across);
+    vec3 left = x * t.tangent.x - y * t.tangent.y, right = x * t.tangent.x + y * t.tangent.y;
+    Outline o = noOutline();
+    addRim(o, coneOf(top, x, y), top + left, top + right, t.top_shows, t.beside);
+    addRim(o, coneOf(bottom, x, y), bottom + right, bottom + left, t.bottom_shows, t.beside);
+    if (t.beside) {
+        addEdge(o, top + right, bottom + right);
+        addEdge(o, bottom + left, top + left);
+    }
+    // From afar a point, as a parallelogram is: the side's middle plane, and an end.
+    vec3 c = 0.5 * (top + bottom), half_axis = 0.5 * (top - bottom);
+    float c2 = dot(c, c), reach = length(half_axis) + length(x) + length(y);
+    float area = 4.0 * abs(dot(c, cross(half_axis, y))) + PI * abs(dot(c, cross(x, y)));
+    vec3 afar = c * (area * INVERSE_PI / (c2 * c2));
+    return c.z > reach && c2 > 16384.0 * reach * reach ? afar : closed(o);
+}
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#ifndef DIPTYCH_CONTRACT_AREA_LIGHT_H
+#define DIPTYCH_CONTRACT_AREA_LIGHT_H
+
+#include "types.h"
+
+CONTRACT_BEGIN
+
+// What a rectangle, disc or tube has beside its Light, whose position is its centre, whose intensity is its radiance
+// in W/(sr m^2), the same from everywhere and into every direction, and whose range is from the centre. Area lights
+// come last in the order of lights: rectangles, discs, tubes; the i-th area light's is the i-th here.
+struct AreaLight {
+    vec3 x;          // m; from the centre: rectangle: to the middle of a side; disc: to the rim; tube: to an end
+    float radius;    // m; disc, tube
+    vec3 y;          // rectangle, disc: the other half axis, cross(x, y) along direction
+    float extent;    // m; radius of the sphere around it
+    vec3 direction;  // unit; rectangle, disc: in which it shines; tube: along x
+    float two_sided;  // 1: rectangle, disc: to both sides
+};
+
+// How area lights are evaluated: values of FEATURE_area_lights.
+CONTRACT_CONST(uint, AREA_LIGHTS_LTC, 1);
+CONTRACT_CONST(uint, AREA_LIGHTS_REPRESENTATIVE, 2);
+
+CONTRACT_END
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// fit_ltc FILE.exr: fits the table of linearly transformed cosines and writes it, with its error. Run by hand where
+// the specular lobe of shaders/lib/brdf.glsl has changed; the file belongs at shared/light/ltc.exr.
+#include "shared/image/exr.h"
+#include "shared/light/fit/fit.h"
+#include "shared/light/ltc_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace diptych;
+
+void writeTable(const std::string& file, const LtcTable& table) {
+    constexpr int side = gpu::LTC_CELLS;
+    std::vector<Image> images;
+    for (const LtcLayer& layer : ltcLayers) {
+        Image& image = images.emplace_back(side, side, 1);
+        std::ranges::transform(table.cells, image.data.begin(), [&](const LtcCell& c) { return c.*layer.member; });
+    }
+    std::vector<ExrLayerView> layers;
+    for (std::size_t i = 0; i < images.size(); ++i)
+        layers.push_back({{std::string(ltcLayers[i].name) + ".Y"}, &images[i]});
+    writeExr(file, layers, {{"comments", "Linearly transformed cosines; shared/contract/ltc.h says what they are."}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        fmt::print(stderr, "fit_ltc: takes one argument, the file to write: fit_ltc shared/light/ltc.exr\n");
+        return 2;
+    }
+    try {
+        std::mutex printing;
+        int said = 0;
+        const diptych::LtcTable table = diptych::ltc::fitTable([&](double share) {
+            const std::lock_guard lock(printing);
+            if (const int percent = static_cast<int>(share * 100); percent >= said + 5)
+                fmt::print(stderr, "fit_ltc: {} %\n", said = percent);
+        });
+        writeTable(argv[1], table);
+        double sum = 0, largest = 0;
+        for (const diptych::LtcCell& cell : table.cells) {
+            sum += double{cell.error};
+            largest = std::max(largest, double{cell.error});
+        }
+        fmt::print("{}: error {:.4f} in the mean, {:.4f} at most\n", argv[1],
+                   sum / static_cast<double>(table.cells.size()), largest);
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "fit_ltc: {}\n", error.what());
+        return 2;
+    }
+}

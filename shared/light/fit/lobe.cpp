@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "shared/light/fit/lobe.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace diptych::ltc {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+glm::dvec2 onDisc(const glm::dvec2& u) {
+    const double r = std::sqrt(u.x), phi = 2 * pi * u.y;
+    return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+// The middles of n x n equal cells of the unit square.
+template <class F>
+void overSquare(int n, const F& f) {
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) f(glm::dvec2((i + 0.5) / n, (j + 0.5) / n));
+}
+
+}  // namespace
+
+Lobe::Lobe(double alpha, double n_dot_v)
+    : alpha_(alpha),
+      lambda_v_(std::sqrt(n_dot_v * n_dot_v * (1 - alpha * alpha) + alpha * alpha)),
+      view_(-std::sqrt(std::max(0.0, 1 - n_dot_v * n_dot_v)), 0, n_dot_v) {}
+
+Lobe::Value Lobe::operator()(const glm::dvec3& l) const {
+    if (!(l.z > 0)) return {};
+    const glm::dvec3 h = glm::normalize(l + view_);
+    const double a2 = alpha_ * alpha_;
+    const double across = h.x * h.x + h.y * h.y;  // |n x h|^2, which does not cancel near the highlight
+    const double k = alpha_ / (across + h.z * h.z * a2), d = k * k / pi;
+    const double lambda_l = std::sqrt(l.z * l.z * (1 - a2) + a2);
+    const double visibility = 0.5 / (l.z * lambda_v_ + view_.z * lambda_l);
+    // D G1 (v.h) / (n.v), and dh = dl / (4 v.h); G1 = 2 n.v / (n.v + lambda_v).
+    return {.lobe = d * visibility * l.z,
+            .density = d / (2 * (view_.z + lambda_v_)),
+            .schlick = std::pow(std::clamp(1 - glm::dot(view_, h), 0.0, 1.0), 5)};
+}
+
+glm::dvec3 Lobe::sample(const glm::dvec2& u) const {
+    const glm::dvec3 v = glm::normalize(glm::dvec3(alpha_ * view_.x, 0, view_.z));
+    // x and y of a frame around v: y is across, and the viewer's plane holds the other.
+    const glm::dvec3 t1(0, -1, 0), t2 = glm::cross(v, t1);
+    glm::dvec2 p = onDisc(u);
+    const double s = 0.5 * (1 + v.z);
+    p.y = (1 - s) * std::sqrt(std::max(0.0, 1 - p.x * p.x)) + s * p.y;
+    const glm::dvec3 n = p.x * t1 + p.y * t2 + std::sqrt(std::max(0.0, 1 - glm::dot(p, p))) * v;
+    const glm::dvec3 h = glm::normalize(glm::dvec3(alpha_ * n.x, alpha_ * n.y, std::max(n.z, 0.0)));
+    return 2 * glm::dot(view_, h) * h - view_;
+}
+
+double Transform::density(const glm::dvec3& l) const {
+    if (!(l.z > 0)) return 0;
+    const glm::dvec3 cosine((l.x - b * l.z) / a, l.y / c, l.z);
+    const double square = glm::dot(cosine, cosine);
+    return l.z / (pi * a * c * square * square);
+}
+
+glm::dvec3 Transform::sample(const glm::dvec2& u) const {
+    const glm::dvec2 p = onDisc(u);
+    const double z = std::sqrt(std::max(0.0, 1 - u.x));
+    return glm::normalize(glm::dvec3(a * p.x + b * z, c * p.y, z));
+}
+
+Transform transformOf(const LtcCell& cell, double alpha, double n_dot_v) {
+    const double sin2 = std::max(0.0, 1 - n_dot_v * n_dot_v), m2 = n_dot_v * n_dot_v + alpha * alpha * sin2;
+    return {.a = double{cell.in_plane} * 2 * alpha / m2,
+            .b = (1 - double{cell.unsheared}) * std::sqrt(sin2 / m2),
+            .c = double{cell.across} * 2 * alpha};
+}
+
+Albedo albedoOf(const Lobe& lobe, int n) {
+    Albedo sum;
+    overSquare(n, [&](const glm::dvec2& u) {
+        const Lobe::Value value = lobe(lobe.sample(u));
+        if (!(value.density > 0)) return;
+        const double weight = value.lobe / (value.density * n * n);
+        sum.magnitude += weight;
+        sum.fresnel += weight * value.schlick;
+    });
+    return sum;
+}
+
+double distance(const Lobe& lobe, double magnitude, const Transform& transform, int n) {
+    double sum = 0;
+    const auto add = [&](const glm::dvec3& l) {
+        const Lobe::Value value = lobe(l);
+        const double cosine = transform.density(l), density = value.density + cosine;
+        if (density > 0) sum += std::abs(value.lobe / magnitude - cosine) / density;
+    };
+    overSquare(n, [&](const glm::dvec2& u) {
+        add(lobe.sample(u));
+        add(transform.sample(u));
+    });
+    return sum / (static_cast<double>(n) * n);
+}
+
+}  // namespace diptych::ltc

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/area.glsl"
+#include "tests/probe/shaders/probe.glsl"
+
+// kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 / range^2;
+// v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell and Fresnel -> diffuse, specular radiance for a
+// light of radiance 1
+const uint WIDTH = 30;
+
+void main() {
+    if (PROBE_ROW >= probe_rows) return;
+    Light light;
+    light.position = IN3(WIDTH, 1);
+    light.intensity = vec3(1.0);
+    AreaLight shape;
+    shape.x = IN3(WIDTH, 4);
+    shape.radius = IN(WIDTH, 7);
+    shape.y = IN3(WIDTH, 8);
+    shape.extent = IN(WIDTH, 11);
+    shape.direction = IN3(WIDTH, 12);
+    shape.two_sided = IN(WIDTH, 15);
+    light.inverse_range_squared = IN(WIDTH, 16);
+
+    Surface s;
+    s.normal = vec3(0.0, 0.0, 1.0);
+    vec3 v = IN3(WIDTH, 17);
+    s.roughness = IN(WIDTH, 20);
+    s.metallic = IN(WIDTH, 21);
+    s.albedo = vec3(IN(WIDTH, 22));
+    s.dielectric_f0 = vec3(IN(WIDTH, 23));
+    s.dielectric_f90 = IN(WIDTH, 24);
+    AreaView a = areaViewOf(makeBrdf(s, v), s.normal, v, vec4(IN3(WIDTH, 25), IN(WIDTH, 28)), IN(WIDTH, 29));
+
+    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
+    uint kind = uint(IN(WIDTH, 0));
+    if (kind == 0) addRect(a, light, shape, vec3(0.0), diffuse, specular);
+    if (kind == 1) addDisc(a, light, shape, vec3(0.0), diffuse, specular);
+    if (kind == 2) addTube(a, light, shape, vec3(0.0), diffuse, specular);
+    OUT(2, 0) = diffuse.r;
+    OUT(2, 1) = specular.r;
+}
