@@ -107,14 +107,17 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     float scale = sqrt(size);
     p *= scale, q *= scale, r *= scale;
     vec3 pq = cross(p, q), rp = cross(r, p), qr = cross(q, r);
-    // Its characteristic polynomial, whose roots are all real, by Laguerre's method from a bound above the only
-    // positive one: down to it without fail, to three times as many digits with every step.
+    // The largest root of its characteristic polynomial, the only positive one: by angles (Smith 1961, "Eigenvalues of
+    // a Symmetric 3 x 3 Matrix"), and since these know only half the digits where two roots are near one another, by
+    // Laguerre's method, which triples them with every step where all roots are real.
     float trace = dot(p, p) - dot(q, q) - dot(r, r);
     float minors = dot(qr, qr) - dot(pq, pq) - dot(rp, rp);
     float det = dot(p, qr);
     det *= det;
-    float root = dot(p, p);
-    for (int i = 0; i < 4; ++i) {
+    float mean = trace * (1.0 / 3.0), spread2 = max(mean * mean - minors * (1.0 / 3.0), 1e-30), wide = sqrt(spread2);
+    float cosine = clamp((mean * (mean * mean - 0.5 * minors) + 0.5 * det) / (spread2 * wide), -1.0, 1.0);
+    float root = mean + 2.0 * wide * cos(angleOf(cosine, sqrt(1.0 - cosine * cosine)) * (1.0 / 3.0));
+    for (int i = 0; i < 3; ++i) {
         float f = ((root - trace) * root + minors) * root - det;
         float slope = (3.0 * root - 2.0 * trace) * root + minors, bend = 6.0 * root - 2.0 * trace;
         float step = slope + sqrt(max(4.0 * slope * slope - 6.0 * f * bend, 0.0));
