@@ -19,7 +19,7 @@ PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item, const Ligh
                     .depth_write = !inputs.prepass};
     for (const gpu::uint feature :
          {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_directional_lights,
-          gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_light_lists,
+          gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_area_lights, gpu::FEATURE_light_lists,
           gpu::FEATURE_list_width, gpu::FEATURE_orthographic})
         key.variant.set(feature, inputs.variant.get(feature));
     key.variant.set(gpu::FEATURE_light_chunk, chunk.kind);

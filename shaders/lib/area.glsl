@@ -8,6 +8,8 @@
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/ltc_tube.glsl"
 
+bool areaPoints() { return (feature_area_lights & AREA_POINTS) != 0; }
+
 // What all area lights of a pixel share.
 struct AreaView {
     Brdf brdf;
@@ -50,7 +52,7 @@ layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table
 AreaView areaView(Brdf brdf, Surface s, vec3 v) {
     vec4 cell = vec4(1.0);
     float fresnel = 0.0;
-    if (feature_area_lights == AREA_LIGHTS_LTC) {
+    if (!areaPoints()) {
         float roughness = sqrt(brdf.alpha);
         vec2 at = vec2((roughness - MIN_PERCEPTUAL_ROUGHNESS) / (1.0 - MIN_PERCEPTUAL_ROUGHNESS),
                        1.0 - sqrt(min(brdf.n_dot_v, 1.0)));
@@ -91,7 +93,7 @@ float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (length(i.centre) +
 
 void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
-    if (feature_area_lights == AREA_LIGHTS_REPRESENTATIVE) {
+    if (areaPoints()) {
         addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
         return;
     }
@@ -105,7 +107,7 @@ void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
 
 void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
-    if (feature_area_lights == AREA_LIGHTS_REPRESENTATIVE) {
+    if (areaPoints()) {
         addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
         return;
     }
@@ -117,7 +119,7 @@ void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
 
 void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
-    if (feature_area_lights == AREA_LIGHTS_REPRESENTATIVE) {
+    if (areaPoints()) {
         addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
         return;
     }

@@ -50,11 +50,11 @@ void addArea(AreaView area, uint i, vec3 position, inout Radiance radiance) {
     uint number = areaNumber(i);
     AreaLight shape = areaLightAt(number);
     uint discs = view.rect_light_count, tubes = discs + view.disc_light_count;
-    if (on(feature_rect_lights) && number < discs)
+    if (on(feature_area_lights & AREA_RECTS) && number < discs)
         addRect(area, light, shape, position, radiance.diffuse, radiance.specular);
-    if (on(feature_disc_lights) && number >= discs && number < tubes)
+    if (on(feature_area_lights & AREA_DISCS) && number >= discs && number < tubes)
         addDisc(area, light, shape, position, radiance.diffuse, radiance.specular);
-    if (on(feature_tube_lights) && number >= tubes)
+    if (on(feature_area_lights & AREA_TUBES) && number >= tubes)
         addTube(area, light, shape, position, radiance.diffuse, radiance.specular);
 }
 

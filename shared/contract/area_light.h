@@ -18,9 +18,12 @@ struct AreaLight {
     float two_sided;  // 1: rectangle, disc: to both sides
 };
 
-// How area lights are evaluated: values of FEATURE_area_lights.
-CONTRACT_CONST(uint, AREA_LIGHTS_LTC, 1);
-CONTRACT_CONST(uint, AREA_LIGHTS_REPRESENTATIVE, 2);
+// FEATURE_area_lights: the shapes that the scene has, and AREA_POINTS where each is evaluated by a representative
+// point; else by linearly transformed cosines.
+CONTRACT_CONST(uint, AREA_RECTS, 1);
+CONTRACT_CONST(uint, AREA_DISCS, 2);
+CONTRACT_CONST(uint, AREA_TUBES, 4);
+CONTRACT_CONST(uint, AREA_POINTS, 8);
 
 CONTRACT_END
 

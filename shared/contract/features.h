@@ -40,20 +40,17 @@
     X(28, orthographic)                                                                               \
     X(29, unlit)                      /* KHR_materials_unlit: emits its base colour, reflects nothing */ \
     X(30, spot_lights)                                                                                \
-    X(31, area_lights)                /* AREA_LIGHTS_* of area_light.h, where the scene has some */   \
+    X(31, area_lights)                /* a sum of AREA_* of area_light.h */                           \
     X(32, light_lists)                /* LISTS_* of light_list.h */                                   \
     X(33, light_chunk)                /* CHUNK_* of light_list.h: a draw walks a part of each list */  \
-    X(34, list_width)                 /* lights that one turn of a list's loop takes: 1 or 4 */  \
-    X(38, vanishing_normals)          /* an interpolated normal may be zero */ \
-    X(39, rect_lights)                                                                                \
-    X(40, disc_lights)                                                                                \
-    X(41, tube_lights)
+    X(34, list_width)                 /* lights that one turn of a list's loop takes: 1 or 4 */       \
+    X(38, vanishing_normals)          /* an interpolated normal may be zero */
 
 CONTRACT_BEGIN
 #define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
 FEATURES(DIPTYCH_FEATURE_ID)
 #undef DIPTYCH_FEATURE_ID
-CONTRACT_CONST(uint, FEATURE_COUNT, 42);
+CONTRACT_CONST(uint, FEATURE_COUNT, 39);
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

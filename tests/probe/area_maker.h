@@ -8,6 +8,7 @@
 #include "shared/light/lights.h"
 #include "shared/light/ltc.h"
 #include "tests/probe/probe.h"
+#include "tests/unit/reference_maker.h"
 
 #include <glm/geometric.hpp>
 
@@ -50,8 +51,8 @@ inline void pushArea(std::vector<float>& input, const Light& light, const Receiv
 
 // Each row's {diffuse, specular} radiance for a light of radiance 1.
 inline std::vector<std::array<double, 2>> shadeArea(Probes& probes, const std::vector<float>& input,
-                                                    std::uint32_t how = gpu::AREA_LIGHTS_LTC) {
-    const std::vector<float> out = probes.run("area", input, areaWidth, 2, {gpu::FEATURE_area_lights, how});
+                                                    bool points = false) {
+    const std::vector<float> out = probes.run("area", input, areaWidth, 2, {gpu::FEATURE_area_lights, points ? gpu::AREA_POINTS : 0});
     std::vector<std::array<double, 2>> rows;
     for (std::size_t i = 0; i + 1 < out.size(); i += 2) rows.push_back({double{out[i]}, double{out[i + 1]}});
     return rows;
@@ -73,41 +74,47 @@ inline std::array<double, 2> referenceArea(const Light& light, const Receiver& r
     return {shading.reflected.diffuse.g, shading.reflected.specular.g};
 }
 
-// The share of the sky that a light has under a transformed cosine, in double: the reference's patches, transformed,
-// by adaptive quadrature. `l` of Transform is in the frame whose x points away from the viewer.
+// The outline of an area light from the origin. A tube's is two lines along its side, and at each end the near half of
+// the rim where the end's face is not seen, the far one where it is; from beyond an end, within the side, that rim.
+inline std::vector<glm::dvec3> outlineOf(const Light& light) {
+    if (light.kind == LightKind::rect) return reference::cornersOf(light);
+    std::vector<glm::dvec3> outline;
+    const auto addRim = [&](const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y, double from, double to) {
+        reference::addArc(outline, centre, x * double{light.radius}, y * double{light.radius}, from, to);
+    };
+    if (light.kind == LightKind::disc) {
+        const glm::dvec3 x = reference::lightOf(LightKind::disc, {}, light.direction).axis;
+        addRim(light.position, x, glm::cross(light.direction, x), 0, 2 * reference::pi);
+        return outline;
+    }
+    const glm::dvec3 axis = light.axis, half = axis * (double{light.length} / 2);
+    const double along = -glm::dot(light.position, axis);
+    const glm::dvec3 towards = -light.position - axis * along, x = glm::normalize(towards), y = glm::cross(axis, x);
+    const bool above = along > double{light.length} / 2, below = -along > double{light.length} / 2;
+    if (glm::length(towards) <= double{light.radius}) {
+        if (above) addRim(light.position + half, x, y, 0, 2 * reference::pi);
+        if (below) addRim(light.position - half, x, y, 0, 2 * reference::pi);
+        return outline;
+    }
+    const double angle = std::acos(double{light.radius} / glm::length(towards)), whole = 2 * reference::pi;
+    addRim(light.position + half, x, y, above ? whole - angle : -angle, angle);
+    addRim(light.position - half, x, y, angle, below ? whole - angle : -angle);
+    return outline;
+}
+
+// The share of the sky that a light has under a transformed cosine: Lambert's formula, in double, for its outline
+// transformed corner by corner.
 inline double shareOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
-    const reference::Emitter emitter = reference::emitterOf(light, {0, 0, 0});
+    const bool flat = light.kind != LightKind::tube;
+    if (flat && !light.two_sided && glm::dot(light.position, light.direction) >= 0) return 0;
     const double sine = std::hypot(to_viewer.x, to_viewer.y);
     const double cx = sine > 1e-9 ? -to_viewer.x / sine : 1, cy = sine > 1e-9 ? -to_viewer.y / sine : 0;
-    const auto toCosine = [&](const glm::dvec3& p) {
+    std::vector<glm::dvec3> outline = outlineOf(light);
+    for (glm::dvec3& p : outline) {
         const double x = cx * p.x + cy * p.y, y = cx * p.y - cy * p.x;
-        return glm::dvec3((x - t.b * p.z) / t.a, y / t.c, p.z);
-    };
-    double sum = 0;
-    for (const reference::Patch& patch : reference::visiblePatches(emitter, emitter.centre, {0, 0, 1})) {
-        const auto place = [&](double u, double v) { return toCosine(patch.at(u, v).place); };
-        // A patch's normal and area become those of the transformed patch by the cofactors of M^-1.
-        const auto integrand = [&](double u, double v) {
-            const reference::Patch::Point at = patch.at(u, v);
-            const glm::dvec3 p = toCosine(at.place);
-            const double p2 = glm::dot(p, p);
-            if (!(p2 > 0) || !(p.z > 0)) return reference::Reflected{};
-            // p'.(cof N) = det (M^-1) p.N, for p' = M^-1 p.
-            const double facing = std::max(-glm::dot(at.place, at.normal), 0.0) / (t.a * t.c);
-            return reference::Reflected{glm::dvec3(facing * p.z * at.area / (p2 * p2)), glm::dvec3(0)};
-        };
-        const auto mustSplit = [&](const reference::Cell& c) {
-            const double u = (c.u0 + c.u1) / 2, v = (c.v0 + c.v1) / 2;
-            const glm::dvec3 middle = glm::normalize(place(u, v));
-            const auto from = [&](double a, double b) { return glm::length(glm::normalize(place(a, b)) - middle); };
-            const double across_u = std::max(from(c.u0, v), from(c.u1, v));
-            const double across_v = std::max(from(u, c.v0), from(u, c.v1));
-            if (std::max(across_u, across_v) < 0.3) return reference::Split::none;
-            return across_u > across_v ? reference::Split::u : reference::Split::v;
-        };
-        sum += reference::Quadrature(integrand, mustSplit, 1e-6, nullptr)().value.diffuse.g;
+        p = glm::normalize(glm::dvec3((x - t.b * p.z) / t.a, y / t.c, p.z));
     }
-    return sum / std::numbers::pi;
+    return reference::lambertIrradiance(outline, {0, 0, 1}) / reference::pi;
 }
 
 }  // namespace diptych::tests

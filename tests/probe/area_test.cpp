@@ -50,7 +50,7 @@ TEST_P(AreaShapes, AreIntegratedExactly) {
     std::vector<float> input;
     std::vector<std::array<double, 2>> expected;
     std::vector<std::string> names;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 600; ++i) {
         const Light light = lightAround(random, GetParam(), 0.02, 20);
         Receiver r;
         r.roughness = std::max(unit(random), 0.045);
