@@ -94,7 +94,7 @@ float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (length(i.centre) +
 void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
+        addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, diffuse, specular);
         return;
     }
     float unit = unitOf(i, shape);
@@ -108,7 +108,7 @@ void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
 void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
+        addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, diffuse, specular);
         return;
     }
     float unit = unitOf(i, shape);
@@ -120,7 +120,7 @@ void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
 void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, a.v), i.radiance, diffuse, specular);
+        addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, diffuse, specular);
         return;
     }
     float unit = unitOf(i, shape);

@@ -42,6 +42,12 @@ vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
 // Near its plane a light is no larger than half the sky: pi of cosine.
 float solidAngleOf(float area, float distance2) { return area / (distance2 + area * INVERSE_PI); }
 
+// The middle of the lobe, which a rough surface turns from the mirrored view to the normal: Lagarde and de Rousiers
+// 2014, "Moving Frostbite to Physically Based Rendering", listing 22.
+vec3 specularRay(Brdf b, vec3 n, vec3 v) {
+    float smooth_part = max(1.0 - b.alpha, 0.0);
+    return normalize(mix(n, reflect(-v, n), smooth_part * (sqrt(smooth_part) + b.alpha)));
+}
 vec3 diffuseRay(vec3 n, vec3 c) {
     vec3 ray = n + c * inversesqrt(max(dot(c, c), MIN_LIGHT_DISTANCE_SQUARED));
     return ray * inversesqrt(max(dot(ray, ray), 1e-12));
@@ -52,20 +58,20 @@ AreaPoint flatPoint(vec3 diffuse_at, vec3 specular_at, float area, vec2 half_siz
     float seen = abs(dot(diffuse_at, normal)) * inversesqrt(d2);
     return AreaPoint(diffuse_at, specular_at, solidAngleOf(area, d2) * seen, half_size);
 }
-AreaPoint rectPoint(vec3 c, AreaLight s, vec3 n, vec3 v) {
+AreaPoint rectPoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     vec2 half_size = vec2(length(s.x), length(s.y));
     // As wide as an ellipse of the same area.
-    return flatPoint(onRect(diffuseRay(n, c), c, s), onRect(reflect(-v, n), c, s), 4.0 * half_size.x * half_size.y,
+    return flatPoint(onRect(diffuseRay(n, c), c, s), onRect(mirrored, c, s), 4.0 * half_size.x * half_size.y,
                      half_size * (2.0 * inversesqrt(PI)), s.direction);
 }
-AreaPoint discPoint(vec3 c, AreaLight s, vec3 n, vec3 v) {
-    return flatPoint(onDisc(diffuseRay(n, c), c, s), onDisc(reflect(-v, n), c, s), PI * s.radius * s.radius,
+AreaPoint discPoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
+    return flatPoint(onDisc(diffuseRay(n, c), c, s), onDisc(mirrored, c, s), PI * s.radius * s.radius,
                      vec2(s.radius), s.direction);
 }
-AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 v) {
+AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     AreaPoint p;
     p.diffuse_at = onTube(diffuseRay(n, c), c, s);
-    p.specular_at = onTube(reflect(-v, n), c, s);
+    p.specular_at = onTube(mirrored, c, s);
     float half_length = length(s.x), d2 = max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED);
     float cosine = dot(p.diffuse_at, s.direction) * inversesqrt(d2);
     float area = 4.0 * s.radius * half_length * sqrt(max(1.0 - cosine * cosine, 0.0)) +

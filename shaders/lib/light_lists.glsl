@@ -26,11 +26,10 @@ SpotCone spotConeAt(uint i) {
     return SpotCone(a.xyz, a.w, b.x, b.yzw);
 }
 
-// Of local light i its number among the area lights; the null light's is the last.
-uint areaNumber(uint i) {
-    return min(i - view.directional_light_count - view.point_light_count - view.spot_light_count,
-               view.rect_light_count + view.disc_light_count + view.tube_light_count);
-}
+// Numbers among the area lights: rectangles, discs, tubes.
+uint firstDisc() { return view.rect_light_count; }
+uint firstTube() { return view.rect_light_count + view.disc_light_count; }
+uint areaCount() { return firstTube() + view.tube_light_count; }
 AreaLight areaLightAt(uint area) {
     vec4 a = texelFetch(area_light_texels, int(3u * area)), b = texelFetch(area_light_texels, int(3u * area + 1u)),
          c = texelFetch(area_light_texels, int(3u * area + 2u));
@@ -76,10 +75,29 @@ uvec4 lightsOfGroup(uint group) {
     if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + group);
     return texelFetch(list_indices, int(group));
 }
-// Of the places of groups, list_width each.
-uint lightOfPlace(uint place) {
-    return lightsOfGroup(place / feature_list_width)[place % feature_list_width];
+
+// The area lights of a list one by one: what fills the last group up would be dear.
+struct AreaWalk {
+    uint place, end;  // of groups, list_width each
+    uint light;       // in the buffer
+    uint number;      // among the area lights; the null light's is areaCount()
+    bool more;
+};
+void look(inout AreaWalk walk) {
+    uint place = min(walk.place, max(walk.end, 1u) - 1u);
+    walk.light = lightsOfGroup(place / feature_list_width)[place % feature_list_width];
+    uint first = view.directional_light_count + view.point_light_count + view.spot_light_count;
+    walk.number = min(walk.light - first, areaCount());
+    walk.more = walk.place < walk.end && walk.number < areaCount();
 }
-bool isNullLight(uint i) { return feature_list_width > 1 && i == grid.null_light; }
+AreaWalk areaWalk(uvec2 groups) {
+    AreaWalk walk = AreaWalk(groups.x * feature_list_width, groups.y * feature_list_width, 0u, 0u, false);
+    look(walk);
+    return walk;
+}
+void step(inout AreaWalk walk) {
+    ++walk.place;
+    look(walk);
+}
 
 #endif

@@ -95,6 +95,14 @@ struct Cone {
     float half_x, half_y;  // half_x >= half_y >= 0
 };
 
+// A step of Laguerre's method up or down to the largest root of x^3 - trace x^2 + minors x - det.
+float nearerRoot(float x, float trace, float minors, float det) {
+    float f = ((x - trace) * x + minors) * x - det;
+    float slope = (3.0 * x - 2.0 * trace) * x + minors, bend = 6.0 * x - 2.0 * trace;
+    float down = slope + sqrt(max(4.0 * slope * slope - 6.0 * f * bend, 0.0));
+    return down > 0.0 ? x - 3.0 * f / down : x;
+}
+
 Cone coneOf(vec3 c, vec3 a, vec3 b) {
     vec3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
     float volume = abs(dot(c, ab));
@@ -117,12 +125,8 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     float mean = trace * (1.0 / 3.0), spread2 = max(mean * mean - minors * (1.0 / 3.0), 1e-30), wide = sqrt(spread2);
     float cosine = clamp((mean * (mean * mean - 0.5 * minors) + 0.5 * det) / (spread2 * wide), -1.0, 1.0);
     float root = mean + 2.0 * wide * cos(angleOf(cosine, sqrt(1.0 - cosine * cosine)) * (1.0 / 3.0));
-    for (int i = 0; i < 3; ++i) {
-        float f = ((root - trace) * root + minors) * root - det;
-        float slope = (3.0 * root - 2.0 * trace) * root + minors, bend = 6.0 * root - 2.0 * trace;
-        float step = slope + sqrt(max(4.0 * slope * slope - 6.0 * f * bend, 0.0));
-        root -= step > 0.0 ? 3.0 * f / step : 0.0;
-    }
+    root = nearerRoot(root, trace, minors, det);
+    root = nearerRoot(root, trace, minors, det);
     root = max(root, 0.0);
     // adj(S - root 1) = adj S + root S + root (root - trace) 1, which is z z^T but for a factor: its longest column.
     mat3 s = outerProduct(p, p) - outerProduct(q, q) - outerProduct(r, r);

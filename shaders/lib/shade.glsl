@@ -43,21 +43,6 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
     addIncident(shading, fromSpotLight(lightAt(i), spotConeAt(i), shading.surface.position), radiance);
 }
 
-// By its place among the area lights: rectangles, discs, tubes. On lavapipe a light costs what all the shapes that
-// the scene has cost together.
-void addArea(AreaView area, uint i, vec3 position, inout Radiance radiance) {
-    Light light = lightAt(i);
-    uint number = areaNumber(i);
-    AreaLight shape = areaLightAt(number);
-    uint discs = view.rect_light_count, tubes = discs + view.disc_light_count;
-    if (on(feature_area_lights & AREA_RECTS) && number < discs)
-        addRect(area, light, shape, position, radiance.diffuse, radiance.specular);
-    if (on(feature_area_lights & AREA_DISCS) && number >= discs && number < tubes)
-        addDisc(area, light, shape, position, radiance.diffuse, radiance.specular);
-    if (on(feature_area_lights & AREA_TUBES) && number >= tubes)
-        addTube(area, light, shape, position, radiance.diffuse, radiance.specular);
-}
-
 // The groups [x, y) of one kind, one at least with lists: on lavapipe a loop that tests last runs a body less than one
 // that tests first.
 #define ADD_GROUPS(add, groups)                                \
@@ -77,6 +62,13 @@ void addArea(AreaView area, uint i, vec3 position, inout Radiance radiance) {
         }                                                      \
     }
 
+// Goes on with the area lights of one shape, numbers below `end`: a loop a shape, for a body costs what is in it.
+#define ADD_AREA(add, end)                                                                              \
+    while (walk.more && walk.number < end) {                                                            \
+        add(area, lightAt(walk.light), areaLightAt(walk.number), s.position, radiance.diffuse, radiance.specular); \
+        step(walk);                                                                                     \
+    }
+
 // The sum over the pixel's lights, in the buffer's order. Occlusion is for ambient light alone and dims nothing here.
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
@@ -93,15 +85,10 @@ Radiance shade(Surface s, PixelLights lights) {
     if (on(feature_spot_lights)) ADD_GROUPS(addSpot, walked(lights, lights.groups.point_end, lights.groups.spot_end))
     if (on(feature_area_lights)) {
         AreaView area = areaView(shading.brdf, s, v);
-        uvec2 range = walked(lights, lights.groups.spot_end, lights.groups.end) * feature_list_width;
-        uint next = range.x, i = lightOfPlace(next);
-        bool more = next < range.y;
-        while (more) {
-            addArea(area, i, s.position, radiance);
-            i = lightOfPlace(++next);
-            // What fills the last group up is dear here.
-            more = next < range.y && !isNullLight(i);
-        }
+        AreaWalk walk = areaWalk(walked(lights, lights.groups.spot_end, lights.groups.end));
+        if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
+        if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
+        if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
     }
     return radiance;
 }
