@@ -80,8 +80,8 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
 // dielectric's layer lets through to its base is that of the light's mean direction: exact for a small light.
 void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
     vec3 l = unitOrZero(transpose(a.surface) * plain);
-    vec3 h = unitOrZero(l + a.v);
-    float base = 1.0 - (a.brdf.base_f0 + (a.brdf.base_f90 - a.brdf.base_f0) * schlickWeight(dot(a.v, h)));
+    float weight = schlickWeight(0.5 * length(l + a.v));
+    float base = 1.0 - (a.brdf.base_f0 + (a.brdf.base_f90 - a.brdf.base_f0) * weight);
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     precise vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
     precise vec3 from_lobe = a.reflected * max(lobe.z, 0.0) * radiance;

@@ -84,21 +84,18 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
 
 void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
     vec3 l = p.diffuse_at * inversesqrt(max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED));
-    vec3 h = l + v;
-    h *= inversesqrt(max(dot(h, h), 1e-12));
-    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(dot(v, h)));
+    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(0.5 * length(l + v)));
     float received = max(dot(n, l), 0.0) * p.solid_angle;
 
     float to_point = inversesqrt(max(dot(p.specular_at, p.specular_at), MIN_LIGHT_DISTANCE_SQUARED));
     l = p.specular_at * to_point;
     float n_dot_l = max(dot(n, l), 0.0);
-    h = l + v;
-    h = dot(h, h) > 1e-12 ? h * inversesqrt(dot(h, h)) : n;
-    vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(dot(v, h));
+    vec3 sum = l + v;
+    float sum2 = dot(sum, sum);
+    vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(0.5 * sqrt(sum2));
     // So wide that a mirror shows a large light as bright as it is.
     vec2 wider = min(b.alpha + p.half_size * (0.5 * to_point), max(b.alpha, 1.0));
-    float lobe = distributionGgx(b.alpha, n, h) * visibilitySmith(b.alpha, b.n_dot_v, max(n_dot_l, 1e-7)) * n_dot_l *
-                 (b.alpha * b.alpha / (wider.x * wider.y)) * p.solid_angle;
+    float lobe = specularLobe(b, n, sum, sum2, n_dot_l) * n_dot_l * (b.alpha2 / (wider.x * wider.y)) * p.solid_angle;
 
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     precise vec3 from_base = b.diffuse * (base * received) * radiance;

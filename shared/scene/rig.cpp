@@ -23,8 +23,12 @@ constexpr std::uint64_t MOST_LIGHTS = std::uint64_t{1} << 31;
 constexpr double LIGHTS_AT_A_POINT = 6.0;
 constexpr double CANDELA_PER_RANGE_SQUARED = 0.4;
 
+// Each kind draws its lights from a stream of its own.
+enum class Stream : std::uint32_t { point, spot, area };
+constexpr std::array<std::string_view, 3> STREAM_NAMES{"point", "spot", "area"};
+
 struct Order {
-    LightKind kind;
+    Stream stream;
     std::uint64_t count;
 };
 
@@ -34,7 +38,7 @@ struct Box {
 
 [[noreturn]] void fail(const std::string& lights, const std::string& fault) {
     throw std::runtime_error(fmt::format(
-        "--lights {}: {}; it takes KIND:N[,KIND:N...] with KIND point or spot, or the name of a JSON file",
+        "--lights {}: {}; it takes KIND:N[,KIND:N...] with KIND point, spot or area, or the name of a JSON file",
         lights, fault));
 }
 
@@ -42,14 +46,14 @@ Order parseOrder(const std::string& lights, std::string_view item) {
     const std::size_t colon = item.find(':');
     if (colon == std::string_view::npos) fail(lights, fmt::format("'{}' is neither KIND:N nor a file", item));
     const std::string_view kind = item.substr(0, colon), digits = item.substr(colon + 1);
-    if (kind == "area") fail(lights, "area lights are not built yet");
-    if (kind != "point" && kind != "spot") fail(lights, fmt::format("unknown kind '{}'", kind));
+    const auto found = std::ranges::find(STREAM_NAMES, kind);
+    if (found == STREAM_NAMES.end()) fail(lights, fmt::format("unknown kind '{}'", kind));
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
     if (error == std::errc::result_out_of_range) count = MOST_LIGHTS + 1;
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
         fail(lights, fmt::format("'{}' is no count", digits));
-    return {kind == "point" ? LightKind::point : LightKind::spot, count};
+    return {static_cast<Stream>(found - STREAM_NAMES.begin()), count};
 }
 
 std::vector<Order> parseOrders(const std::string& lights) {
@@ -96,7 +100,35 @@ glm::dvec3 pastel(double hue) {
     return 0.6 * glm::dvec3(ramp(0.0), ramp(2.0 / 3), ramp(1.0 / 3)) + 0.4;
 }
 
-Light makeLight(LightKind kind, std::uint32_t key, std::uint32_t index, const Box& box, double range) {
+// Down, tilted by 35 degrees at most: evenly over that cap but for its curvature.
+glm::dvec3 downwards(double u, double v) {
+    const double tilt = 35.0 / 360.0 * TAU * std::sqrt(u), azimuth = TAU * v;
+    return {std::sin(tilt) * std::cos(azimuth), -std::cos(tilt), std::sin(tilt) * std::sin(azimuth)};
+}
+
+// A point's light becomes a surface of the size of `range`, as bright from the direction of most.
+void spreadOut(Light& light, double range, double shape, const std::array<double, 3>& u) {
+    light.axis = glm::normalize(glm::cross(light.direction, glm::dvec3(std::cos(TAU * u[0]), 0, std::sin(TAU * u[0]))));
+    double area = 0;
+    if (shape < 1) {
+        light.kind = LightKind::rect;
+        light.width = static_cast<float>(range * (0.2 + 0.3 * u[1]));
+        light.height = light.width * static_cast<float>(0.25 + 0.75 * u[2]);
+        area = double{light.width} * double{light.height};
+    } else if (shape < 2) {
+        light.kind = LightKind::disc;
+        light.radius = static_cast<float>(range * (0.1 + 0.15 * u[1]));
+        area = TAU / 2 * double{light.radius} * double{light.radius};
+    } else {
+        light.kind = LightKind::tube;
+        light.length = static_cast<float>(range * (0.3 + 0.4 * u[1]));
+        light.radius = light.length * static_cast<float>(0.01 + 0.04 * u[2]);
+        area = 2 * double{light.radius} * double{light.length};
+    }
+    light.intensity = static_cast<float>(double{light.intensity} / area);
+}
+
+Light makeLight(Stream stream, std::uint32_t key, std::uint32_t index, const Box& box, double range) {
     const std::uint32_t own = pcg(key + index);
     const auto u = [own](std::uint32_t k) { return u01(own + k); };
 
@@ -107,25 +139,26 @@ Light makeLight(LightKind kind, std::uint32_t key, std::uint32_t index, const Bo
         power *= G;
         place[axis] = frac(u01(key + static_cast<std::uint32_t>(axis) + 1) + (index + 1.0) / power);
     }
-    if (kind == LightKind::spot) place.y = 0.5 + 0.5 * place.y;
+    if (stream != Stream::point) place.y = 0.5 + 0.5 * place.y;
 
     const glm::dvec3 color = pastel(u(0));
     Light light;
-    light.name = fmt::format("{} {}", kind == LightKind::spot ? "spot" : "point", index);
-    light.kind = kind;
+    light.name = fmt::format("{} {}", STREAM_NAMES[static_cast<std::size_t>(stream)], index);
     light.position = box.min + box.size * place;
     light.color = glm::vec3(color);
     light.intensity = static_cast<float>(CANDELA_PER_RANGE_SQUARED * range * range / luminance(color));
     light.range = static_cast<float>(range);
-    if (kind == LightKind::spot) {
-        const double tilt = 35.0 / 360.0 * TAU * std::sqrt(u(1)), azimuth = TAU * u(2);
-        const double outer = (20.0 + 20.0 * u(3)) / 360.0 * TAU;
-        light.range *= 2;
-        light.direction = {std::sin(tilt) * std::cos(azimuth), -std::cos(tilt),
-                           std::sin(tilt) * std::sin(azimuth)};
-        light.outer_cone = static_cast<float>(outer);
-        light.inner_cone = static_cast<float>(0.7 * outer);
+    if (stream == Stream::point) return light;
+    light.direction = downwards(u(1), u(2));
+    if (stream == Stream::area) {
+        spreadOut(light, range, 3 * u(3), {u(4), u(5), u(6)});
+        return light;
     }
+    const double outer = (20.0 + 20.0 * u(3)) / 360.0 * TAU;
+    light.kind = LightKind::spot;
+    light.range *= 2;
+    light.outer_cone = static_cast<float>(outer);
+    light.inner_cone = static_cast<float>(0.7 * outer);
     return light;
 }
 
@@ -160,12 +193,12 @@ std::vector<Light> makeLights(const std::string& lights, std::uint32_t seed, con
     const double volume = box.size.x * box.size.y * box.size.z;
     const double range = std::cbrt(LIGHTS_AT_A_POINT * 3 / (2 * TAU) * volume /
                                    static_cast<double>(std::max<std::uint64_t>(total, 1)));
-    std::array<std::uint32_t, 2> next{0, 0};
+    std::array<std::uint32_t, STREAM_NAMES.size()> next{};
     for (const Order& order : orders) {
-        const std::uint32_t stream = order.kind == LightKind::spot ? 1 : 0;
+        const auto stream = static_cast<std::uint32_t>(order.stream);
         const std::uint32_t key = pcg(seed + pcg(stream));
         for (std::uint64_t n = 0; n < order.count; ++n)
-            made.push_back(makeLight(order.kind, key, next[stream]++, box, range));
+            made.push_back(makeLight(order.stream, key, next[stream]++, box, range));
     }
     return made;
 }

@@ -17,16 +17,17 @@ std::uint32_t pcg(std::uint32_t i);
 double u01(std::uint32_t i);
 
 // World lights from `lights`, which is Settings::lights: the name of a JSON file { "lights": [...] } (it ends
-// in .json or exists), or "KIND:N[,KIND:N...]" with KIND point or spot (area is named as not built yet),
+// in .json or exists), or "KIND:N[,KIND:N...]" with KIND point, spot or area,
 // scattered in `bounds`. A kind named twice goes on counting. Light i of a kind keeps position, colour and
 // direction whatever N is; range and intensity follow the density of all N lights together:
 //
 //   box      the bounds, each side at least an eighth of the longest: x and z grow about the middle, y
 //   upwards.
 //            A point becomes 1 m a side, empty bounds 2 m about the origin.
-//   key      pcg(seed + pcg(kind)), kind 0 point, 1 spot;  u(i, k) = u01(pcg(key + i) + k)
+//   key      pcg(seed + pcg(kind)), kind 0 point, 1 spot, 2 area;  u(i, k) = u01(pcg(key + i) + k)
 //   position box at frac(u01(key + k) + (i + 1) / g^k), k = 1, 2, 3, g^4 = g + 1: the R3 sequence (Roberts
-//            2018, "The Unreasonable Effectiveness of Quasirandom Sequences"); spots in the upper half
+//            2018, "The Unreasonable Effectiveness of Quasirandom Sequences"); spots and area lights
+//            in the upper half
 //   colour   the hue u(i, 0) mixed with white, 0.6 : 0.4, largest component 1
 //   range    (6 * 3/(4 pi) * volume / N)^(1/3): 6 point lights reach a point far from the sides; spots
 //            twice that, for a cone holds about an eighth of a ball
@@ -34,6 +35,10 @@ double u01(std::uint32_t i);
 //            irradiance is about 1.5 lux whatever size and N are
 //   spots    down, tilted by 35 degrees * sqrt(u(i, 1)) towards the azimuth 2 pi u(i, 2);
 //            outer cone 20 to 40 degrees by u(i, 3), inner cone 0.7 of it
+//   area     rectangles, discs and tubes, a third each by u(i, 3), a point's range, down as spots, the axis
+//            across that, turned by u(i, 4). Of the range: rectangles 0.2 to 0.5 wide, by u(i, 5), and 0.25 to 1 of that high,
+//            by u(i, 6); discs 0.1 to 0.25 in radius; tubes 0.3 to 0.7 long and 0.01 to 0.05 of that in radius. Their
+//            nits are the candela over the area that is seen from the front: as bright as the others from afar
 //
 // Throws std::runtime_error: one line naming --lights or the file, the fault and what is accepted. N has no
 // limit but memory and, for all kinds together, 2^31.

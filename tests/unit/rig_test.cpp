@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -82,6 +84,36 @@ TEST(Rig, LightsLieInTheBoundsEquallyBright) {
     }
 }
 
+TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
+    const auto lights = makeLights("area:300", 3, ROOM), again = makeLights("area:300", 3, ROOM);
+    const float candela = 0.4f * lights[0].range * lights[0].range;  // of white
+    std::array<int, 3> kinds{};
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
+        EXPECT_EQ(light.width, again[i].width);
+        EXPECT_EQ(light.kind, again[i].kind);
+        for (int axis : {0, 1, 2}) {
+            EXPECT_GE(light.position[axis], ROOM.min[axis]);
+            EXPECT_LE(light.position[axis], ROOM.max[axis]);
+        }
+        EXPECT_GE(light.position.y, 2.0);
+        EXPECT_LE(light.direction.y, -std::cos(glm::radians(35.0)) + 1e-12);
+        EXPECT_NEAR(glm::length(light.axis), 1.0, 1e-12);
+        EXPECT_NEAR(glm::dot(light.axis, light.direction), 0.0, 1e-12);
+        float area = light.width * light.height;
+        if (light.kind == LightKind::disc) area = glm::pi<float>() * light.radius * light.radius;
+        if (light.kind == LightKind::tube) area = 2 * light.radius * light.length;
+        const glm::vec3 c = light.color;
+        // Eight roundings to float32 of 6e-8 each.
+        EXPECT_NEAR((0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) * light.intensity * area / candela, 1.0f, 1e-6f);
+        ASSERT_TRUE(isArea(light.kind));
+        ++kinds[static_cast<std::size_t>(light.kind) - static_cast<std::size_t>(LightKind::rect)];
+    }
+    for (const int count : kinds) EXPECT_GT(count, 60);  // of 100 expected; five standard deviations are 41
+    const auto mixed = makeLights("point:4,area:2", 3, ROOM);
+    EXPECT_EQ(mixed[4].position, lights[0].position) << "whatever else there is";
+}
+
 TEST(Rig, SixPointLightsReachTheMiddle) {
     // The mean count over points half a room wide around the middle. Ranges there stay inside this cube, so
     // the expectation is exactly 6; a low-discrepancy sequence of 512 misses it by a few per cent at most.
@@ -117,13 +149,13 @@ TEST(Rig, FlatPointlikeEmptyAndDistantBoundsStayFinite) {
 
 TEST(Rig, WrongOrdersNameTheOptionAndTheFault) {
     for (const char* wrong :
-         {"area:4", "point", "point:", "point:-1", "point:1x", "disco:3", "point:1,", ",", "point:1.5", " ",
+         {"areas:4", "point", "point:", "point:-1", "point:1x", "disco:3", "point:1,", ",", "point:1.5", " ",
           "point:2147483649", "point:2147483648,spot:1", "point:99999999999999999999999"}) {
         const std::string error = errorOf(wrong);
         EXPECT_EQ(error.find("--lights"), 0u) << wrong << ": " << error;
         EXPECT_EQ(error.find('\n'), std::string::npos);
     }
-    EXPECT_NE(errorOf("area:4").find("not built yet"), std::string::npos);
+    EXPECT_NE(errorOf("areas:4").find("area"), std::string::npos);
     EXPECT_NE(errorOf("point:2147483649").find("2^31"), std::string::npos);
     EXPECT_NE(errorOf("point:1", {{0, 0, 0}, {INFINITY, 1, 1}}).find("not finite"), std::string::npos);
     EXPECT_TRUE(makeLights("", 0, ROOM).empty());
