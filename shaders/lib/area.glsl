@@ -119,6 +119,9 @@ void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
 
 void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
+    float along = dot(i.centre, shape.direction);
+    bool within = length(i.centre - shape.direction * along) <= shape.radius && abs(along) <= length(shape.x);
+    if (within) i.radiance = vec3(0.0);  // it shines outwards alone
     if (areaPoints()) {
         addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, diffuse, specular);
         return;
@@ -127,8 +130,7 @@ void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
     Ltc plain = Ltc(1.0, 1.0, 0.0);
     Tube t = tubeOf(a.surface * (i.centre * unit), a.surface * shape.direction, length(shape.x) * unit,
                     shape.radius * unit);
-    vec3 radiance = seesTube(t) ? i.radiance : vec3(0.0);
-    addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), radiance, diffuse, specular);
+    addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), i.radiance, diffuse, specular);
 }
 
 #endif

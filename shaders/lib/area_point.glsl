@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Area lights by one point each: the one nearest to a ray stands for all. For the specular lobe the ray is the
-// mirrored view, and the lobe is flattened as if it were as much wider as the light is (Karis 2013, "Real Shading in
-// Unreal Engine 4"); for the diffuse one it is halfway from the normal to the light's centre (after Drobot 2014,
+// mirrored view, and the lobe's peak is lowered as if it were as much wider as the light is (Karis 2013, "Real Shading
+// in Unreal Engine 4"); for the diffuse one it is halfway from the normal to the light's centre (after Drobot 2014,
 // "Physically Based Area Lights", GPU Pro 5). Cheap, and wrong by what one point cannot know.
 #ifndef AREA_POINT_GLSL
 #define AREA_POINT_GLSL
@@ -93,9 +93,12 @@ void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3
     vec3 sum = l + v;
     float sum2 = dot(sum, sum);
     vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(0.5 * sqrt(sum2));
-    // So wide that a mirror shows a large light as bright as it is.
-    vec2 wider = min(b.alpha + p.half_size * (0.5 * to_point), max(b.alpha, 1.0));
-    float lobe = specularLobe(b, n, sum, sum2, n_dot_l) * n_dot_l * (b.alpha2 / (wider.x * wider.y)) * p.solid_angle;
+    // Of a round lobe in whose middle a light with the tangent t stands the share t^2 / (t^2 + 4 alpha^2) meets it: so
+    // much is left of the peak that a mirror shows a large light as bright as it is. Aslant the lobe is n.v narrower.
+    vec2 tangent = 0.5 * p.half_size * to_point;
+    float width2 = b.alpha2 * b.n_dot_v;
+    vec2 wider = sqrt(vec2(width2) + tangent * tangent);
+    float lobe = specularLobe(b, n, sum, sum2, n_dot_l) * n_dot_l * (width2 / (wider.x * wider.y)) * p.solid_angle;
 
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     precise vec3 from_base = b.diffuse * (base * received) * radiance;

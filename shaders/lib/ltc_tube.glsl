@@ -9,7 +9,8 @@
 
 // From the surface, in the frame z = n.
 struct Tube {
-    vec3 top, bottom;   // centres of its ends
+    vec3 centre, half_axis;  // from there to the top
+    vec3 top, bottom;        // centres of its ends
     vec3 towards, across;  // radius long, at right angles to the axis: towards the surface, and along cross(axis, towards)
     vec2 tangent;       // (cos, sin) of the angle from towards to where the two lines are
     bool beside;        // the surface is outside the cylinder made endless: there are lines
@@ -24,8 +25,10 @@ Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
     vec3 x = distance > 1e-6 * radius ? from_axis / distance
                                       : normalize(cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     Tube t;
-    t.top = centre + axis * half_length;
-    t.bottom = centre - axis * half_length;
+    t.centre = centre;
+    t.half_axis = axis * half_length;
+    t.top = centre + t.half_axis;
+    t.bottom = centre - t.half_axis;
     t.towards = x * radius;
     t.across = cross(axis, t.towards);
     t.beside = distance > radius;
@@ -35,8 +38,6 @@ Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
     t.bottom_shows = -along > half_length;
     return t;
 }
-// Not inside it.
-bool seesTube(Tube t) { return t.beside || t.top_shows || t.bottom_shows; }
 
 vec2 onRim(Cone cone, vec3 direction) {
     vec2 t = vec2(dot(direction, cone.x) * max(cone.half_y, 1e-6 * cone.half_x), dot(direction, cone.y) * cone.half_x);
@@ -85,7 +86,7 @@ vec3 tubeFactor(Ltc m, Tube t) {
         addEdge(o, bottom + left, top + left);
     }
     // From afar a point, as a parallelogram is: the side's middle plane, and an end.
-    vec3 c = 0.5 * (top + bottom), half_axis = 0.5 * (top - bottom);
+    vec3 c = toCosine(m, t.centre), half_axis = toCosine(m, t.half_axis);
     float c2 = dot(c, c), reach = length(half_axis) + length(x) + length(y);
     float area = 4.0 * abs(dot(c, cross(half_axis, y))) + PI * abs(dot(c, cross(x, y)));
     vec3 afar = c * (area * INVERSE_PI / (c2 * c2));

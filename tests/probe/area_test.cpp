@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace diptych::tests {
 namespace {
@@ -40,9 +43,18 @@ std::string words(const Light& l, const Receiver& r) {
                        l.length, l.two_sided ? " two-sided" : "", r.roughness, v(r.to_viewer));
 }
 
+// One that shines down on the surface, a little aslant.
+Light lightOf(LightKind kind) {
+    Light light = reference::lightOf(kind, {0.4, -0.3, 1.2}, {0.1, 0.2, -1});
+    light.width = 1, light.height = 0.6f, light.radius = 0.3f, light.length = 1;
+    return light;
+}
+
 class AreaShapes : public testing::TestWithParam<LightKind> {};
 
-// Lambert alone, and a lobe of F = 1: the table's magnitude times the transformed cosine over the light.
+// Lambert alone, and a lobe of F = 1: the table's magnitude times the transformed cosine over the light. Both closed
+// forms are sums of a dozen terms of float32 that largely cancel, and M^-1 makes up to 500 times larger what is rounded:
+// 2e-5 of the sky is ten times what this finds.
 TEST_P(AreaShapes, AreIntegratedExactly) {
     Probes probes;
     std::mt19937 random(11);
@@ -66,18 +78,164 @@ TEST_P(AreaShapes, AreIntegratedExactly) {
         pushArea(input, light, r);
     }
     const auto rows = shadeArea(probes, input);
-    double worst[2] = {0, 0};
+    int lit = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        const double diffuse = rows[2 * i][0], specular = rows[2 * i + 1][1];
-        ASSERT_TRUE(std::isfinite(diffuse) && std::isfinite(specular)) << names[i];
-        const double off[2] = {std::abs(diffuse - expected[i][0]), std::abs(specular - expected[i][1])};
-        for (int k : {0, 1}) {
-            worst[k] = std::max(worst[k], off[k]);
-            EXPECT_LE(off[k], 2e-4) << (k ? "specular " : "diffuse ") << (k ? specular : diffuse) << " for "
-                                   << expected[i][k] << ": " << names[i];
+        EXPECT_NEAR(rows[2 * i][0], expected[i][0], 2e-5) << "diffuse: " << names[i];
+        EXPECT_NEAR(rows[2 * i + 1][1], expected[i][1], 2e-5) << "specular: " << names[i];
+        lit += expected[i][0] > 0.01;
+    }
+    EXPECT_GT(lit, 150) << "the comparison has lost its point: nothing is lit";
+}
+
+// The twin: a light a percent larger is told from this one.
+TEST_P(AreaShapes, OnePerCentMoreIsSeen) {
+    Probes probes;
+    Light light = lightOf(GetParam());
+    std::vector<float> input;
+    pushArea(input, light, {});
+    light.width *= 1.01f, light.radius *= 1.01f;
+    pushArea(input, light, {});
+    const auto rows = shadeArea(probes, input);
+    EXPECT_GT(std::abs(rows[0][1] - rows[1][1]), 1e-4);
+}
+
+double solidAngleOf(const Light& light) {
+    const double d2 = glm::dot(light.position, light.position);
+    const glm::dvec3 l = light.position / std::sqrt(d2);
+    const double r = double{light.radius}, cosine = std::abs(glm::dot(l, light.direction));
+    if (light.kind == LightKind::rect) return double{light.width} * double{light.height} * cosine / d2;
+    if (light.kind == LightKind::disc) return reference::pi * r * r * cosine / d2;
+    const double along = std::abs(glm::dot(l, light.axis));
+    return (2 * r * double{light.length} * std::sqrt(1 - along * along) + reference::pi * r * r * along) / d2;
+}
+double densityAt(const Light& light, const ltc::Transform& lobe, const Receiver& r) {
+    const glm::dvec3 l = glm::normalize(light.position), x = -glm::normalize(glm::dvec3(r.to_viewer.x, r.to_viewer.y, 0));
+    return lobe.density({glm::dot(l, x), glm::dot(l, glm::cross(glm::dvec3(0, 0, 1), x)), l.z});
+}
+
+// Far lights and tiny ones are points: to a thousandth of themselves, down to a millionth of the distance.
+TEST_P(AreaShapes, FarAwayTheyArePoints) {
+    Probes probes;
+    std::vector<float> input;
+    std::vector<double> expected;
+    for (const double distance : {1.0, 100.0, 1e5})
+        for (const double share : {0.3, 0.03, 1e-3, 1e-5, 1e-6}) {
+            Light light = lightOf(GetParam());
+            light.position *= distance;
+            light.width = light.height = light.length = static_cast<float>(share * distance);
+            light.radius = light.width / 3;
+            Receiver r{.roughness = 0.4, .to_viewer = viewAt(30)};
+            const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
+            pushArea(input, light, r);
+            const ltc::Transform lobe = ltc::transformOf(cell, 0.16, r.nDotV());
+            // Where an outline's own sum would be rounding: its solid angle times the density there.
+            expected.push_back(double{cell.magnitude} * (share > 1e-2 ? shareOfSky(light, lobe, r.to_viewer)
+                                                                      : solidAngleOf(light) * densityAt(light, lobe, r)));
+        }
+    const auto rows = shadeArea(probes, input);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_NEAR(rows[i][1], expected[i], 1e-3 * expected[i]) << "case " << i;
+}
+
+// From the range on, from behind and from inside: exactly nothing, and with it culling changes no bit.
+TEST_P(AreaShapes, GiveExactlyNothingWhereTheyEnd) {
+    Probes probes;
+    std::vector<float> input;
+    for (const bool points : {false, true}) {
+        input.clear();
+        Light light = lightOf(GetParam());
+        light.range = static_cast<float>(glm::length(light.position));
+        for (const float factor : {1.0f, 0.999f, 0.5f, 1e-3f}) {
+            Light shorter = light;
+            shorter.range *= factor;
+            pushArea(input, shorter, {});
+        }
+        Light behind = light;
+        behind.range = std::numeric_limits<float>::infinity();
+        behind.direction = -behind.direction;
+        if (GetParam() == LightKind::tube) behind.position = behind.axis * 0.05, behind.radius = 0.2f;
+        pushArea(input, behind, {});
+        for (const auto& row : shadeArea(probes, input, points)) {
+            EXPECT_EQ(row[0], 0);
+            EXPECT_EQ(row[1], 0);
+        }
+        light.range *= 1.01f;
+        input.clear();
+        pushArea(input, light, {});
+        EXPECT_GT(shadeArea(probes, input, points)[0][1], 0);
+    }
+}
+
+// A light that stands below the horizon sends nothing into either lobe, however rough and flat the view.
+TEST_P(AreaShapes, NothingComesFromBelow) {
+    Probes probes;
+    std::vector<float> input;
+    for (const double roughness : {0.1, 0.5, 1.0})
+        for (const double degrees : {0.0, 60.0, 85.0, 89.9}) {
+            Light light = lightOf(GetParam());
+            light.position.z = -1, light.two_sided = true;
+            light.width = light.height = light.length = 0.5f, light.radius = 0.3f;
+            pushArea(input, light, {.roughness = roughness, .metallic = 0.5, .to_viewer = viewAt(degrees)});
+        }
+    for (const auto& row : shadeArea(probes, input)) EXPECT_EQ(row[0] + row[1], 0);
+}
+
+// On the light's plane, its edge, its corner, its axis, its surface and its centre, edge on, from 1e-15 m to 1e15 m:
+// finite, and in each lobe at most what a sky as bright sends.
+TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
+    Probes probes;
+    for (const bool points : {false, true}) {
+        std::vector<float> input;
+        for (const double size : {1e-15, 1e-6, 1.0, 1e6, 1e15})
+            for (const double x : {0.0, 0.5, 0.5000001, 1.0})
+                for (const double z : {0.0, 1e-7, 0.5, 1.0, 1e3})
+                    for (const glm::dvec3 direction :
+                         {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(-0.6, 0, -0.8)})
+                        for (const double degrees : {0.0, 89.999})
+                            for (const double roughness : {0.0, 1.0}) {
+                                Light light;
+                                light.kind = GetParam();
+                                light.direction = direction;
+                                light.axis = {-direction.z, 0, direction.x};
+                                light.position = glm::dvec3(x, 0, z) * size;
+                                light.width = light.height = light.length = static_cast<float>(size);
+                                light.radius = light.width / 2;
+                                light.two_sided = true;
+                                pushArea(input, light,
+                                         {.roughness = roughness, .metallic = 0.5, .to_viewer = viewAt(degrees)});
+                            }
+        const auto rows = shadeArea(probes, input, points);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            for (const double value : rows[i]) {
+                ASSERT_TRUE(std::isfinite(value)) << i;
+                ASSERT_GE(value, 0) << i;
+                // Of each lobe, to a thousandth for rounding; one point promises nothing.
+                if (!points) {
+                    ASSERT_LE(value, 1.001) << i;
+                }
+            }
         }
     }
-    fmt::print("worst: diffuse {:.2g}, specular {:.2g}\n", worst[0], worst[1]);
+}
+
+// What the dielectric's layer takes from its base is exact for a small light, to the square of its size as it is seen,
+// and near for large ones.
+TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
+    Probes probes;
+    std::vector<float> input;
+    std::vector<double> expected, allowed;
+    for (const double size : {0.01, 1.0})
+        for (const double degrees : {0.0, 45.0, 75.0}) {
+            Light light = lightOf(GetParam());
+            light.width = light.height = light.length = static_cast<float>(size), light.radius = light.width / 3;
+            const Receiver r{.roughness = 0.5, .metallic = 0, .f0 = 0.04, .to_viewer = viewAt(degrees, 2)};
+            pushArea(input, light, r);
+            expected.push_back(referenceArea(light, r)[0]);
+            allowed.push_back(size < 0.1 ? 3e-4 : 0.02);
+        }
+    const auto rows = shadeArea(probes, input);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_NEAR(rows[i][0], expected[i], allowed[i] * expected[i]) << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, AreaShapes, testing::Values(LightKind::rect, LightKind::disc, LightKind::tube),
