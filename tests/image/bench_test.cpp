@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a benchmark times is what is drawn otherwise, and its kernels are one arithmetic.
 #include "compare/bench/kernels.h"
+#include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
 
 #include <limits>
@@ -110,7 +111,9 @@ TEST(BenchKernels, AWorkloadIsTheSameForTheSameSeed) {
     ASSERT_EQ(a.indices.size(), 2u * 8);
     for (std::size_t i = 0; i < a.indices.size(); ++i) {
         EXPECT_LT(a.indices[i], 64u);
-        if (i % 8 > 0) EXPECT_LT(a.indices[i - 1], a.indices[i]) << "ascending, each once";
+        if (i % 8 > 0) {
+            EXPECT_LT(a.indices[i - 1], a.indices[i]) << "ascending, each once";
+        }
     }
     EXPECT_THROW(makeWorkload({30, 16}, 64, 8, 5), std::logic_error);
     EXPECT_THROW(makeWorkload({32, 16}, 64, 6, 5), std::logic_error);
