@@ -12,7 +12,8 @@
 namespace diptych {
 namespace {
 
-constexpr VkBufferUsageFlags anyBuffer = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+constexpr VkBufferUsageFlags anyBuffer = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                          VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
 // Where the kernels find lights that are in no texel buffer: SET_MATERIAL's bindings 0 and 1.
 constexpr std::array lightTypes{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
@@ -33,6 +34,8 @@ public:
           pipelines_(device, layouts_.pipeline),
           lights_(filled(device, "lights", workload.lights)),
           indices_(filled(device, "lists", workload.indices)),
+          uploader_(device),
+          nothing_(device, uploader_, layouts_),
           unread_(device, "unread", 4096, anyBuffer),
           lightsView_(makeTexelView(device, "lights", lights_, VK_FORMAT_R32G32B32A32_SFLOAT)),
           indicesView_(makeTexelView(device, "lists", indices_, VK_FORMAT_R32G32B32A32_UINT)),
@@ -51,9 +54,9 @@ public:
                                                     .variant = variant,
                                                     .input = VertexInput::none,
                                                     .colors = {litFormat}});
-        passes_.draw(kernel.name).color(target_, Load::clear).record([this, pipeline](VkCommandBuffer commands) {
-            record(commands, pipeline);
-        });
+        passes_.draw(kernel.name)
+            .color(target_, Load::clear)
+            .record([this, pipeline](VkCommandBuffer commands) { record(commands, pipeline); });
     }
 
     double draw(int listLength) override {
@@ -77,6 +80,9 @@ private:
             else if (types[i] == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
                      types[i] == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)
                 frameSets_.buffer(0, i, unread_.handle());
+            else
+                frameSets_.image(0, i, nothing_.texel(), layouts_.nearest,
+                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
         for (std::uint32_t i = 0; i < lightTypes.size(); ++i) lightSets_.buffer(0, i, lights_.handle());
     }
@@ -87,13 +93,17 @@ private:
         static_assert(gpu::SET_FRAME == 0 && gpu::SET_MATERIAL == 1);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.pipeline, 0, sets.size(),
                                 sets.data(), 0, nullptr);
+        const VkDescriptorSet carried = nothing_.set();
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.pipeline,
+                                gpu::SET_CARRIED, 1, &carried, 0, nullptr);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
         vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
         const gpu::DrawConstants constants{static_cast<gpu::uint>(workload_.tilesAcross()),
                                            static_cast<gpu::uint>(workload_.list_capacity / 4), 0,
                                            static_cast<gpu::uint>(length_ / 4)};
-        vkCmdPushConstants(commands, layouts_.pipeline, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
-                           0, sizeof constants, &constants);
+        vkCmdPushConstants(commands, layouts_.pipeline,
+                           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
+                           &constants);
         vkCmdDraw(commands, 3, 1, 0, 0);
     }
 
@@ -101,7 +111,10 @@ private:
     OwnedDescriptorSetLayout lightsLayout_;
     Layouts layouts_;
     Pipelines pipelines_;
-    GpuBuffer lights_, indices_, unread_;
+    GpuBuffer lights_, indices_;
+    Uploader uploader_;
+    NothingCarried nothing_;
+    GpuBuffer unread_;
     OwnedBufferView lightsView_, indicesView_;
     DescriptorSets frameSets_, lightSets_;
     PassList passes_;

@@ -18,8 +18,9 @@ constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                            storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                            texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 // In the order of BINDING_* of SET_FRAME.
-constexpr std::array frameTypes{uniform, storage, storage, texels, texels, texels,
-                                VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, uniform, texels, texels, storage};
+constexpr std::array frameTypes{
+    uniform, storage, storage, texels, texels, texels, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    uniform, texels,  texels,  storage};
 
 constexpr std::array carriedTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
@@ -64,14 +65,23 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material) : frame(makeSet
     lists = ListLayouts(device, frame);
 }
 
+NothingCarried::NothingCarried(Device& device, Uploader& uploader, const Layouts& layouts)
+    : image_(device,
+             {"nothing", litFormat, 1, 1, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}),
+      sets_(device, layouts.carried, carriedTypes, 1) {
+    constexpr std::array<float, 4> black{};
+    uploader.level(image_, 0, std::as_bytes(std::span(black)));
+    uploader.flush();
+    for (gpu::uint i = 0; i < carriedTypes.size(); ++i)
+        sets_.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
 FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts,
                            const Materials& materials, const View& view, const DrawList& draws,
                            const GpuLights& lights, const LightLists::Choice& choice)
     : lists_(device, uploader, layouts.lists, choice, view, lights),
-      nothing_(device, {"nothing carried", litFormat, 1, 1, 1,
-                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}),
-      sets_(device, layouts.frame, frameTypes, 1),
-      carried_nothing_(device, layouts.carried, carriedTypes, 1) {
+      carried_nothing_(device, uploader, layouts),
+      sets_(device, layouts.frame, frameTypes, 1) {
     gpu::View gpuView = view.gpuView();
     gpuView.directional_light_count = lights.directional;
     gpuView.point_light_count = lights.point;
@@ -94,12 +104,6 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     area_lights_view_ = makeTexelView(device, "area lights", area_lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
     ltc_ = LtcImage(device, uploader, lights.area() > 0);
     uploader.flush();
-    constexpr std::array<float, 4> black{};
-    uploader.level(nothing_, 0, std::as_bytes(std::span(black)));
-    uploader.flush();
-    for (gpu::uint i = 0; i < carriedTypes.size(); ++i)
-        carried_nothing_.image(0, i, nothing_.view(), layouts.nearest,
-                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
     sets_.buffer(0, gpu::BINDING_DRAWS, draws_.handle());
     sets_.buffer(0, gpu::BINDING_MATERIALS, materials.buffer());

@@ -29,6 +29,19 @@ struct Layouts {
 // Kinds of the bindings of SET_FRAME, in order.
 std::span<const VkDescriptorType> frameBindings();
 
+// SET_CARRIED of draws that carry nothing on, and a black texel for whatever else a shader names and does not
+// read: lavapipe and validation follow every descriptor.
+class NothingCarried {
+public:
+    NothingCarried(Device& device, Uploader& uploader, const Layouts& layouts);
+    VkDescriptorSet set() const { return sets_[0]; }
+    VkImageView texel() const { return image_.view(); }
+
+private:
+    GpuImage image_;
+    DescriptorSets sets_;
+};
+
 // The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
 class FrameBuffers {
 public:
@@ -36,7 +49,7 @@ public:
                  const View& view, const DrawList& draws, const GpuLights& lights,
                  const LightLists::Choice& choice);
     VkDescriptorSet set() const { return sets_[0]; }
-    VkDescriptorSet carriedNothing() const { return carried_nothing_[0]; }
+    VkDescriptorSet carriedNothing() const { return carried_nothing_.set(); }
     LightLists& lists() { return lists_; }
     std::uint64_t bytes() const {
         return view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + area_lights_.size() +
@@ -48,8 +61,8 @@ private:
     OwnedBufferView lights_view_, spot_cones_view_, area_lights_view_;
     LtcImage ltc_;
     LightLists lists_;
-    GpuImage nothing_;  // one black texel
-    DescriptorSets sets_, carried_nothing_;
+    NothingCarried carried_nothing_;
+    DescriptorSets sets_;
 };
 
 struct FrameInputs {
@@ -60,7 +73,8 @@ struct FrameInputs {
     const Materials& materials;
     const DrawList& draws;
     VkDescriptorSet frame_set;
-    VkDescriptorSet carried_nothing;  // SET_CARRIED of draws that carry nothing on: shaders name it all the same
+    VkDescriptorSet
+        carried_nothing;  // SET_CARRIED of draws that carry nothing on: shaders name it all the same
     LightLists& lists;
     Variant variant;  // of the scene and the view: lights there, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
