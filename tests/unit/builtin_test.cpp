@@ -244,6 +244,9 @@ TEST(Builtin, NamedTestScenesAreWhatTheirNameSays) {
     all("suns", LightKind::directional);
     all("points", LightKind::point);
     all("spots", LightKind::spot);
+    std::set<LightKind> shapes;
+    for (const Light& light : makeBuiltin("areas").lights) shapes.insert(light.kind);
+    EXPECT_EQ(shapes, (std::set{LightKind::rect, LightKind::disc, LightKind::tube}));
     float brightest = 0, dimmest = 1;
     for (const Material& m : makeBuiltin("emission").materials) {
         brightest = std::max(brightest, m.emissive.r);

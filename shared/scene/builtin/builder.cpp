@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/builtin/builder.h"
 
+#include "shared/scene/axes.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
@@ -70,6 +72,17 @@ void Builder::spot(const glm::dvec3& position, const glm::dvec3& target, const g
     light.direction = glm::normalize(target - position);
     light.inner_cone = static_cast<float>(glm::radians(innerDegrees));
     light.outer_cone = static_cast<float>(glm::radians(outerDegrees));
+}
+
+Light& Builder::rect(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float nits,
+                     float range) {
+    point(position, color, nits, range);
+    Light& light = scene.lights.back();
+    light.name = "area " + std::to_string(scene.lights.size() - 1);
+    light.kind = LightKind::rect;
+    light.direction = glm::normalize(target - position);
+    light.axis = perpendicularTo(light.direction);
+    return light;
 }
 
 void Builder::sun(const glm::dvec3& direction, const glm::vec3& color, float lux) {

@@ -41,6 +41,9 @@ public:
     void spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float candela,
               float range, double innerDegrees, double outerDegrees);
     void sun(const glm::dvec3& direction, const glm::vec3& color, float lux);
+    // A square metre of so many nits that shines towards `target`; the light, to be given its shape.
+    Light& rect(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float nits,
+                float range = std::numeric_limits<float>::infinity());
 
     // Looks from `eye` at `target`, +Y up unless that is where it looks.
     Camera& camera(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,

@@ -68,6 +68,7 @@ constexpr std::array ROWS{
     Row{"suns", "directional lights alone", TEST, builtin::suns},
     Row{"points", "point lights alone", TEST, builtin::points},
     Row{"spots", "spot lights alone, cones of 0 to 90 degrees", TEST, builtin::spots},
+    Row{"areas", "rectangles, discs and tubes alone, in each other's way and the floor's", TEST, builtin::areas},
     Row{"unlit", "no lights and nothing that emits, with a camera", TEST, builtin::unlit},
 };
 

@@ -40,6 +40,7 @@ Scene rangeEdge();
 Scene suns();
 Scene points();
 Scene spots();
+Scene areas();
 Scene unlit();
 
 }  // namespace diptych::builtin

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Area lights in pictures: both paths and every way to choose lights agree, and the table is worth its cost.
+#include "shared/contract/debug_mode.h"
+#include "shared/scene/rig.h"
+#include "tests/image/scenes.h"
+
+namespace diptych::tests {
+namespace {
+
+constexpr int lit = static_cast<int>(gpu::DEBUG_lit), diffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
+              specular = static_cast<int>(gpu::DEBUG_lit_specular);
+
+Frame draw(Renderer& renderer, Path path, AreaLights how, Assignment assign) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {161, 91};
+    settings.path = path;
+    settings.assign = assign;
+    settings.area_lights = how;
+    RenderOptions options;
+    options.channels = {lit, diffuse, specular};
+    options.runs = 0;
+    return renderer.draw(settings, options);
+}
+
+TEST(AreaLightPictures, BothPathsAndEveryListAgree) {
+    Scene scene = loadScene("builtin:areas");
+    const Pose pose = poseAt(scene, 0);
+    for (const Light& light : makeLights("area:30,point:9,spot:5", 7, boundsAtStart(scene, pose)))
+        scene.lights.push_back(light);
+    Renderer renderer(device(), scene);
+    for (const AreaLights how : {AreaLights::ltc, AreaLights::representative}) {
+        const Frame every = draw(renderer, Path::forward_plus, how, Assignment::every);
+        EXPECT_EQ(every.counters.nonfinite_pixels, 0u);
+        for (const Path path : {Path::forward_plus, Path::deferred})
+            for (const Assignment assign : {Assignment::every, Assignment::clustered, Assignment::tiled}) {
+                const Frame frame = draw(renderer, path, how, assign);
+                for (const int channel : {lit, diffuse, specular})
+                    EXPECT_EQ(differingPixels(every.channels.at(channel), frame.channels.at(channel)), 0u)
+                        << nameOf(how) << ", " << nameOf(path) << ", " << nameOf(assign) << ", "
+                        << debugMode(channel).name;
+            }
+    }
+}
+
+double meanError(const Frame& truth, const Frame& frame, int channel) {
+    const Image &a = truth.channels.at(channel), &b = frame.channels.at(channel);
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < a.data.size(); ++i) {
+        sum += std::abs(double{b.data[i]} - double{a.data[i]});
+        all += double{a.data[i]};
+    }
+    return sum / all;
+}
+
+// Lambert's integral is exact; what is left of the diffuse error is the layer's Fresnel, taken at one direction a light.
+// The specular one is the table's. One representative point is far from both.
+TEST(AreaLightPictures, TheTableIsNearTheReference) {
+    const Scene scene = loadScene("builtin:areas");
+    Renderer renderer(device(), scene);
+    const Frame truth = draw(renderer, Path::reference, AreaLights::ltc, Assignment::every);
+    const Frame ltc = draw(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
+    const Frame points = draw(renderer, Path::deferred, AreaLights::representative, Assignment::every);
+    EXPECT_LT(meanError(truth, ltc, diffuse), 0.01);
+    EXPECT_LT(meanError(truth, ltc, specular), 0.10);
+    EXPECT_GT(meanError(truth, points, diffuse), 10 * meanError(truth, ltc, diffuse));
+    EXPECT_GT(meanError(truth, points, specular), 2 * meanError(truth, ltc, specular));
+    RecordProperty("ltc_specular", std::to_string(meanError(truth, ltc, specular)));
+    RecordProperty("ltc_diffuse", std::to_string(meanError(truth, ltc, diffuse)));
+}
+
+// A scene without any is drawn by the same bits whichever way is asked for.
+TEST(AreaLightPictures, TheWayChangesNothingWithoutThem) {
+    const Scene scene = loadScene("builtin:points");
+    Renderer renderer(device(), scene);
+    const Frame a = draw(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
+    const Frame b = draw(renderer, Path::deferred, AreaLights::representative, Assignment::every);
+    EXPECT_EQ(differingPixels(a.channels.at(lit), b.channels.at(lit)), 0u);
+}
+
+}  // namespace
+}  // namespace diptych::tests
