@@ -12,12 +12,23 @@ namespace diptych {
 
 namespace {
 
-// What a device takes, ns: a triangle and a pixel of a depth pass, a fragment's surface, and a light at it.
+// What a device takes, ns: a triangle and a pixel of a depth pass; a fragment's surface, each of its
+// textures, and a light at it.
 struct Costs {
-    double triangle, depth, surface, light;
+    double triangle, depth, surface, texture, light;
 };
 // lavapipe on two cores, measured; a GPU takes about a hundredth of each, and has been estimated only.
-constexpr Costs cpuCosts{45, 1, 40, 3}, gpuCosts{0.5, 0.01, 0.4, 0.03};
+constexpr Costs cpuCosts{65, 1, 20, 10, 3}, gpuCosts{0.6, 0.01, 0.2, 0.1, 0.03};
+
+int texturesOf(const Variant& variant) {
+    int count = 0;
+    for (const gpu::uint feature :
+         {gpu::FEATURE_base_color_texture, gpu::FEATURE_metallic_roughness_texture,
+          gpu::FEATURE_normal_texture, gpu::FEATURE_occlusion_texture, gpu::FEATURE_emissive_texture,
+          gpu::FEATURE_specular_texture, gpu::FEATURE_specular_color_texture})
+        count += variant.get(feature) != 0;
+    return count;
+}
 
 class Queries {
 public:
@@ -54,7 +65,12 @@ private:
 
 Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::uint32_t height) {
     Overdraw overdraw;
-    for (const DrawItem& item : inputs.draws.items) overdraw.triangles += item.range.index_count / 3;
+    for (const DrawItem& item : inputs.draws.items) {
+        const std::uint64_t triangles = item.range.index_count / 3;
+        overdraw.triangles += triangles;
+        overdraw.textures += static_cast<double>(triangles) * texturesOf(item.variant);
+    }
+    overdraw.textures /= static_cast<double>(std::max<std::uint64_t>(overdraw.triangles, 1));
     if (inputs.draws.items.empty() || !inputs.device.countsFragments()) return overdraw;
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
@@ -91,7 +107,8 @@ PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, bool cpu) {
     const Costs& costs = cpu ? cpuCosts : gpuCosts;
     const auto fragments = static_cast<double>(overdraw.fragments),
                covered = static_cast<double>(overdraw.covered);
-    const double saved = (fragments - covered) * (costs.surface + costs.light * lights) * 1e-6;
+    const double saved = (fragments - covered) *
+                         (costs.surface + costs.texture * overdraw.textures + costs.light * lights) * 1e-6;
     const double cost =
         (static_cast<double>(overdraw.triangles) * costs.triangle + fragments * costs.depth) * 1e-6;
     const bool on = saved > cost;

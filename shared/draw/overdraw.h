@@ -13,6 +13,7 @@ struct Overdraw {
     std::uint64_t triangles = 0;  // of the drawn items
     std::uint64_t fragments = 0;  // that pass the depth test in drawing order
     std::uint64_t covered = 0;    // pixels
+    double textures = 0;          // of a triangle's material, on average
 };
 
 // Counted by occlusion queries at the list's order and at most 320x180 pixels, where what is counted is
