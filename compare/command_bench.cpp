@@ -62,7 +62,7 @@ int runBench(const Options& options) {
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
     Bench bench{options.scenes.front(), options.settings, asked, reportDevice(device), options.runs, {},
-                plan.skips,             {},               {}};
+                plan.skips,             {}};
     const bool prints = !options.json && !options.quiet;
     const auto print = [&](const std::string& text) {
         if (!prints || std::ferror(stdout)) return;

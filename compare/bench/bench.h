@@ -23,9 +23,10 @@ struct BenchRow {
     std::string camera;                  // its title
     FrameTime time;
     std::vector<double> ms;        // every timed frame, in order
-    std::vector<PassTime> passes;  // medians of a few profiled frames
+    std::vector<PassTime> passes;  // medians of the profiled frames
     FrameBytes bytes;
     FrameCounters counters;
+    std::vector<std::string> notes;  // what a reader must know of this frame
 };
 
 // What makes light lists: its passes' names begin so.
@@ -43,14 +44,19 @@ struct Bench {
     std::vector<BenchRow> rows;
     std::vector<BenchSkip> skips;
     std::optional<KernelReport> kernels;
-    std::vector<std::string> notes;
 };
 
 // The rows of one group: one frame each to warm up, which also tells those that take over options.max_ms, then
-// `runs` rounds of one frame each, then the profiled ones. What is left out goes into bench.skips; earlier rows
-// of `bench` predict what need not be tried. `said` before each step, for -v.
+// `runs` rounds of one frame each, then as many profiled ones, three at least. What is left out goes into bench.skips; earlier rows
+// of `bench` predict what need not be tried.
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress);
+
+// What is to be known of every row alike: their notes are only those of single rows beside.
+std::vector<std::string> commonNotes(const Bench& bench);
+
+// "1024", "36.4", "0.0123": four digits, or all before the point.
+std::string msText(double ms);
 
 // Sizes of the rows, in their order.
 std::vector<Size> sizesOf(const Bench& bench);

@@ -5,6 +5,7 @@
 #include "compare/report/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -25,8 +26,17 @@ std::string head(std::initializer_list<std::pair<const char*, bool>> columns) {
     return out + "</tr></thead>\n<tbody>";
 }
 
+// Those of a row that not every row has.
+std::vector<std::string> ownNotes(const BenchRow& row, const std::vector<std::string>& common) {
+    std::vector<std::string> own;
+    for (const std::string& note : row.notes)
+        if (std::ranges::count(common, note) == 0) own.push_back(note);
+    return own;
+}
+
 std::string rows(const Bench& bench) {
     if (bench.rows.empty()) return {};
+    const std::vector<std::string> common = commonNotes(bench);
     std::string out = "<h2>Every mode</h2>\n" + head({{"lights", true},
                                                       {"size", true},
                                                       {"path", false},
@@ -37,7 +47,8 @@ std::string rows(const Bench& bench) {
                                                       {"assign ms", true},
                                                       {"share", true},
                                                       {"memory", true},
-                                                      {"passes, ms", false}});
+                                                      {"passes, ms", false},
+                                                      {"notes", false}});
     for (const BenchRow& row : bench.rows) {
         std::string passes;
         for (const PassTime& pass : row.passes)
@@ -46,12 +57,13 @@ std::string rows(const Bench& bench) {
                numberCell(fmt::format("{}x{}", row.settings.size.width, row.settings.size.height)) +
                cell(std::string(nameOf(row.settings.path))) +
                cell(std::string(nameOf(row.settings.assign))) +
-               numberCell(fmt::format("{:.4g}", row.time.median)) +
-               numberCell(fmt::format("{:.4g}", row.time.min)) +
-               numberCell(fmt::format("{:.4g}", row.time.max)) +
+               numberCell(msText(row.time.median)) +
+               numberCell(msText(row.time.min)) +
+               numberCell(msText(row.time.max)) +
                numberCell(fmt::format("{:.3g}", assignMs(row))) +
                numberCell(fmt::format("{:.1f} %", 100 * assignShare(row))) +
-               numberCell(bytes(row.bytes.images + row.bytes.buffers)) + cell(passes) + "</tr>\n";
+               numberCell(bytes(row.bytes.images + row.bytes.buffers)) + cell(passes) +
+               cell(fmt::format("{}", fmt::join(ownNotes(row, common), "; "))) + "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
 }
@@ -88,9 +100,9 @@ std::string how(const Bench& bench) {
         "from culling to linear lit, lists made anew, the scene already uploaded: the median. Bars and columns "
         "least and most are those of single frames.</li><li>All modes and sizes of one light count are drawn in "
         "turn, one frame each and again from the first, so that a device that slows down does so for all "
-        "alike.</li><li>Passes are medians of a few other frames, each pass timed by itself; the share is that "
+        "alike.</li><li>Passes are medians of as many other frames, each pass timed by itself; the share is that "
         "of the passes that make light lists, of all passes.</li>";
-    for (const std::string& note : bench.notes) out += "<li>" + markup(note) + "</li>";
+    for (const std::string& note : commonNotes(bench)) out += "<li>" + markup(note) + "</li>";
     return out + "</ul></div>\n<footer><p><a href=\"bench.json\">bench.json</a>" +
            (bench.rows.empty() ? "" : " <a href=\"bench.svg\">bench.svg</a>") + "</p></footer>\n";
 }

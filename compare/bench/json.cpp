@@ -45,7 +45,8 @@ Json jsonOf(const BenchRow& row) {
             {"counters",
              {{"nonfinite_pixels", row.counters.nonfinite_pixels},
               {"overflowed_lists", row.counters.overflowed_lists},
-              {"lights", row.counters.lights}}}};
+              {"lights", row.counters.lights}}},
+            {"notes", row.notes}};
 }
 
 Json jsonOf(const BenchSkip& skip) {
@@ -90,7 +91,6 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
                        {"frames", rows},
                        {"skipped", skips},
                        {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
-                       {"notes", bench.notes},
                        {"files", files}};
     return json.dump(2) + "\n";
 }

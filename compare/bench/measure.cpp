@@ -12,8 +12,8 @@
 namespace diptych {
 namespace {
 
-// Frames whose passes are timed one by one.
-constexpr int profiledFrames = 3;
+// Frames whose passes are timed one by one, where --runs says fewer.
+constexpr int fewestProfiled = 3;
 
 // Beyond this many times --max-ms the first frame, in which drivers compile, is not given a second chance.
 constexpr double compiling = 4;
@@ -40,7 +40,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
             measured.emplace_back(*row.asked, row.time.median);
     const std::optional<double> predicted = predictedMs(measured, *group.lights);
     if (!predicted || *predicted <= bench.options.max_ms) return {};
-    return fmt::format("would take {:.4g} ms by what {} and {} lights took; --max-ms {:.6g}", *predicted,
+    return fmt::format("would take {} ms by what {} and {} lights took; --max-ms {:.6g}", msText(*predicted),
                        measured[measured.size() - 2].first, measured.back().first, bench.options.max_ms);
 }
 
@@ -69,6 +69,20 @@ double assignShare(const BenchRow& row) {
     return all > 0 ? assignMs(row) / all : 0;
 }
 
+std::vector<std::string> commonNotes(const Bench& bench) {
+    std::vector<std::string> common;
+    if (bench.rows.empty()) return common;
+    for (const std::string& note : bench.rows.front().notes)
+        if (std::ranges::all_of(bench.rows,
+                                [&](const BenchRow& row) { return std::ranges::count(row.notes, note) > 0; }))
+            common.push_back(note);
+    return common;
+}
+
+std::string msText(double ms) {
+    return ms < 1000 ? fmt::format("{:.4g}", ms) : fmt::format("{:.0f}", ms);
+}
+
 std::vector<Size> sizesOf(const Bench& bench) {
     std::vector<Size> sizes;
     for (const BenchRow& row : bench.rows)
@@ -87,7 +101,8 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     if (tried.empty()) return;
     Renderer renderer(device, scene);
     PreparedFrames frames = renderer.prepare(tried);
-    const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiledFrames);
+    const int profiled = std::max(bench.runs, fewestProfiled);
+    const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);
     double done = 0;
     const auto step = [&](std::size_t i, const char* what) {
         progress.at(done++ / steps,
@@ -102,7 +117,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
             timed.push_back(i);
         else
             bench.skips.push_back(skipOf(tried[i], group,
-                                         fmt::format("its first frame took {:.4g} ms; --max-ms {:.6g}", ms,
+                                         fmt::format("its first frame took {} ms; --max-ms {:.6g}", msText(ms),
                                                      bench.options.max_ms)));
     }
     std::vector<std::vector<double>> ms(frames.size());
@@ -112,7 +127,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
             ms[i].push_back(frames.draw(i));
         }
     std::vector<std::vector<std::vector<PassTime>>> passes(frames.size());
-    for (int run = 0; run < profiledFrames; ++run)
+    for (int run = 0; run < profiled; ++run)
         for (const std::size_t i : timed) {
             step(i, "passes");
             passes[i].push_back(frames.profile(i));
@@ -120,12 +135,10 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     for (const std::size_t i : timed) {
         const Frame& frame = frames.described(i);
         BenchRow row{tried[i],      group.scene, group.lights, cameraTitle(frame), timeOf(ms[i]), ms[i],
-                     medians(passes[i]), frame.bytes, frame.counters};
+                     medians(passes[i]), frame.bytes, frame.counters, frame.notes};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
         row.counters.overflowed_lists = frames.overflowedLists(i);
         bench.rows.push_back(std::move(row));
-        for (const std::string& note : frame.notes)
-            if (std::ranges::count(bench.notes, note) == 0) bench.notes.push_back(note);
     }
 }
 

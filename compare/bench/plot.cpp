@@ -10,7 +10,7 @@ namespace diptych {
 namespace {
 
 // Of the drawing, in its own units.
-constexpr double width = 720, panel = 380, left = 74, right = 178, top = 34, bottom = 62;
+constexpr double width = 720, panel = 380, left = 74, right = 200, top = 34, bottom = 62;
 
 struct Series {
     Path path;
@@ -73,9 +73,9 @@ std::string panelOf(const Bench& bench, const Size& size, double above) {
             line += fmt::format("{}{} {}", line.empty() ? "M" : "L", at(px), at(py));
             marks += fmt::format(
                 "<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
-                markup(fmt::format("{}, {} lights: {:.4g} ms ({:.4g} to {:.4g})",
-                                   modeName(series.path, series.assign), r->counters.lights, r->time.median,
-                                   r->time.min, r->time.max)),
+                markup(fmt::format("{}, {} lights: {} ms ({} to {})",
+                                   modeName(series.path, series.assign), r->counters.lights, msText(r->time.median),
+                                   msText(r->time.min), msText(r->time.max))),
                 at(px), at(y(r->time.min)), at(y(r->time.max)), markAt(series.path, px, py));
         }
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));

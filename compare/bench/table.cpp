@@ -19,10 +19,10 @@ std::string benchTable(const Bench& bench, std::size_t first) {
         for (const PassTime& pass : row.passes)
             passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
         out += fmt::format(
-            "{:>8}  {:>9}  {:<12}  {:<10}  {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>9.3g}  {:>5.1f}%  {}\n",
+            "{:>8}  {:>9}  {:<12}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9.3g}  {:>5.1f}%  {}\n",
             row.counters.lights, fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
-            nameOf(row.settings.path), nameOf(row.settings.assign), row.time.median, row.time.min,
-            row.time.max, assignMs(row), 100 * assignShare(row), passes);
+            nameOf(row.settings.path), nameOf(row.settings.assign), msText(row.time.median), msText(row.time.min),
+            msText(row.time.max), assignMs(row), 100 * assignShare(row), passes);
     }
     return out;
 }
@@ -51,7 +51,7 @@ std::string benchEnd(const Bench& bench) {
                                modeName(row.settings.path, row.settings.assign), row.counters.lights,
                                row.counters.nonfinite_pixels);
     if (bench.kernels) out += kernelTable(*bench.kernels);
-    for (const std::string& note : bench.notes) out += note + "\n";
+    for (const std::string& note : commonNotes(bench)) out += note + "\n";
     return out;
 }
 

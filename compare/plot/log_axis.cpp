@@ -12,7 +12,7 @@ namespace {
 
 // "0.02", "500", "2e-5".
 std::string textOf(double value) {
-    if (value >= 1e-3 && value < 1e5) return fmt::format("{:.4g}", value);
+    if (value >= 1e-3 && value < 1e5) return fmt::format("{:.6g}", value);
     const int exponent = static_cast<int>(std::floor(std::log10(value) + 1e-9));
     return fmt::format("{:.3g}e{}", value / std::pow(10.0, exponent), exponent);
 }

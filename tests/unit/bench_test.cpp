@@ -154,7 +154,8 @@ Bench several() {
     KernelReport kernels{{640, 352}, 16, 48, 512, 9, 2, {}, {"a note"}};
     kernels.rows = {{"by hand", 1.25, {}, {}}, {"uniform buffer", 2.5, 2.0, 2.4}};
     bench.kernels = kernels;
-    bench.notes = {"one note"};
+    for (BenchRow& made : bench.rows) made.notes = {"one note"};
+    bench.rows[3].notes.push_back("its own note");
     return bench;
 }
 
@@ -166,6 +167,13 @@ TEST(BenchOutput, TheShareIsOfThePassesThatAssign) {
     EXPECT_DOUBLE_EQ(assignShare(bench.rows[2]), 0.125);
     EXPECT_DOUBLE_EQ(assignShare(bench.rows[3]), 0.25);
     EXPECT_EQ(assignShare(BenchRow{}), 0.0);
+}
+
+TEST(BenchOutput, MillisecondsHaveFourDigitsOrAllBeforeThePoint) {
+    EXPECT_EQ(msText(0.01234567), "0.01235");
+    EXPECT_EQ(msText(36.42), "36.42");
+    EXPECT_EQ(msText(999.96), "1000");
+    EXPECT_EQ(msText(40316.4), "40316");
 }
 
 TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
@@ -180,6 +188,7 @@ TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
     EXPECT_NE(end.find("2.00x"), std::string::npos) << end;
     EXPECT_NE(end.find("2.4x"), std::string::npos) << end;
     EXPECT_NE(end.find("one note\n"), std::string::npos);
+    EXPECT_EQ(end.find("its own note"), std::string::npos) << "of one row, among so many";
 }
 
 TEST(BenchOutput, JsonReadsBack) {
@@ -198,6 +207,7 @@ TEST(BenchOutput, JsonReadsBack) {
     EXPECT_EQ(row["assign_share"], 0.25);
     EXPECT_EQ(row["size"], (Json{64, 48}));
     EXPECT_EQ(row["settings"]["assign"], "clustered");
+    EXPECT_EQ(row["notes"], (Json{"one note", "its own note"}));
     EXPECT_EQ(json["skipped"][0]["reason"], "would take <long>");
     EXPECT_EQ(json["skipped"][0]["light_count"], 4096);
     EXPECT_EQ(json["kernels"]["rows"][1]["ratio"], 2.0);
@@ -246,7 +256,7 @@ TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
 TEST(BenchOutput, ThePageHasEverything) {
     const std::string page = benchHtml(several());
     for (const char* part : {"<svg class=\"chart\"", "assign lights 10", "25.0 %", "would take &lt;long&gt;",
-                             "uniform buffer", "at most 2.4", "one note", "a note", "bench.json"})
+                             "uniform buffer", "at most 2.4", "one note", "its own note", "a note", "bench.json"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_EQ(page.find("<scene>"), std::string::npos);
     Bench kernelsOnly = several();
