@@ -19,7 +19,7 @@ namespace diptych {
 namespace {
 
 constexpr const char* slotNames[gpu::SLOT_COUNT] = {
-    "base colour", "metallic-roughness", "normal", "occlusion", "emission", "specular", "specular colour"};
+    "base colour", "metallic-roughness", "normal", "occlusion", "emission", "specular", "specular colour", "lightmap"};
 
 const Primitive& primitiveOf(const Scene& scene, const Instance& instance) {
     return scene.meshes[static_cast<std::size_t>(instance.mesh)]
@@ -129,7 +129,7 @@ std::string samplingOf(const Scene& scene, const Primitive& primitive, const Tex
 }
 
 bool isDeep(const Scene& scene, const TextureSlot& slot) {
-    return !imageOf(scene, slot).rgba16.empty();
+    return imageOf(scene, slot).deep();
 }
 
 template <class Texel>
@@ -257,7 +257,7 @@ std::string MarkSentences::of(const Instance& instance, MarkFeature feature) {
         case MarkFeature::deep_image:
             return bySlot(m,
                           [&](const TextureSlot& slot) -> std::string {
-                              return isDeep(scene_, slot) ? "16 bits a component" : "";
+                              return isDeep(scene_, slot) ? "over 8 bits a component" : "";
                           }) +
                    ". Gradients run without steps.";
         case MarkFeature::skin:

@@ -110,8 +110,7 @@ Nearer nearerOf(const std::vector<Frame>& frames, std::size_t truth, std::array<
                 const Coverage& coverage, const std::vector<std::string>& names) {
     Nearer nearer{truth, paths, {}};
     const std::array<const Frame*, 3> all{&frames[truth], &frames[paths[0]], &frames[paths[1]]};
-    for (const gpu::uint number : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular}) {
-        const int mode = static_cast<int>(number);
+    for (const int mode : litModes) {
         if (std::ranges::all_of(all, [&](const Frame* f) { return f->channels.contains(mode) && f->isAsked(mode); }))
             nearer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));
     }

@@ -48,7 +48,7 @@ struct NearerChannel {
 struct Nearer {
     std::size_t truth = 0;
     std::array<std::size_t, 2> paths{};  // into Report::frames
-    std::vector<NearerChannel> channels;  // lit, lit_diffuse and lit_specular, where all three have them
+    std::vector<NearerChannel> channels;  // lit, lit_diffuse, lit_specular and lit_ambient, where all three have them
 };
 
 // `names` of materials by id, may be short.

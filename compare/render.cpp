@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace diptych {
@@ -93,8 +94,8 @@ private:
                 (settings_.path == Path::forward_plus || debugMode(mode).maker != MadeBy::forward_only))
                 request.modes.push_back(mode);
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
-            for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
-                if (asked(static_cast<int>(mode))) request.through_gbuffer.push_back(static_cast<int>(mode));
+            for (const int mode : litModes)
+                if (asked(mode)) request.through_gbuffer.push_back(mode);
         return request;
     }
 

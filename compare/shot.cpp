@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -37,6 +38,17 @@ gpu::uint listsOf(Assignment assign) {
             break;
     }
     return gpu::LISTS_NONE;
+}
+
+std::optional<std::uint32_t> objectPixelLights(const Settings& settings) {
+    if (settings.assign != Assignment::per_object) return std::nullopt;
+    return static_cast<std::uint32_t>(settings.pixel_lights);
+}
+
+GpuLights lightsOf(const std::vector<Light>& lights, const View& view, const Settings& settings) {
+    GpuLights result = gpuLights(withCutoff(lights, double{settings.light_cutoff}), view.eye());
+    result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
+    return result;
 }
 
 // A workgroup a cell suits a GPU's wide groups; lavapipe runs them eight threads at a time and tests every
@@ -73,10 +85,11 @@ Shot::Shot(Device& device, SharedResources& shared, const Scene& scene, const Se
       view(makeView(scene, pose, settings.camera, settings.size.width, settings.size.height)),
       needs(requirements(scene, pose)),
       lit_by(litBy(scene, pose, settings)),
-      lights(gpuLights(withCutoff(lit_by, double{settings.light_cutoff}), view.eye())),
+      lights(lightsOf(lit_by, view, settings)),
       draws(makeDrawList(pose, shared.geometry, shared.materials, view)),
       buffers(device, shared.uploader, shared.layouts, shared.materials, view, draws, lights,
-              {listsOf(settings.assign), kernelOf(settings.light_kernel, device)}),
+              {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
+              objectPixelLights(settings)),
       gbuffer(gbufferLayout(settings.gbuffer, needs)),
       inputs{device,
              shared.layouts,
@@ -92,7 +105,11 @@ Shot::Shot(Device& device, SharedResources& shared, const Scene& scene, const Se
              settings.prepass != Switch::off} {
     buffers.lists().specialise(inputs.variant);
     const LightLists& lists = buffers.lists();
-    inputs.light_groups = lists.any() ? lists.grid().all_end : lights.local();
+    const ObjectLightBuffers& objects = buffers.objects();
+    inputs.variant.set(gpu::FEATURE_object_lights, objects.features());
+    inputs.light_groups = lists.any()               ? lists.grid().all_end
+                          : objects.features() != 0 ? objects.longest()
+                                                    : lights.local();
     if (settings.path == Path::forward_plus && settings.prepass == Switch::automatic) decidePrepass(settings);
 }
 

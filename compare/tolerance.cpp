@@ -48,20 +48,31 @@ Tolerance unormTolerance(unsigned bits) {
             fmt::format("half a step of {} bits, 0.5 / {}", bits, (1u << bits) - 1)};
 }
 
-Tolerance emissionTolerance(const FramePair& pair) {
-    if (!pair.needs.emission) return {0, "nothing in the scene emits"};
-    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_emission)
-        return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
+// Of radiance in 9.9.9.e5: emission and lightmaps.
+Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
     // The largest component has its top bit set, so half a step is at most 0.5 / 256 of it; 1/512 of that
     // more where rounding moves the exponent. Below 2^-16 the exponent ends and half a step stays 2^-25.
     constexpr double half = 0.5 / (1u << (gpu::EMISSION_MANTISSA_BITS - 1));
-    const DebugMode& mode = debugMode(gpu::DEBUG_emission);
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
     const double dark = floor > 0 ? 0x1p-25 / floor : 0;
     return {std::max(half * (1 + 1.0 / 512), dark),
-            dark > half ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, where emission is darkest")
+            dark > half ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, where it is darkest")
                         : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
+}
+
+Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair) {
+    if (!pair.needs.emission) return {0, "nothing in the scene emits"};
+    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_emission)
+        return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
+    return radianceTolerance(mode, pair);
+}
+
+Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair) {
+    if (!pair.needs.lightmap) return {0, "nothing in the scene has a lightmap"};
+    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_lightmap)
+        return {0, "float32: the scene's lightmaps leave the range of 9.9.9.e5"};
+    return radianceTolerance(mode, pair);
 }
 
 // mix(dielectric F0, albedo, metallic): the worse of the two ends, plus metallic's step times their distance.
@@ -74,11 +85,6 @@ Tolerance specularTolerance(const FramePair& pair, const Bits& bits) {
             fmt::format(
                 "mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step of {} bits, {:.3g})",
                 stored ? " and F0" : "", ends, bits.metallic, metallic)};
-}
-
-bool isLit(const DebugMode& mode) {
-    return mode.number == gpu::DEBUG_lit || mode.number == gpu::DEBUG_lit_diffuse ||
-           mode.number == gpu::DEBUG_lit_specular;
 }
 
 // What forward+ shades from a surface that went through the same encoding; nullptr: not drawn.
@@ -117,12 +123,9 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (encoding == GBufferEncoding::full) return {0, "the full G-buffer carries float32 whole"};
+    if (isLit(mode.number)) return litTolerance(mode, pair);
     const Bits bits = bitsOf(encoding);
     switch (mode.number) {
-        case gpu::DEBUG_lit:
-        case gpu::DEBUG_lit_diffuse:
-        case gpu::DEBUG_lit_specular:
-            return litTolerance(mode, pair);
         case gpu::DEBUG_albedo:
             return {sqrtBound(gpu::ALBEDO_BITS),
                     "square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255"};
@@ -137,7 +140,9 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_occlusion:
             return unormTolerance(gpu::OCCLUSION_BITS);
         case gpu::DEBUG_emission:
-            return emissionTolerance(pair);
+            return emissionTolerance(mode, pair);
+        case gpu::DEBUG_lightmap:
+            return lightmapTolerance(mode, pair);
         case gpu::DEBUG_specular:
             return specularTolerance(pair, bits);
         case gpu::DEBUG_dielectric_f90:
@@ -200,7 +205,7 @@ Tolerance truthTolerance(const DebugMode& mode, const FramePair& pair) {
         path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
     const bool own = truth.settings.reference_mode == ReferenceMode::scene;
     Tolerance result;
-    if (isLit(mode)) {
+    if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
         if (const double effect = packed ? encodingEffect(mode, pair) : 0; effect > 0) {
             result.max += effect;
@@ -267,7 +272,7 @@ Tolerance tolerance(const DebugMode& mode, const FramePair& pair) {
 }
 
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
-    if (!isLit(mode) || isTruth(pair.baseline) == isTruth(pair.test)) return {};
+    if (!isLit(mode.number) || isTruth(pair.baseline) == isTruth(pair.test)) return {};
     const Frame& truth = isTruth(pair.baseline) ? pair.baseline : pair.test;
     if (truth.uncertainty.empty()) return {};
     // Student's t of 7 degrees of freedom, 99.9 % against the 95 % that is stated: 5.41 / 2.36.
@@ -291,7 +296,7 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
 }
 
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {
-    const Image* through = isLit(mode) ? throughGBuffer(mode, pair) : nullptr;
+    const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
     if (!through) return {};
     return unequalPixels(pair.of(Path::deferred)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
 }

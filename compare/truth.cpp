@@ -79,6 +79,7 @@ Settings surfaceSettings(const Settings& settings) {
     surfaces.shadows = usual.shadows;
     surfaces.env = usual.env;
     surfaces.ibl_intensity = usual.ibl_intensity;
+    surfaces.ambient = usual.ambient;
     return surfaces;
 }
 
@@ -102,6 +103,7 @@ Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfa
         .view = view,
         .lights = lights,
         .environment_factor = double{settings.ibl_intensity},
+        .ambient = {double{settings.ambient.r}, double{settings.ambient.g}, double{settings.ambient.b}},
         .shadows = settings.shadows != Shadows::off,
         .mode = settings.reference_mode,
         .samples = settings.spp,

@@ -25,7 +25,7 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item) {
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                     .depth_write = true};
     for (const gpu::uint feature :
-         {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_orthographic})
+         {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_lightmap, gpu::FEATURE_orthographic})
         key.variant.set(feature, inputs.variant.get(feature));
     inputs.gbuffer.specialise(key.variant);
     return key;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "forward_plus/forward_plus.h"
 
+#include "shared/contract/object_lights.h"
+
 #include <fmt/format.h>
 
 namespace diptych {
@@ -20,8 +22,13 @@ PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item, const Ligh
     for (const gpu::uint feature :
          {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_directional_lights,
           gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_area_lights, gpu::FEATURE_light_lists,
-          gpu::FEATURE_list_width, gpu::FEATURE_orthographic})
+          gpu::FEATURE_list_width, gpu::FEATURE_ambient, gpu::FEATURE_orthographic})
         key.variant.set(feature, inputs.variant.get(feature));
+    gpu::uint objects = inputs.variant.get(gpu::FEATURE_object_lights);
+    if (item.variant.get(gpu::FEATURE_lightmap_texture) != 0) objects &= ~gpu::OBJECT_LIGHTS_SH;
+    key.variant.set(gpu::FEATURE_object_lights, objects);
+    // The others of a scene with lightmaps reflect exactly nothing of one.
+    key.variant.set(gpu::FEATURE_lightmap, item.variant.get(gpu::FEATURE_lightmap_texture));
     key.variant.set(gpu::FEATURE_light_chunk, chunk.kind);
     return key;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/lighting.h"
 
+#include "compare/reference/ambient.h"
 #include "compare/reference/punctual.h"
 #include "compare/reference/sampling.h"
 #include "shared/scene/axes.h"
@@ -127,7 +128,7 @@ Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint6
         const double size = rounds.mean().size(), width = caution * rounds.halfWidth();
         const double unseen = 3 * piece / static_cast<double>(done * count);
         if (std::max(width, unseen) <= samplingError * std::max(whole, size) || done * count * samples >= mostSamples)
-            return {rounds.mean(), size > 0 ? std::max(width, unseen) : width};
+            return {rounds.mean(), size > 0 ? std::max(width, unseen) : width, {}};
     }
 }
 
@@ -162,7 +163,8 @@ private:
 }  // namespace
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
-                   const glm::dvec3& eye) {
+                   const glm::dvec3& eye, const glm::dvec3& ambient)
+    : ambient_(ambient) {
     for (const Light& light : lights) {
         if (glm::dvec3(light.color) * double{light.intensity} == glm::dvec3(0)) continue;
         if (isArea(light.kind) || (light.kind == LightKind::directional && light.angle > 0))
@@ -184,13 +186,14 @@ Shading Lighting::operator()(const Surface& surface, const Open& open, std::uint
         // What is not a number must show.
         if (std::isnan(reflected.size())) sum.reflected += reflected;
     }
-    const auto add = [&](const Shading& part) {
-        sum.reflected += part.reflected;
-        sum.uncertainty += part.uncertainty;
-    };
     for (std::size_t i = 0; i < emitters_.size(); ++i)
-        add(fromEmitter(emitters_[i], surface.position, brdf, open, streamOf(seed, i + 1)));
-    if (environment_) add(fromEnvironment(brdf, open, seed));
+        sum += fromEmitter(emitters_[i], surface.position, brdf, open, streamOf(seed, i + 1));
+    if (environment_) sum += fromEnvironment(brdf, open, seed);
+    // A lightmap tells of no directions: its irradiance is taken as even, and the base alone is given it.
+    if (ambient_ + surface.lightmap != glm::dvec3(0))
+        sum.ambient = diffuseAlbedo(surface) * (ambient_ + surface.lightmap);
+    if (ambient_ != glm::dvec3(0)) sum.ambient += specularAlbedo(surface) * ambient_;
+    sum.ambient *= surface.occlusion;
     return sum;
 }
 
@@ -213,7 +216,7 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     }
     const glm::dvec3 radiance = emitter.radiance * window;
     const double brightest = std::max({radiance.r, radiance.g, radiance.b});
-    if (!open || !(whole.value.size() > 0)) return {whole.value * radiance, whole.error * brightest};
+    if (!open || !(whole.value.size() > 0)) return {whole.value * radiance, whole.error * brightest, {}};
 
     const Shaded shaded(brdf, leaves, emitter.far, open);
     const std::size_t places = shaded.places();
@@ -226,7 +229,7 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
             return shaded.estimate(streamOf(seed, round), index, mostly_open, ignored);
         },
         places, std::max<std::uint64_t>(1, 8 / places), whole.value.size(), shaded.largestLeaf());
-    return {visible.reflected * radiance, (visible.uncertainty + whole.error) * brightest};
+    return {visible.reflected * radiance, (visible.uncertainty + whole.error) * brightest, {}};
 }
 
 // Two ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally Combining

@@ -31,15 +31,28 @@ inline constexpr std::uint32_t mostSamples = 65536;
 using Open = std::function<bool(const glm::dvec3& to_light, double distance)>;
 
 struct Shading {
-    Reflected reflected;      // W/(sr m^2), towards the viewer; emission is not in it
+    Reflected reflected;      // of lights and environment, W/(sr m^2), towards the viewer
     double uncertainty = 0;   // of its largest component, 95 % confidence, W/(sr m^2)
+    glm::dvec3 ambient{0};    // reflected of ambient light; emission is in neither
+
+    glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
+    Shading& operator+=(const Shading& other) {
+        reflected += other.reflected;
+        uncertainty += other.uncertainty;
+        ambient += other.ambient;
+        return *this;
+    }
+    friend Shading operator*(const Shading& a, double b) {
+        return {a.reflected * b, a.uncertainty * b, a.ambient * b};
+    }
 };
 
 class Lighting {
 public:
-    // World lights and `environment`, which outlives this; `eye` becomes the origin.
+    // World lights and `environment`, which outlives this; `eye` becomes the origin; `ambient` radiance comes from
+    // everywhere.
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
-             const glm::dvec3& eye);
+             const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0));
 
     // `open` empty: nothing throws a shadow. `seed` names what is shaded, for sampling.
     Shading operator()(const Surface& surface, const Open& open, std::uint64_t seed) const;
@@ -56,6 +69,7 @@ private:
     std::vector<Punctual> punctual_;
     std::vector<Emitter> emitters_;
     std::optional<EnvironmentLight> environment_;
+    glm::dvec3 ambient_;
 };
 
 }  // namespace diptych::reference

@@ -148,6 +148,9 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     s.metallic = double{m.metallic} * metallic_roughness.b;
     s.occlusion = 1 + double{m.occlusion_strength} * (lookUp(hit, m.occlusion_texture, false, &ray).r - 1);
     s.emission = glm::dvec3(m.emissive) * glm::dvec3(lookUp(hit, m.emissive_texture, true, &ray));
+    // Irradiance over pi.
+    if (m.lightmap_texture.texture >= 0)
+        s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
     // KHR_materials_ior: 0 stands for an infinite one. KHR_materials_specular: colour from rgb, strength from a.
     const double ior = m.ior, r = (1 - ior) / (1 + ior);
     const glm::dvec3 tint =

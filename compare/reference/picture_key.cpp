@@ -49,9 +49,10 @@ void addScene(Key& key, const Request& request) {
         key.add(glm::vec4(m.specular_color, m.specular));
         key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, 0));
         key.add(m.alpha_cutoff);
+        key.add(m.lightmap_intensity);
         for (const TextureSlot* slot :
              {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
-              &m.emissive_texture, &m.specular_texture, &m.specular_color_texture})
+              &m.emissive_texture, &m.specular_texture, &m.specular_color_texture, &m.lightmap_texture})
             addSlot(*slot);
     }
     for (const Texture& texture : scene.textures) {
@@ -63,6 +64,7 @@ void addScene(Key& key, const Request& request) {
         key.add(glm::ivec2(image.width, image.height));
         key.addAll(image.rgba);
         key.addAll(image.rgba16);
+        key.addAll(image.rgba32);
     }
     for (const Instance& instance : request.pose.instances) {
         key.add(glm::ivec4(instance.mesh, instance.primitive, instance.skin, instance.weights));
@@ -76,7 +78,7 @@ void addScene(Key& key, const Request& request) {
 
 // Everything that decides a pixel. The version goes up where the reference itself changes what it draws.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 3;
+    constexpr int version = 4;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));
@@ -95,6 +97,7 @@ std::uint64_t keyOf(const Request& request) {
         key.add(l.axis);
     }
     key.add(request.environment_factor);
+    key.add(request.ambient);
     if (request.scene.environment) {
         const Image& sky = request.scene.environment->radiance;
         key.add(glm::ivec2(sky.width, sky.height));

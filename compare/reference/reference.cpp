@@ -39,11 +39,6 @@ struct Pixel {
     double depth = 0;
 };
 
-bool isLight(int mode) {
-    return mode == static_cast<int>(gpu::DEBUG_lit) || mode == static_cast<int>(gpu::DEBUG_lit_diffuse) ||
-           mode == static_cast<int>(gpu::DEBUG_lit_specular);
-}
-
 // The numbers of a channel (shared/contract/debug_mode.h).
 glm::dvec3 channelValue(int mode, const Pixel& pixel) {
     // Light is the mean over a pixel, even where its centre misses everything.
@@ -51,6 +46,7 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
         case gpu::DEBUG_lit: return pixel.lit;
         case gpu::DEBUG_lit_diffuse: return pixel.shading.reflected.diffuse;
         case gpu::DEBUG_lit_specular: return pixel.shading.reflected.specular;
+        case gpu::DEBUG_lit_ambient: return pixel.shading.ambient;
         default: break;
     }
     if (!pixel.surface) return glm::dvec3(mode == static_cast<int>(gpu::DEBUG_material_id) ? -1 : 0);
@@ -69,6 +65,7 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
         case gpu::DEBUG_position: return s.position;
         case gpu::DEBUG_geometric_normal: return s.geometric_normal;
         case gpu::DEBUG_dielectric_f90: return glm::dvec3(s.dielectric_f90);
+        case gpu::DEBUG_lightmap: return s.lightmap;
     }
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
 }
@@ -93,6 +90,7 @@ public:
         s.roughness = value(gpu::DEBUG_roughness, pixel).x;
         s.occlusion = value(gpu::DEBUG_occlusion, pixel).x;
         s.emission = value(gpu::DEBUG_emission, pixel);
+        s.lightmap = value(gpu::DEBUG_lightmap, pixel);
         s.dielectric_f90 = value(gpu::DEBUG_dielectric_f90, pixel).x;
         s.material = static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
         // The channel is the mix with the metal; a whole metal has no dielectric to find again, and needs none.
@@ -125,7 +123,7 @@ public:
           geometry_(request.scene, request.pose, eye_, request.mode == ReferenceMode::scene),
           materials_(request.scene, geometry_),
           lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
-                    request.environment_factor, eye_) {}
+                    request.environment_factor, eye_, request.ambient) {}
 
     Pixel paint(int x, int y) const {
         const std::uint64_t seed = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(request_.view.width) +
@@ -179,7 +177,7 @@ private:
                 open = openFrom(s.position, s.geometric_normal, {}, capturedOffset);
         }
         pixel.shading = lighting_(s, open, seed);
-        pixel.lit = pixel.shading.reflected.diffuse + pixel.shading.reflected.specular + s.emission;
+        pixel.lit = pixel.shading.all() + s.emission;
         pixel.surface = s;
         return pixel;
     }
@@ -190,7 +188,7 @@ private:
         s.to_viewer = rays_.toViewer(s.position);
         pixel.depth = hit.t;
         pixel.shading = lighting_(s, openFrom(s.position, s.geometric_normal, hit.id, exactOffset), seed);
-        pixel.lit = pixel.shading.reflected.diffuse + pixel.shading.reflected.specular + s.emission;
+        pixel.lit = pixel.shading.all() + s.emission;
         pixel.surface = s;
         return pixel;
     }
@@ -211,8 +209,7 @@ private:
                 pixel.depth = here.depth;
             }
             pixel.lit += here.lit * share;
-            pixel.shading.reflected += here.shading.reflected * share;
-            pixel.shading.uncertainty += here.shading.uncertainty * share;
+            pixel.shading += here.shading * share;
             through -= share;
             from = hit->t;
             last = hit->id;
@@ -231,8 +228,7 @@ private:
             const PixelRay ray = rays_.through(x + at.x, y + at.y, std::sqrt(share));
             const Pixel sample = alongRay(ray, streamOf(~seed, static_cast<std::uint64_t>(i)));
             mean.lit += sample.lit * share;
-            mean.shading.reflected += sample.shading.reflected * share;
-            mean.shading.uncertainty += sample.shading.uncertainty * share;
+            mean.shading += sample.shading * share;
         }
         centre.lit = mean.lit;
         centre.shading = mean.shading;
@@ -260,7 +256,7 @@ public:
           down_((request.view.height + tileSide - 1) / tileSide) {
         for (const DebugMode& mode : debugModes()) {
             if (mode.maker == MadeBy::paths_only) continue;
-            const bool copied = request.mode == ReferenceMode::surface && !isLight(mode.number);
+            const bool copied = request.mode == ReferenceMode::surface && !isLit(mode.number);
             Image& image = picture_.channels[mode.number];
             if (copied) {
                 image = request.surfaces->at(mode.number);
@@ -353,7 +349,7 @@ private:
 std::vector<int> surfaceChannels() {
     std::vector<int> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isLight(mode.number) && mode.maker != MadeBy::paths_only) modes.push_back(mode.number);
+        if (!isLit(mode.number) && mode.maker != MadeBy::paths_only) modes.push_back(mode.number);
     return modes;
 }
 

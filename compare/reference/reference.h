@@ -23,6 +23,7 @@ struct Request {
     const View& view;
     std::span<const Light> lights;  // world; the environment is the scene's
     double environment_factor = 1;
+    glm::dvec3 ambient{0};  // radiance from everywhere, W/(sr m^2); occlusion dims it
     bool shadows = false;
     // Skins and morph targets move what mode scene draws; in mode surface shadows fall from meshes as the paths draw
     // them, undeformed.

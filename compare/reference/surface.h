@@ -20,6 +20,7 @@ struct Surface {
     double metallic = 0, roughness = 1;    // perceptual roughness
     double occlusion = 1;
     glm::dvec3 emission{0};       // W/(sr m^2)
+    glm::dvec3 lightmap{0};       // irradiance / pi, W/(sr m^2)
     glm::dvec3 dielectric_f0{0};  // of the dielectric's layer; the mix with the metal is the BRDF's
     double dielectric_f90 = 1;
     int material = -1;

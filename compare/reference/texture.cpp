@@ -110,7 +110,9 @@ glm::dvec4 Pyramid::texel(int level, int x, int y) const {
     for (int c = 0; c < 4; ++c) {
         const std::size_t i = at + static_cast<std::size_t>(c);
         const bool encoded = srgb_ && c < 3;
-        if (image_.rgba16.empty())
+        if (!image_.rgba32.empty())
+            result[c] = double{image_.rgba32[i]};
+        else if (image_.rgba16.empty())
             result[c] = decoded(image_.rgba[i], encoded);
         else
             result[c] = encoded ? linear(image_.rgba16[i] / 65535.0) : image_.rgba16[i] / 65535.0;

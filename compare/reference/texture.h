@@ -26,7 +26,7 @@ class Pyramid {
 public:
     Pyramid(const TextureImage& image, bool srgb);
 
-    // RGBA of a texel, linear 0 to 1, with coordinates inside the level.
+    // RGBA of a texel, linear (0 to 1 but of floats), with coordinates inside the level.
     glm::dvec4 texel(int level, int x, int y) const;
     int width(int level) const;
     int height(int level) const;

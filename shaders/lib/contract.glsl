@@ -16,6 +16,7 @@
 #include "shared/contract/light_list.h"
 #include "shared/contract/ltc.h"
 #include "shared/contract/material.h"
+#include "shared/contract/object_lights.h"
 #include "shared/contract/view.h"
 
 #define FEATURE_CONSTANT(id, name) layout(constant_id = id) const uint feature_##name = 0;

@@ -24,7 +24,9 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_list_overflow: return vec4(listOverflowed(lights) ? 1.0 : 0.0);
         case DEBUG_lit_diffuse: return vec4(radiance.diffuse, 1.0);
         case DEBUG_lit_specular: return vec4(radiance.specular, 1.0);
+        case DEBUG_lit_ambient: return vec4(radiance.ambient, 1.0);
         case DEBUG_dielectric_f90: return vec4(s.dielectric_f90);
+        case DEBUG_lightmap: return vec4(s.lightmap, 1.0);
     }
     return vec4(0.0);
 }

@@ -11,7 +11,11 @@ Surface forwardSurface() {
     vec4 base_color = baseColor();
     if (isCutOut(base_color)) discard;
     Surface s = surfaceFromMaterial(base_color);
-    if (on(feature_quantise_surface)) return decodeGBuffer(encodeGBuffer(s), s.position);
+    if (on(feature_quantise_surface)) {
+        Surface decoded = decodeGBuffer(encodeGBuffer(s), s.position);
+        decoded.object_irradiance = s.object_irradiance;
+        return decoded;
+    }
     s.geometric_normal = quantiseGeometricNormal(s.geometric_normal);
     return s;
 }

@@ -21,6 +21,14 @@ vec3 quantiseGeometricNormal(vec3 n) {
     return decodeOctahedral(encodeOctahedral(n, bits), bits);
 }
 
+uvec4 encodeRadiance(vec3 radiance, bool wide) {
+    return wide ? uvec4(floatBitsToUint(radiance), 0) : uvec4(packSharedExponent(radiance), 0, 0, 0);
+}
+
+vec3 decodeRadiance(uvec4 texel, bool wide) {
+    return wide ? uintBitsToFloat(texel.xyz) : unpackSharedExponent(texel.x);
+}
+
 GBufferTexel encodeGBuffer(Surface s) {
     GBufferTexel t;
     for (uint i = 0; i < GBUFFER_ATTACHMENTS; ++i) t.attachments[i] = uvec4(0);
@@ -30,6 +38,7 @@ GBufferTexel encodeGBuffer(Surface s) {
         t.attachments[GBUFFER_PARAMS] = floatBitsToUint(vec4(s.geometric_normal, s.metallic));
         t.attachments[GBUFFER_EMISSION] = uvec4(floatBitsToUint(s.emission), s.material_id);
         t.attachments[GBUFFER_SPECULAR] = floatBitsToUint(vec4(s.dielectric_f0, s.dielectric_f90));
+        t.attachments[GBUFFER_LIGHTMAP] = uvec4(floatBitsToUint(s.lightmap), 0);
         return t;
     }
     t.attachments[GBUFFER_ALBEDO].x = packSqrt(s.albedo, s.occlusion);
@@ -46,9 +55,8 @@ GBufferTexel encodeGBuffer(Surface s) {
                                           (packUnorm(s.metallic, STANDARD_METALLIC_BITS) << 12) |
                                           (s.material_id << 20);
     }
-    t.attachments[GBUFFER_EMISSION] = on(feature_gbuffer_wide_emission)
-                                          ? uvec4(floatBitsToUint(s.emission), 0)
-                                          : uvec4(packSharedExponent(s.emission), 0, 0, 0);
+    t.attachments[GBUFFER_EMISSION] = encodeRadiance(s.emission, on(feature_gbuffer_wide_emission));
+    t.attachments[GBUFFER_LIGHTMAP] = encodeRadiance(s.lightmap, on(feature_gbuffer_wide_lightmap));
     t.attachments[GBUFFER_SPECULAR].x = packSqrt(s.dielectric_f0, s.dielectric_f90);
     t.attachments[GBUFFER_IDS].x = s.material_id;
     return t;
@@ -60,6 +68,8 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     s.position = position;
     s.texcoord = vec2(0.0);
     s.emission = vec3(0.0);
+    s.lightmap = vec3(0.0);
+    s.object_irradiance = vec3(0.0);  // not carried
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (fullGBuffer()) {
@@ -75,6 +85,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
             s.dielectric_f0 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].xyz);
             s.dielectric_f90 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].w);
         }
+        if (on(feature_lightmap)) s.lightmap = uintBitsToFloat(t.attachments[GBUFFER_LIGHTMAP].xyz);
         return s;
     }
     uint albedo = t.attachments[GBUFFER_ALBEDO].x;
@@ -97,9 +108,9 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     }
     if (on(feature_gbuffer_wide_material_id)) s.material_id = t.attachments[GBUFFER_IDS].x;
     if (on(feature_emission))
-        s.emission = on(feature_gbuffer_wide_emission)
-                         ? uintBitsToFloat(t.attachments[GBUFFER_EMISSION].xyz)
-                         : unpackSharedExponent(t.attachments[GBUFFER_EMISSION].x);
+        s.emission = decodeRadiance(t.attachments[GBUFFER_EMISSION], on(feature_gbuffer_wide_emission));
+    if (on(feature_lightmap))
+        s.lightmap = decodeRadiance(t.attachments[GBUFFER_LIGHTMAP], on(feature_gbuffer_wide_lightmap));
     if (on(feature_dielectric_specular)) {
         uint specular = t.attachments[GBUFFER_SPECULAR].x;
         s.dielectric_f0 = unpackSqrt(specular);

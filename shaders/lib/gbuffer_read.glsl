@@ -12,6 +12,7 @@ layout(set = SET_GBUFFER, binding = GBUFFER_PARAMS) uniform usampler2D gbuffer_p
 layout(set = SET_GBUFFER, binding = GBUFFER_EMISSION) uniform usampler2D gbuffer_emission;
 layout(set = SET_GBUFFER, binding = GBUFFER_SPECULAR) uniform usampler2D gbuffer_specular;
 layout(set = SET_GBUFFER, binding = GBUFFER_IDS) uniform usampler2D gbuffer_ids;
+layout(set = SET_GBUFFER, binding = GBUFFER_LIGHTMAP) uniform usampler2D gbuffer_lightmap;
 layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2D gbuffer_depth;
 
 float depthAt(ivec2 p) { return texelFetch(gbuffer_depth, p, 0).r; }
@@ -25,6 +26,7 @@ Surface surfaceFromGBuffer(ivec2 p, float z) {
     if (on(feature_emission) || fullGBuffer()) t.attachments[GBUFFER_EMISSION] = texelFetch(gbuffer_emission, p, 0);
     if (on(feature_dielectric_specular)) t.attachments[GBUFFER_SPECULAR] = texelFetch(gbuffer_specular, p, 0);
     if (on(feature_gbuffer_wide_material_id)) t.attachments[GBUFFER_IDS] = texelFetch(gbuffer_ids, p, 0);
+    if (on(feature_lightmap)) t.attachments[GBUFFER_LIGHTMAP] = texelFetch(gbuffer_lightmap, p, 0);
     return decodeGBuffer(t, positionFromDepth(vec2(p) + 0.5, z));
 }
 

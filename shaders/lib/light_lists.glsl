@@ -14,6 +14,8 @@ layout(set = SET_FRAME, binding = BINDING_AREA_LIGHTS) uniform samplerBuffer are
 layout(set = SET_FRAME, binding = BINDING_LIST_HEADS) uniform usamplerBuffer list_heads;
 layout(set = SET_FRAME, binding = BINDING_LIST_INDICES) uniform usamplerBuffer list_indices;
 layout(set = SET_FRAME, binding = BINDING_LIST_COUNTS, scalar) readonly buffer Listed { uint listed[]; };
+layout(set = SET_FRAME, binding = BINDING_OBJECT_LIST, scalar) readonly buffer ObjectList { ObjectLight object_list[]; };
+layout(set = SET_FRAME, binding = BINDING_OBJECTS, scalar) readonly buffer Objects { ObjectLights object_lights[]; };
 
 Light lightAt(uint i) {
     vec4 a = texelFetch(light_texels, int(2u * i)), b = texelFetch(light_texels, int(2u * i + 1u));
@@ -36,7 +38,8 @@ AreaLight areaLightAt(uint area) {
     return AreaLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
 }
 
-// A pixel's lights as groups of its list; without lists (LISTS_NONE) a group is a light and the list all local ones.
+// A pixel's lights as groups of its list. Without lists (LISTS_NONE) a group is a light and the list all local ones;
+// with object_lights it is the draw's own list.
 struct PixelLights {
     uint list;
     LightListHead groups;
@@ -44,6 +47,10 @@ struct PixelLights {
 
 // `pixel`: gl_FragCoord.xy; z: the reversed depth.
 PixelLights lightsAt(vec2 pixel, float z) {
+    if (on(feature_object_lights)) {
+        ObjectLights object = object_lights[constants.draw];
+        return PixelLights(0u, LightListHead(object.local_begin, object.point_end, object.spot_end, object.area_end));
+    }
     if (feature_light_lists != LISTS_NONE) {
         uint list = cellOf(pixel, viewDepth(z));
         uvec4 head = texelFetch(list_heads, int(list));
@@ -56,6 +63,7 @@ PixelLights lightsAt(vec2 pixel, float z) {
 
 // Lights that were evaluated at the pixel, the directional ones too; whether its list found no room.
 uint lightCount(PixelLights lights) {
+    if (on(feature_object_lights)) return lights.groups.end - object_lights[constants.draw].begin;
     uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.groups.end;
     return view.directional_light_count + local;
 }
@@ -70,10 +78,32 @@ uvec2 walked(PixelLights lights, uint begin, uint end) {
     return clamp(uvec2(begin, end), first + constants.light_first, first + constants.light_end);
 }
 
+// Of the light of the group that lightsOfGroup() gave last: all of it but with object_lights.
+float group_share = 1.0;
+Light withShare(Light light) {
+    if (on(feature_object_lights)) light.intensity *= group_share;
+    return light;
+}
+
 // The lights of a group; without lists there is one.
 uvec4 lightsOfGroup(uint group) {
+    if (on(feature_object_lights)) {
+        ObjectLight entry = object_list[group];
+        group_share = entry.weight;
+        return uvec4(entry.light);
+    }
     if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + group);
     return texelFetch(list_indices, int(group));
+}
+
+// The directional lights, the same for a whole draw: groups [x, y) of directionalAt().
+uvec2 directionalGroups() {
+    if (!on(feature_object_lights)) return uvec2(0u, view.directional_light_count);
+    ObjectLights object = object_lights[constants.draw];
+    return uvec2(object.begin, object.local_begin);
+}
+Light directionalAt(uint group) {
+    return withShare(lightAt(on(feature_object_lights) ? lightsOfGroup(group).x : group));
 }
 
 // The area lights of a list one by one: what fills the last group up would be dear.

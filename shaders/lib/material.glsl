@@ -6,6 +6,7 @@
 #define MATERIAL_GLSL
 
 #include "shaders/lib/draw.glsl"
+#include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/surface.glsl"
 
@@ -16,6 +17,8 @@ layout(location = 3) in vec2 in_texcoord0;
 layout(location = 4) in vec2 in_texcoord1;
 layout(location = 5) in vec4 in_color;
 layout(location = 6) in vec2 in_slot_texcoords[SLOT_COUNT];
+layout(location = 6 + SLOT_COUNT) in vec3 in_irradiance;          // of the vertex lights, W/m^2
+layout(location = 7 + SLOT_COUNT) in vec3 in_irradiance_behind;  // and on the back of a double-sided material
 
 layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
 layout(set = SET_MATERIAL, binding = SLOT_metallic_roughness) uniform sampler2D metallic_roughness_texture;
@@ -24,6 +27,7 @@ layout(set = SET_MATERIAL, binding = SLOT_occlusion) uniform sampler2D occlusion
 layout(set = SET_MATERIAL, binding = SLOT_emissive) uniform sampler2D emissive_texture;
 layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_texture;
 layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
+layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_texture;
 
 // Texture coordinates of a slot, worked out per vertex. Never from the material buffer here: lavapipe reads 0
 // in a quad's lanes that the triangle does not cover, and the derivatives that choose the mip level go wrong.
@@ -81,6 +85,11 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.normal = shadingNormal(s.geometric_normal);
     s.material_id = constants.material;
     s.texcoord = in_texcoord0;
+    s.lightmap = vec3(0.0);
+    s.object_irradiance = vec3(0.0);
+    if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
+        s.object_irradiance += on(feature_double_sided) && !gl_FrontFacing ? in_irradiance_behind : in_irradiance;
+    if ((feature_object_lights & OBJECT_LIGHTS_SH) != 0) s.object_irradiance += harmonicIrradiance(s.normal);
     if (on(feature_unlit)) {  // see contract/material.h
         s.albedo = vec3(0.0);
         s.metallic = 0.0;
@@ -109,6 +118,8 @@ Surface surfaceFromMaterial(vec4 base_color) {
         s.emission = m.emission;
         if (on(feature_emissive_texture)) s.emission *= texture(emissive_texture, slotTexcoord(SLOT_emissive)).rgb;
     }
+    if (on(feature_lightmap_texture))
+        s.lightmap = m.lightmap_intensity * texture(lightmap_texture, slotTexcoord(SLOT_lightmap)).rgb;
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {

@@ -3,11 +3,13 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
+#include "shaders/lib/ambient.glsl"
 #include "shaders/lib/area.glsl"
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/carry.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/lights.glsl"
+#include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/surface.glsl"
 
@@ -15,11 +17,12 @@
 struct Radiance {
     vec3 diffuse;
     vec3 specular;
+    vec3 ambient;
     vec3 emission;
 };
 
 vec3 lit(Radiance radiance) {
-    precise vec3 sum = (radiance.diffuse + radiance.specular) + radiance.emission;
+    precise vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
     return sum;
 }
 
@@ -36,11 +39,11 @@ void addIncident(Shading shading, Incident light, inout Radiance radiance) {
 }
 
 void addPoint(Shading shading, uint i, inout Radiance radiance) {
-    addIncident(shading, fromPointLight(lightAt(i), shading.surface.position), radiance);
+    addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), radiance);
 }
 
 void addSpot(Shading shading, uint i, inout Radiance radiance) {
-    addIncident(shading, fromSpotLight(lightAt(i), spotConeAt(i), shading.surface.position), radiance);
+    addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position), radiance);
 }
 
 // The groups [x, y) of one kind, one at least with lists: on lavapipe a loop that tests last runs a body less than one
@@ -65,22 +68,27 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
 // Goes on with the area lights of one shape, numbers below `end`: a loop a shape, for a body costs what is in it.
 #define ADD_AREA(add, end)                                                                              \
     while (walk.more && walk.number < end) {                                                            \
-        add(area, lightAt(walk.light), areaLightAt(walk.number), s.position, radiance.diffuse, radiance.specular); \
+        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, radiance.diffuse, radiance.specular); \
         step(walk);                                                                                     \
     }
 
-// The sum over the pixel's lights, in the buffer's order. Occlusion is for ambient light alone and dims nothing here.
+// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light alone.
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, makeBrdf(s, v));
-    precise Radiance radiance = Radiance(vec3(0.0), vec3(0.0), s.emission);
+    precise Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission);
     if (feature_light_chunk == CHUNK_LATER) {
         radiance.diffuse = carriedDiffuse();
         radiance.specular = carriedSpecular();
     }
+    if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_chunk != CHUNK_LATER) {
+        // What of the draw's other lights the base reflects.
+        precise vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
+        radiance.diffuse = reflected;
+    }
     if (on(feature_directional_lights) && feature_light_chunk != CHUNK_LATER)
-        for (uint i = 0; i < view.directional_light_count; ++i)
-            addIncident(shading, fromDirectionalLight(lightAt(i)), radiance);
+        for (uvec2 i = directionalGroups(); i.x < i.y; ++i.x)
+            addIncident(shading, fromDirectionalLight(directionalAt(i.x)), radiance);
     if (on(feature_point_lights)) ADD_GROUPS(addPoint, walked(lights, lights.groups.begin, lights.groups.point_end))
     if (on(feature_spot_lights)) ADD_GROUPS(addSpot, walked(lights, lights.groups.point_end, lights.groups.spot_end))
     if (on(feature_area_lights)) {
@@ -90,6 +98,8 @@ Radiance shade(Surface s, PixelLights lights) {
         if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
         if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
     }
+    if (on(feature_ambient) || on(feature_lightmap))
+        radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
     return radiance;
 }
 

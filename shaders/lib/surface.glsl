@@ -15,10 +15,12 @@ struct Surface {
     float roughness;        // perceptual
     float occlusion;        // 1: open; for ambient light alone
     vec3 emission;          // W/(sr m^2)
+    vec3 lightmap;          // irradiance / pi, W/(sr m^2)
     vec3 dielectric_f0;     // KHR_materials_ior, _specular
     float dielectric_f90;
     uint material_id;
     vec2 texcoord;          // forward+ only
+    vec3 object_irradiance; // forward+ with object_lights: of those that are not shaded per pixel, W/m^2
 };
 
 // Specular colour at normal incidence.

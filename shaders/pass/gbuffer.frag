@@ -5,8 +5,22 @@
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
 
-// ATTACHMENTS: 3 to 6, as many as the scene needs. Those that it lacks leave no gap.
+// ATTACHMENTS: 3 to 7, as many as the scene needs. Those that it lacks leave no gap.
 layout(location = 0) out uvec4 out_texel[ATTACHMENTS];
+
+// Number k of those after the first three that this scene has.
+uvec4 optionalTexel(GBufferTexel t, uint k) {
+    bool there[] = bool[](on(feature_emission) || fullGBuffer(), on(feature_dielectric_specular),
+                          on(feature_gbuffer_wide_material_id), on(feature_lightmap));
+    uvec4 texel = uvec4(0);
+    uint count = 0;
+    for (uint i = 0; i < 4; ++i)
+        if (there[i]) {
+            if (count == k) texel = t.attachments[GBUFFER_EMISSION + i];
+            ++count;
+        }
+    return texel;
+}
 
 void main() {
     vec4 base_color = baseColor();
@@ -15,15 +29,16 @@ void main() {
     out_texel[0] = t.attachments[GBUFFER_ALBEDO];
     out_texel[1] = t.attachments[GBUFFER_NORMALS];
     out_texel[2] = t.attachments[GBUFFER_PARAMS];
-    bool emission = on(feature_emission) || fullGBuffer(), specular = on(feature_dielectric_specular);
-    uvec4 last = t.attachments[GBUFFER_IDS];
 #if ATTACHMENTS > 3
-    out_texel[3] = emission ? t.attachments[GBUFFER_EMISSION] : specular ? t.attachments[GBUFFER_SPECULAR] : last;
+    out_texel[3] = optionalTexel(t, 0);
 #endif
 #if ATTACHMENTS > 4
-    out_texel[4] = emission && specular ? t.attachments[GBUFFER_SPECULAR] : last;
+    out_texel[4] = optionalTexel(t, 1);
 #endif
 #if ATTACHMENTS > 5
-    out_texel[5] = last;
+    out_texel[5] = optionalTexel(t, 2);
+#endif
+#if ATTACHMENTS > 6
+    out_texel[6] = optionalTexel(t, 3);
 #endif
 }

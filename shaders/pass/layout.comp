@@ -20,7 +20,14 @@ layout(set = 3, binding = 11, scalar) buffer LightListCountArray { LightListCoun
 layout(set = 3, binding = 12, scalar) buffer AreaLightArray { AreaLight area_light_array[]; };
 layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
 
+layout(set = 3, binding = 20, scalar) buffer ObjectLightArray { ObjectLight object_light_array[]; };
+layout(set = 3, binding = 21, scalar) buffer ObjectIrradianceArray { ObjectIrradiance object_irradiance_array[]; };
+layout(set = 3, binding = 22, scalar) buffer ObjectLightsArray { ObjectLights object_lights_array[]; };
+
 void main() {
+    object_light_array[0] = object_light_array[1];
+    object_irradiance_array[0] = object_irradiance_array[1];
+    object_lights_array[0] = object_lights_array[1];
     view_array[0] = view_array[1];
     draw_array[0] = draw_array[1];
     material_array[0] = material_array[1];

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/vertex.glsl"
 
 layout(location = 0) in vec3 position;
@@ -18,6 +19,8 @@ layout(location = 3) out vec2 out_texcoord0;
 layout(location = 4) out vec2 out_texcoord1;
 layout(location = 5) out vec4 out_color;
 layout(location = 6) out vec2 out_slot_texcoords[SLOT_COUNT];
+layout(location = 6 + SLOT_COUNT) out vec3 out_irradiance;
+layout(location = 7 + SLOT_COUNT) out vec3 out_irradiance_behind;
 
 vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
 
@@ -43,6 +46,10 @@ void main() {
     out_texcoord0 = bounded(texcoord0);
     out_texcoord1 = texcoord1;
     out_color = color;
+    if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0) {
+        out_irradiance = vertexIrradiance(out_world, out_normal);
+        if (on(feature_double_sided)) out_irradiance_behind = vertexIrradiance(out_world, -out_normal);
+    }
     if (on(feature_texture_transform) || on(feature_second_texcoord))
         for (uint slot = 0; slot < SLOT_COUNT; ++slot)
             out_slot_texcoords[slot] = slotTexcoord(materials[constants.material], slot);

@@ -24,11 +24,14 @@ CONTRACT_CONST(uint, BINDING_LIGHT_GRID, 7);    // uniform LightGrid
 CONTRACT_CONST(uint, BINDING_LIST_HEADS, 8);    // texels of LightListHead[lists]
 CONTRACT_CONST(uint, BINDING_LIST_INDICES, 9);  // texels of uint[]: into the lights, list_width at once
 CONTRACT_CONST(uint, BINDING_LIST_COUNTS, 10);  // buffer uint[lists]
+CONTRACT_CONST(uint, BINDING_ALBEDO, 11);       // buffer vec2[], see albedo.h
+CONTRACT_CONST(uint, BINDING_OBJECT_LIST, 12);  // buffer ObjectLight[]
+CONTRACT_CONST(uint, BINDING_OBJECTS, 13);      // buffer ObjectLights[draws]
 
 CONTRACT_CONST(uint, BINDING_CARRIED_DIFFUSE, 0);  // of SET_CARRIED
 CONTRACT_CONST(uint, BINDING_CARRIED_SPECULAR, 1);
 
-CONTRACT_CONST(uint, BINDING_DEPTH, 6);      // of SET_GBUFFER
+CONTRACT_CONST(uint, BINDING_DEPTH, 7);      // of SET_GBUFFER
 
 CONTRACT_END
 

@@ -32,7 +32,9 @@
     X(21, list_overflow,    1, exact,    scalar, paths_only,   "1 where the pixel's light list found no room") \
     X(40, lit_diffuse,      3, relative, color,  both,         "reflected by the diffuse lobe, W/(sr m^2)") \
     X(41, lit_specular,     3, relative, color,  both,         "reflected by the specular lobe, W/(sr m^2)") \
-    X(50, dielectric_f90,   1, absolute, scalar, both,         "F90 of the dielectric layer, 0 to 1")
+    X(42, lit_ambient,      3, relative, color,  both,         "reflected ambient light, W/(sr m^2)") \
+    X(50, dielectric_f90,   1, absolute, scalar, both,         "F90 of the dielectric layer, 0 to 1") \
+    X(51, lightmap,         3, relative, color,  both,         "irradiance of the lightmap over pi, W/(sr m^2)")
 
 CONTRACT_BEGIN
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, maker, shows) \

@@ -44,13 +44,18 @@
     X(32, light_lists)                /* LISTS_* of light_list.h */                                   \
     X(33, light_chunk)                /* CHUNK_* of light_list.h: a draw walks a part of each list */  \
     X(34, list_width)                 /* lights that one turn of a list's loop takes: 1 or 4 */       \
-    X(38, vanishing_normals)          /* an interpolated normal may be zero */
+    X(35, lightmap_texture)                                                                           \
+    X(36, ambient)                    /* constant ambient radiance */                                 \
+    X(37, object_lights)              /* OBJECT_LIGHTS_* of object_lights.h */                        \
+    X(38, vanishing_normals)          /* an interpolated normal may be zero */                        \
+    X(39, lightmap)                   /* a material of the scene has one */                           \
+    X(40, gbuffer_wide_lightmap)      /* beyond the packed format's range: float32 */
 
 CONTRACT_BEGIN
 #define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
 FEATURES(DIPTYCH_FEATURE_ID)
 #undef DIPTYCH_FEATURE_ID
-CONTRACT_CONST(uint, FEATURE_COUNT, 39);
+CONTRACT_CONST(uint, FEATURE_COUNT, 41);
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

@@ -12,11 +12,12 @@
 //   specular  R32  sqrt 8.8.8, F90 8       R32  sqrt 8.8.8, F90 8          RGBA32 dielectric F0, F90
 //   ids       R32  (only where 10 bits     R32  (only where 12 bits
 //                   do not suffice)              do not suffice)
-//   bytes     12 to 20, + 4 depth          16 to 24, + 4 depth             64 to 80, + 4 depth
+//   lightmap  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 lightmap
+//   bytes     12 to 24, + 4 depth          16 to 28, + 4 depth             64 to 96, + 4 depth
 //
 // sqrt: the square root is stored and squared again: 0.04, the usual F0, is exactly 51/255.
 // emission exists where the scene emits (full: always, it carries the id), and is RGBA32 float where its
-// radiance leaves the range of 9.9.9.e5; specular where a material has KHR_materials_specular, _ior or _unlit.
+// radiance leaves the range of 9.9.9.e5; lightmap, alike, where a material has one; specular where a material has KHR_materials_specular, _ior or _unlit.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H
 
@@ -34,7 +35,8 @@ CONTRACT_CONST(uint, GBUFFER_PARAMS, 2);
 CONTRACT_CONST(uint, GBUFFER_EMISSION, 3);
 CONTRACT_CONST(uint, GBUFFER_SPECULAR, 4);
 CONTRACT_CONST(uint, GBUFFER_IDS, 5);
-CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 6);
+CONTRACT_CONST(uint, GBUFFER_LIGHTMAP, 6);
+CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 7);
 
 // Bits of each packed field, by encoding; the tolerances are derived from these.
 CONTRACT_CONST(uint, ALBEDO_BITS, 8);

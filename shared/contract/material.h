@@ -13,7 +13,8 @@ CONTRACT_CONST(uint, SLOT_occlusion, 3);
 CONTRACT_CONST(uint, SLOT_emissive, 4);
 CONTRACT_CONST(uint, SLOT_specular, 5);
 CONTRACT_CONST(uint, SLOT_specular_color, 6);
-CONTRACT_CONST(uint, SLOT_COUNT, 7);
+CONTRACT_CONST(uint, SLOT_lightmap, 7);
+CONTRACT_CONST(uint, SLOT_COUNT, 8);
 
 // KHR_texture_transform of one slot: uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
 struct TextureTransform {
@@ -21,6 +22,10 @@ struct TextureTransform {
     vec3 v;
 };
 
+// A lightmap holds, times its intensity, the irradiance that reaches the surface from all sides over pi: the radiance
+// of light from everywhere that would bring as much, W/(sr m^2). The base reflects it as it does such light; the
+// specular lobe, which would need its directions, does not.
+//
 // KHR_materials_unlit has an exact physical equivalent: a surface that reflects nothing and emits its base
 // colour. So an unlit surface has that colour, factor x texture x COLOR_0, in the channel `emission` and 0 in
 // `albedo` and `specular`, and no lighting code knows of it. Its normal, metallic (0), roughness (1) and
@@ -35,6 +40,7 @@ struct Material {
     float normal_scale;
     float occlusion_strength;
     float alpha_cutoff;
+    float lightmap_intensity;
     uint second_texcoord;     // bit SLOT_*: that slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
 };

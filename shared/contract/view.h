@@ -29,6 +29,7 @@ struct View {
     uint rect_light_count;
     uint disc_light_count;
     uint tube_light_count;
+    vec3 ambient;              // W/(sr m^2), from everywhere
 };
 
 CONTRACT_END

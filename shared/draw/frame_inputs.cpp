@@ -4,6 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/geometry.h"
+#include "shared/environment/directional_albedo.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/vulkan/check.h"
 
@@ -20,17 +21,12 @@ constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
 // In the order of BINDING_* of SET_FRAME.
 constexpr std::array frameTypes{
     uniform, storage, storage, texels, texels, texels, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    uniform, texels,  texels,  storage};
+    uniform, texels,  texels,  storage, storage, storage, storage};
 
 constexpr std::array carriedTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 constexpr VkShaderStageFlags drawStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-
-bool needsLight(int mode) {
-    const auto number = static_cast<gpu::uint>(mode);
-    return number == gpu::DEBUG_lit || number == gpu::DEBUG_lit_diffuse || number == gpu::DEBUG_lit_specular;
-}
 
 VkFormat formatFor(const DebugMode& mode) {
     return mode.width == 1   ? VK_FORMAT_R32_SFLOAT
@@ -78,8 +74,10 @@ NothingCarried::NothingCarried(Device& device, Uploader& uploader, const Layouts
 
 FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts,
                            const Materials& materials, const View& view, const DrawList& draws,
-                           const GpuLights& lights, const LightLists::Choice& choice)
+                           const GpuLights& lights, const LightLists::Choice& choice,
+                           std::optional<std::uint32_t> objectPixelLights)
     : lists_(device, uploader, layouts.lists, choice, view, lights),
+      objects_(device, uploader, draws, lights, objectPixelLights),
       carried_nothing_(device, uploader, layouts),
       sets_(device, layouts.frame, frameTypes, 1) {
     gpu::View gpuView = view.gpuView();
@@ -89,6 +87,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.rect_light_count = lights.rect;
     gpuView.disc_light_count = lights.disc;
     gpuView.tube_light_count = lights.tube;
+    gpuView.ambient = lights.ambient;
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     draws_ =
@@ -103,6 +102,14 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     area_lights_view_ = makeTexelView(device, "area lights", area_lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
     ltc_ = LtcImage(device, uploader, lights.area() > 0);
+    std::span<const glm::vec2> albedo;
+    const bool lightmaps = std::ranges::any_of(draws.items, [](const DrawItem& item) {
+        return item.variant.get(gpu::FEATURE_lightmap_texture) != 0;
+    });
+    if (lightmaps || lights.ambient != glm::vec3(0) || objects_.features() > gpu::OBJECT_LIGHTS_LISTS)
+        albedo = directionalAlbedoTable();
+    albedo_ = makeBuffer<glm::vec2>(device, uploader, "directional albedo", albedo,
+                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     uploader.flush();
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
     sets_.buffer(0, gpu::BINDING_DRAWS, draws_.handle());
@@ -112,7 +119,9 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     sets_.texels(0, gpu::BINDING_AREA_LIGHTS, area_lights_view_);
     sets_.image(0, gpu::BINDING_LTC_TABLE, ltc_.view(), ltc_.sampler(),
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    sets_.buffer(0, gpu::BINDING_ALBEDO, albedo_.handle());
     lists_.bind(sets_);
+    objects_.bind(sets_);
 }
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
@@ -129,6 +138,8 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_point_lights, lights.point > 0)
         .set(gpu::FEATURE_spot_lights, lights.spot > 0)
         .set(gpu::FEATURE_area_lights, area)
+        .set(gpu::FEATURE_lightmap, needs.lightmap)
+        .set(gpu::FEATURE_ambient, lights.ambient != glm::vec3(0))
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;
@@ -246,7 +257,7 @@ void CaptureGroup::specialise(Variant& variant) const {
 
 std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
     std::vector<int> ordered(modes.begin(), modes.end());
-    std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !needsLight(mode); });
+    std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !isLit(mode); });
     std::vector<CaptureGroup> groups;
     for (std::size_t i = 0; i < ordered.size(); ++i) {
         if (i % gpu::CAPTURE_ATTACHMENTS == 0) groups.emplace_back();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/draw/draw_list.h"
+#include "shared/draw/object_lights.h"
 #include "shared/light/light_lists.h"
 #include "shared/light/ltc_image.h"
 #include "shared/material/gbuffer_layout.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,25 +44,28 @@ private:
     DescriptorSets sets_;
 };
 
-// The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
+// The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME. `objectPixelLights`:
+// --pixel-lights of --assign per_object.
 class FrameBuffers {
 public:
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const Materials& materials,
                  const View& view, const DrawList& draws, const GpuLights& lights,
-                 const LightLists::Choice& choice);
+                 const LightLists::Choice& choice, std::optional<std::uint32_t> objectPixelLights = {});
     VkDescriptorSet set() const { return sets_[0]; }
     VkDescriptorSet carriedNothing() const { return carried_nothing_.set(); }
     LightLists& lists() { return lists_; }
+    const ObjectLightBuffers& objects() const { return objects_; }
     std::uint64_t bytes() const {
         return view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + area_lights_.size() +
-               ltc_.bytes() + lists_.bytes();
+               ltc_.bytes() + albedo_.size() + lists_.bytes() + objects_.bytes();
     }
 
 private:
-    GpuBuffer view_, draws_, lights_, spot_cones_, area_lights_;
+    GpuBuffer view_, draws_, lights_, spot_cones_, area_lights_, albedo_;
     OwnedBufferView lights_view_, spot_cones_view_, area_lights_view_;
     LtcImage ltc_;
     LightLists lists_;
+    ObjectLightBuffers objects_;
     NothingCarried carried_nothing_;
     DescriptorSets sets_;
 };

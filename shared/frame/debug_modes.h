@@ -2,6 +2,10 @@
 // The channels of shared/contract/debug_mode.h as C++ data.
 #pragma once
 
+#include "shared/contract/debug_mode.h"
+
+#include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +35,14 @@ std::span<const DebugMode> debugModes();                      // in ascending nu
 const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr where there is none
 const DebugMode& debugMode(int number);                       // throws std::out_of_range
 std::string_view nameOf(Metric metric);
+
+// Channels of light: those that follow from the surface and what shines on it.
+inline constexpr std::array litModes{
+    static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_lit_diffuse),
+    static_cast<int>(gpu::DEBUG_lit_specular), static_cast<int>(gpu::DEBUG_lit_ambient)};
+constexpr bool isLit(int mode) {
+    return std::ranges::find(litModes, mode) != litModes.end();
+}
 
 // The EXR channel names of a mode: lit is R, G, B, depth is Z, others "albedo.R", "normals.X", "roughness.Y".
 std::vector<std::string> exrChannels(const DebugMode& mode);

@@ -70,7 +70,7 @@ struct Frame {
     // all.
     std::vector<int> asked;
     bool isAsked(int mode) const { return asked.empty() || std::ranges::count(asked, mode) > 0; }
-    // Forward+: lit, lit_diffuse and lit_specular of a surface that went through the encoding of
+    // Forward+: lit, lit_diffuse, lit_specular and lit_ambient of a surface that went through the encoding of
     // settings.gbuffer and back: what the deferred path must show. It explains a difference of lit.
     std::map<int, Image> through_gbuffer;
     std::array<float, 3> background{};  // what pictures show there, W/(sr m^2)

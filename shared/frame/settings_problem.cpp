@@ -21,8 +21,6 @@ constexpr std::string_view needs_reference = "has no meaning without --path refe
 constexpr Fixed fixed[] = {
     {"time", "is not built yet but in --path reference --reference-mode scene"},
     {"ibl-intensity", "has no meaning without --env", "env"},
-    {"ambient", not_built},
-    {"pixel-lights", "has no meaning without --assign per_object"},
     {"shadows", not_built},
     {"shadow-lights", not_built},
     {"evsm-precision", needs_evsm, "shadows"},
@@ -47,6 +45,7 @@ constexpr Unread unread[] = {
     {"assign", Path::reference, "the reference evaluates every light"},
     {"light-kernel", Path::reference, "the reference evaluates every light"},
     {"light-cutoff", Path::reference, "the reference lets every light go on as far as its range"},
+    {"pixel-lights", Path::reference, "the reference evaluates every light"},
     {"prepass", Path::deferred, "deferred has no depth pre-pass"},
     {"prepass", Path::reference, "the reference has no depth pre-pass"},
     {"area-lights", Path::reference, "the reference integrates area lights"},
@@ -90,7 +89,17 @@ std::optional<std::string> Settings::problem() const {
 
     if (!(light_cutoff >= 0 && std::isfinite(light_cutoff)))
         return fmt::format("--light-cutoff {}: is finite and at least 0", light_cutoff);
-    if (assign == Assignment::per_object) return "--assign per_object is not built yet; use every";
+    for (const float component : {ambient.r, ambient.g, ambient.b})
+        if (!(component >= 0 && std::isfinite(component)))
+            return fmt::format("--ambient {}: components are finite and at least 0",
+                               valueOf(*this, "ambient"));
+    if (assign == Assignment::per_object && path == Path::deferred)
+        return "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object a pixel "
+               "is of; use --path forward_plus";
+    if (pixel_lights < 0) return fmt::format("--pixel-lights {}: is at least 0", pixel_lights);
+    if (assign != Assignment::per_object && pixel_lights != Settings().pixel_lights)
+        return fmt::format("--pixel-lights {} has no meaning without --assign per_object; use {}", pixel_lights,
+                           Settings().pixel_lights);
     if (assign == Assignment::tiled && path == Path::forward_plus && prepass == Switch::off)
         return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; "
                "use "

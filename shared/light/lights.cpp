@@ -70,6 +70,7 @@ GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye) {
         for (const Light& light : lights) {
             if (light.kind != kind || !shines(light)) continue;
             result.lights.push_back(gpuLight(light, eye));
+            result.importance.push_back(light.importance);
             if (kind == LightKind::spot) result.spot_cones.push_back(spotCone(light));
             if (isArea(kind)) result.area_lights.push_back(areaLight(light));
             ++count;

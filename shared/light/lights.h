@@ -16,6 +16,8 @@ struct GpuLights {
     std::vector<gpu::Light> lights;           // directional, point, spot, rect, disc, tube, and the null light
     std::vector<gpu::SpotCone> spot_cones;    // and the null light's
     std::vector<gpu::AreaLight> area_lights;  // and the null light's
+    std::vector<Importance> importance;       // of all but the null light
+    glm::vec3 ambient{0};                     // W/(sr m^2), from everywhere
     std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;
     std::uint32_t area() const { return rect + disc + tube; }
     std::uint32_t local() const { return point + spot + area(); }

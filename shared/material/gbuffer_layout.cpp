@@ -6,7 +6,7 @@
 namespace diptych {
 
 const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames{
-    "albedo", "normals", "params", "emission", "specular", "material ids"};
+    "albedo", "normals", "params", "emission", "specular", "material ids", "lightmap"};
 
 std::uint32_t GBufferLayout::bytesPerPixel() const {
     std::uint32_t bytes = 0;
@@ -18,6 +18,7 @@ std::uint32_t GBufferLayout::bytesPerPixel() const {
 void GBufferLayout::specialise(Variant& variant) const {
     variant.set(gpu::FEATURE_gbuffer_encoding, encoding)
         .set(gpu::FEATURE_gbuffer_wide_emission, wide_emission)
+        .set(gpu::FEATURE_gbuffer_wide_lightmap, wide_lightmap)
         .set(gpu::FEATURE_gbuffer_wide_material_id, wide_material_id);
 }
 
@@ -27,6 +28,8 @@ GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs)
     layout.encoding = full ? gpu::GBUFFER_full : compact ? gpu::GBUFFER_compact : gpu::GBUFFER_standard;
     layout.wide_emission = !full && needs.emission &&
                            (needs.max_emission > gpu::EMISSION_MAX || needs.min_emission < gpu::EMISSION_MIN);
+    layout.wide_lightmap = !full && needs.lightmap &&
+                           (needs.max_lightmap > gpu::EMISSION_MAX || needs.max_lightmap < gpu::EMISSION_MIN);
     layout.wide_material_id =
         !full && needs.materials > 1u << (compact ? gpu::COMPACT_ID_BITS : gpu::STANDARD_ID_BITS);
 
@@ -38,6 +41,8 @@ GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs)
     if (full || needs.emission)  // full keeps the material id beside the emission
         f[gpu::GBUFFER_EMISSION] = layout.wide_emission ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (needs.dielectric_specular) f[gpu::GBUFFER_SPECULAR] = word;
+    if (needs.lightmap)
+        f[gpu::GBUFFER_LIGHTMAP] = layout.wide_lightmap ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (layout.wide_material_id) f[gpu::GBUFFER_IDS] = VK_FORMAT_R32_UINT;
     return layout;
 }

@@ -15,6 +15,7 @@ namespace diptych {
 struct GBufferLayout {
     gpu::uint encoding = gpu::GBUFFER_standard;
     bool wide_emission = false;                                // float32: radiance beyond what 9.9.9.e5 holds
+    bool wide_lightmap = false;                                // likewise
     bool wide_material_id = false;                             // more materials than the packed bits can name
     std::array<VkFormat, gpu::GBUFFER_ATTACHMENTS> formats{};  // undefined: not there
 

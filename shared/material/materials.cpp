@@ -28,7 +28,7 @@ constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{
     gpu::FEATURE_base_color_texture,    gpu::FEATURE_metallic_roughness_texture,
     gpu::FEATURE_normal_texture,        gpu::FEATURE_occlusion_texture,
     gpu::FEATURE_emissive_texture,      gpu::FEATURE_specular_texture,
-    gpu::FEATURE_specular_color_texture};
+    gpu::FEATURE_specular_color_texture, gpu::FEATURE_lightmap_texture};
 
 Variant variantOf(const Material& material) {
     Variant variant;
@@ -57,6 +57,7 @@ gpu::Material gpuMaterial(const Material& m) {
     g.normal_scale = m.normal_scale;
     g.occlusion_strength = m.occlusion_strength;
     g.alpha_cutoff = m.alpha_cutoff;
+    g.lightmap_intensity = m.lightmap_intensity;
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
         const TextureSlot& texture = m.*materialSlots[slot].texture;
         if (texture.texcoord == 1) g.second_texcoord |= 1u << slot;
@@ -143,7 +144,7 @@ void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& sce
                                tbb::make_filter<Made, void>(inOrder, upload));
     if (reduced)
         notes_.push_back(fmt::format(
-            "{} texture{} of 16 bits a component: sampled as half floats (11 bits), {} filters nothing wider",
+            "{} texture{} of over 8 bits a component: sampled as half floats (11 bits), {} filters nothing wider",
             reduced, reduced == 1 ? "" : "s", device.info().name));
 }
 

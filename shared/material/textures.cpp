@@ -20,7 +20,8 @@ TextureFormat textureFormat(bool deep, bool srgb, const std::function<bool(VkFor
 }
 
 TextureFormat textureFormat(const Device& device, const TextureImage& image, bool srgb) {
-    return textureFormat(!image.rgba16.empty(), srgb, [&](VkFormat format) {
+    // Of floats as of 16 bits of sRGB, which become floats.
+    return textureFormat(image.deep(), srgb || !image.rgba32.empty(), [&](VkFormat format) {
         VkFormatProperties properties;
         vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
         constexpr VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |

@@ -80,7 +80,7 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), scene.notes);
     gltf::readMotion(document.model, sceneNode, scene);
     std::vector<int> imageOf;
-    gltf::readMaterials(document.model, scene, imageOf);
+    gltf::readMaterials(document.model, document.material_extras, scene, imageOf);
     fetchImages(document, imageOf, scene.notes);
 
     // Pixels and vertices know nothing of each other; each fails only after the other has ended, meshes
@@ -90,7 +90,7 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();
     gltf::Tally tally(pieces, "images and meshes", progress);
     std::exception_ptr meshFailure, imageFailure;
-    std::vector<std::string> meshNotes;
+    std::vector<std::string> meshNotes, imageNotes;
     const auto guarded = [](std::exception_ptr& failure, const auto& run) {
         return [&failure, &run] {
             try {
@@ -101,11 +101,13 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
         };
     };
     const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene, meshNotes, tally); };
-    const auto images = [&] { gltf::readImages(model, imageOf, scene.images, tally); };
+    const std::vector<bool> lightmaps = gltf::lightmapsAlone(scene);
+    const auto images = [&] { gltf::readImages(model, imageOf, lightmaps, scene.images, imageNotes, tally); };
     tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));
     for (const std::exception_ptr& failure : {meshFailure, imageFailure})
         if (failure) std::rethrow_exception(failure);
-    scene.notes.insert(scene.notes.end(), meshNotes.begin(), meshNotes.end());
+    for (const std::vector<std::string>* notes : {&imageNotes, &meshNotes})
+        scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());
     leaveOutWhatIsBeyond(scene);
     return scene;
 }

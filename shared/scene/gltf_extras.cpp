@@ -8,8 +8,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
+#include <string_view>
 
 namespace diptych::gltf {
 
@@ -19,14 +23,16 @@ using Json = nlohmann::json;
 using Notes = std::vector<std::string>;
 
 constexpr const char* ours = "diptych";
+constexpr double maxCount = 2147483647, maxIntensity = 1e12;  // a product with any texel is a float
 
 const Json* memberOf(const Json& object, const char* key) {
     const auto at = object.find(key);  // the end where it is no object
     return at == object.end() ? nullptr : &*at;
 }
 
-// What "extras" of `owner` hold of ours under `key`; what else is there is noted.
-const Json* ourExtra(const Json& owner, const char* key, const std::string& who, Notes& notes) {
+// What "extras" of `owner` hold of ours; what is not `known` is noted.
+const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known, const std::string& who,
+                      Notes& notes) {
     const Json* extras = memberOf(owner, "extras");
     const Json* own = extras ? memberOf(*extras, ours) : nullptr;
     if (!own) return nullptr;
@@ -35,8 +41,15 @@ const Json* ourExtra(const Json& owner, const char* key, const std::string& who,
         return nullptr;
     }
     for (const auto& item : own->items())
-        if (item.key() != key) notes.push_back(fmt::format("{}: {}: is not read", who, oneLine(item.key())));
-    return memberOf(*own, key);
+        if (std::ranges::find(known, item.key()) == known.end())
+            notes.push_back(fmt::format("{}: {}: is not read", who, oneLine(item.key())));
+    return own;
+}
+
+// The one member that is known.
+const Json* ourExtra(const Json& owner, const char* key, const std::string& who, Notes& notes) {
+    const Json* own = ourExtras(owner, {key}, who, notes);
+    return own ? memberOf(*own, key) : nullptr;
 }
 
 // "node" of `object`, which loses it.
@@ -69,15 +82,48 @@ LightExtras::OfScene ofScene(const Json& scene, std::size_t nodes, const std::st
 
 LightExtras::OfLight ofLight(const Json& light, const std::string& who) {
     LightExtras::OfLight result;
-    if (!ourExtra(light, "angle", who, result.notes)) return result;
-    try {
+    const Json* own = ourExtras(light, {"angle", "importance"}, who, result.notes);
+    if (!own) return result;
+    const auto left = [&](const auto& read) {
+        try {
+            read();
+        } catch (const std::runtime_error& e) {
+            result.notes.push_back(std::string(e.what()) + ": left out");
+        }
+    };
+    left([&] { result.importance = importanceOf(JsonFields(*own, who)); });
+    if (!memberOf(*own, "angle")) return result;
+    left([&] {
         const Json* type = memberOf(light, "type");
         if (!type || *type != "directional")
             throw std::runtime_error(who + ": angle: belongs to directional lights");
-        result.angle = sunAngle(JsonFields(light["extras"][ours], who));
-    } catch (const std::runtime_error& e) {
-        result.notes.push_back(std::string(e.what()) + ": left out");
-    }
+        result.angle = sunAngle(JsonFields(*own, who));
+    });
+    return result;
+}
+
+MaterialExtras::Lightmap lightmapOf(const Json& material, std::size_t textures, const std::string& who) {
+    MaterialExtras::Lightmap result;
+    const Json* found = ourExtra(material, "lightmap", who, result.notes);
+    if (found) try {
+            const JsonFields fields(*found, who + ": lightmap");
+            constexpr std::array<std::string_view, 3> known{"index", "texCoord", "intensity"};
+            fields.knownOnly(known, "a lightmap");
+            const auto whole = [&](std::string_view key, double fallback, double end) {
+                const double index = fields.number(key, fallback, 0, maxCount);
+                if (!(index < end && index == std::floor(index)))
+                    fields.fail(key, fmt::format("{:g} is no whole number below {:g}", index, end));
+                return static_cast<int>(index);
+            };
+            if (!fields.find("index")) fields.fail("index", "is missing: a texture");
+            const double intensity = fields.number("intensity", 1, 0, maxIntensity);
+            const int texcoord = whole("texCoord", 1, 2);
+            result.texture = whole("index", 0, static_cast<double>(textures));
+            result.texcoord = texcoord;
+            result.intensity = intensity;
+        } catch (const std::runtime_error& e) {
+            result.notes.push_back(std::string(e.what()) + ": left out");
+        }
     return result;
 }
 
@@ -100,7 +146,20 @@ LightExtras lightExtras(const Json& document) {
     }
     for (std::size_t i = 0; i < lights.size(); ++i) {
         LightExtras::OfLight found = ofLight(lights[i], fmt::format("light {}: extras: {}", i, ours));
-        if (found.angle > 0 || !found.notes.empty()) result.lights[i] = std::move(found);
+        if (found.angle > 0 || found.importance != Importance::automatic || !found.notes.empty())
+            result.lights[i] = std::move(found);
+    }
+    return result;
+}
+
+MaterialExtras materialExtras(const Json& document) {
+    MaterialExtras result;
+    const Json& materials = arrayAt(document, "/materials");
+    const std::size_t textures = arrayAt(document, "/textures").size();
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        MaterialExtras::Lightmap found =
+            lightmapOf(materials[i], textures, fmt::format("material {}: extras: {}", i, ours));
+        if (found.texture >= 0 || !found.notes.empty()) result.lightmaps[i] = std::move(found);
     }
     return result;
 }
@@ -109,6 +168,7 @@ void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteL
     const auto found = extras.lights.find(index);
     if (found == extras.lights.end()) return;
     for (const std::string& note : found->second.notes) notes.add(note);
+    light.importance = found->second.importance;
     if (light.kind == LightKind::directional) light.angle = found->second.angle;  // a broken one is a point
 }
 

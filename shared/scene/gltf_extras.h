@@ -12,13 +12,14 @@
 
 namespace diptych::gltf {
 
-// Light that KHR_lights_punctual has no words for, in a file's "extras":
+// What glTF has no words for, in a file's "extras". Of light:
 //
 //   scenes[i].extras.diptych.lights: [ ... ]   objects as in lights_json.h. With "node", a node's index,
 //   position,
 //                                              direction and axis are in its space; its scale changes no
 //                                              size.
 //   extensions.KHR_lights_punctual.lights[i].extras.diptych.angle: rad    of a directional light
+//                                                       ...importance: "auto", "important", "not_important"
 //
 // What is wrong with one leaves it out with a note.
 struct LightExtras {
@@ -33,14 +34,31 @@ struct LightExtras {
     };
     struct OfLight {
         float angle = 0;
+        Importance importance = Importance::automatic;
         std::vector<std::string> notes;
     };
     std::map<std::size_t, OfScene> scenes;  // that have any
     std::map<std::size_t, OfLight> lights;
 };
 
+// Of materials:
+//
+//   materials[i].extras.diptych.lightmap: { "index": a texture, "texCoord": 0 or 1 (1), "intensity": F (1) }
+//
+// The texture's image is PNG or JPEG, sRGB, or OpenEXR, Radiance HDR or PFM, linear. Its colour times intensity is
+// irradiance over pi, W/(sr m^2).
+struct MaterialExtras {
+    struct Lightmap {
+        int texture = -1, texcoord = 1;
+        double intensity = 1;
+        std::vector<std::string> notes;
+    };
+    std::map<std::size_t, Lightmap> lightmaps;  // of the materials that have any
+};
+
 // `document` may still be anything.
 LightExtras lightExtras(const nlohmann::json& document);
+MaterialExtras materialExtras(const nlohmann::json& document);
 
 class NoteList;
 

@@ -272,7 +272,7 @@ tinygltf::Model parseModel(const std::string& text) {
 
 Document open(Bytes bytes, const std::filesystem::path& folder) {
     const Container container = readContainer(bytes);
-    Document result{{}, Resources(folder), {}, {}, {}};
+    Document result{{}, Resources(folder), {}, {}, {}, {}};
     Json buffers, images;
     {
         Json document =
@@ -280,6 +280,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
         checkVersion(document);
         checkRequired(document);
         result.light_extras = lightExtras(document);
+        result.material_extras = materialExtras(document);
         Schema found = applySchema(document);  // takes extras out
         result.notes = container.notes;
         result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());

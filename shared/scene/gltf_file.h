@@ -20,6 +20,7 @@ struct Document {
     tinygltf::Model model;
     Resources resources;  // images are read from there, when somebody needs them
     LightExtras light_extras;
+    MaterialExtras material_extras;
     std::set<std::string> left_out;  // extensions that are not read
     std::vector<std::string> notes;  // what was repaired or left out
 };

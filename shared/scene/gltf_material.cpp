@@ -27,12 +27,13 @@ namespace {
 class MaterialReader {
 public:
     // `faults`: of each texture.
-    MaterialReader(const tinygltf::Model& model, Scene& scene, const std::vector<std::string>& faults,
-                   std::size_t index)
+    MaterialReader(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
+                   const std::vector<std::string>& faults, std::size_t index)
         : model_(model),
           file_(model.materials[index]),
           scene_(scene),
           faults_(faults),
+          lightmap_(extras.lightmaps.contains(index) ? &extras.lightmaps.at(index) : nullptr),
           who_(fmt::format("material {}", index)) {}
 
     Material read() {
@@ -57,6 +58,7 @@ public:
         m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
         readEmission(m);
         readSpecular(m);
+        readLightmap(m);
         return m;
     }
 
@@ -65,6 +67,7 @@ private:
     const tinygltf::Material& file_;
     Scene& scene_;
     const std::vector<std::string>& faults_;
+    const MaterialExtras::Lightmap* lightmap_;  // nullptr: none
     std::string who_;
 
     // Where glTF has no bound, or none on one side: squares and products of such stay finite in float32.
@@ -172,6 +175,13 @@ private:
         }
     }
 
+    void readLightmap(Material& m) {
+        if (!lightmap_) return;
+        scene_.notes.insert(scene_.notes.end(), lightmap_->notes.begin(), lightmap_->notes.end());
+        m.lightmap_texture = slot("extras: diptych: lightmap", lightmap_->texture, lightmap_->texcoord, nullptr);
+        m.lightmap_intensity = static_cast<float>(lightmap_->intensity);
+    }
+
     void readSpecular(Material& m) {
         if (const auto* e = extension(file_.extensions, "KHR_materials_ior")) {
             const double ior = numberIn(*e, "ior", 1.5, who_);
@@ -239,7 +249,8 @@ void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& ima
 
 }  // namespace
 
-void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>& imageOf) {
+void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
+                   std::vector<int>& imageOf) {
     const std::size_t before = scene.notes.size();
     const std::vector<std::string> faults = readTextures(model, scene);
     const std::vector<bool> drawn = drawnMaterials(model, scene);
@@ -247,7 +258,7 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
     for (std::size_t i = 0; i < model.materials.size(); ++i) {
         Material& m = scene.materials.emplace_back();
         try {
-            m = MaterialReader(model, scene, faults, i).read();
+            m = MaterialReader(model, extras, scene, faults, i).read();
         } catch (const std::runtime_error& e) {
             if (drawn[i]) throw;
             left.add(std::string(e.what()) + ": left out, nothing is drawn with it");
@@ -270,6 +281,15 @@ void readMaterials(const tinygltf::Model& model, Scene& scene, std::vector<int>&
         });
     if (needsDefault) scene.materials.emplace_back().name = "default";
     keepImagesInUse(scene, model.images.size(), imageOf);
+}
+
+std::vector<bool> lightmapsAlone(const Scene& scene) {
+    std::vector<bool> alone(scene.images.size(), true);
+    for (const Material& m : scene.materials)
+        for (std::size_t i = 0; i < materialSlots.size(); ++i)
+            if (const int texture = (m.*materialSlots[i].texture).texture; texture >= 0 && i != gpu::SLOT_lightmap)
+                alone[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] = false;
+    return alone;
 }
 
 }  // namespace diptych::gltf

@@ -2,13 +2,17 @@
 #include "shared/scene/gltf_texture.h"
 
 #include "shared/image/limits.h"
+#include "shared/image/picture_file.h"
 #include "shared/scene/gltf_accessor.h"
 #include "shared/scene/gltf_tally.h"
 #include "shared/scene/gltf_value.h"
 #include "shared/scene/image_decode.h"
+#include "shared/scene/radiance_layer.h"
+#include "shared/text/named.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 
@@ -73,6 +77,31 @@ Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
     return sampler;
 }
 
+// Linear light as a texture. `most`: bytes that it may take decoded. Throws with `who` at the start.
+TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::string& who, std::uint64_t most,
+                            std::vector<std::string>& notes) {
+    const PictureFile picture = readPicture(std::as_bytes(bytes), who, {}, most);
+    if (picture.width > limits::texture_side || picture.height > limits::texture_side)
+        fail(who, fmt::format("is {} x {} pixels: from 1 to {} a side are read", picture.width, picture.height,
+                              limits::texture_side));
+    constexpr std::size_t bytesPerPixel = 4 * sizeof(float);
+    const Image light = named(who, [&] { return radianceOf(picture, who, notes); });
+    if (light.pixels() > most / bytesPerPixel)
+        fail(who, fmt::format("with it the images take over {} MiB decoded, which are read at most",
+                              limits::imageBytes() >> 20));
+    TextureImage image;
+    image.width = light.width;
+    image.height = light.height;
+    image.rgba32.reserve(4 * light.pixels());
+    image.largest = 0;
+    for (std::size_t i = 0; i < light.pixels(); ++i) {
+        const float* p = light.pixel(i);
+        image.rgba32.insert(image.rgba32.end(), {p[0], p[1], p[2], 1});
+        image.largest = std::max({image.largest, p[0], p[1], p[2]});
+    }
+    return image;
+}
+
 }  // namespace
 
 std::vector<std::string> readTextures(const tinygltf::Model& model, Scene& scene) {
@@ -102,12 +131,13 @@ const char* otherImageOf(const tinygltf::Texture& texture) {
     return nullptr;
 }
 
-void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                std::vector<TextureImage>& images, Tally& tally) {
+void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf, const std::vector<bool>& lightmaps,
+                std::vector<TextureImage>& images, std::vector<std::string>& notes, Tally& tally) {
     struct Encoded {
         std::string file, who;
         std::span<const unsigned char> bytes;
         std::uint64_t decoded = 0;  // bytes
+        bool radiance = false;
     };
     std::vector<Encoded> all(images.size());
     const auto ofEach = [&](const auto& run) {
@@ -128,16 +158,25 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
             image.bufferView >= 0 ? viewBytes(model, image.bufferView, all[i].who) : std::span(image.image);
         if (all[i].bytes.empty())
             fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
+        all[i].radiance = lightmaps[i] && isRadiancePicture(std::as_bytes(all[i].bytes));
     }
     // What all of them take together is known before the first is decoded.
-    ofEach([](std::size_t, Encoded& image) { image.decoded = imageHeader(image.bytes).bytes(); });
+    ofEach([](std::size_t, Encoded& image) {
+        if (!image.radiance) image.decoded = imageHeader(image.bytes).bytes();
+    });
     std::uint64_t total = 0;
     for (const Encoded& image : all)
         if ((total += image.decoded) > limits::imageBytes())
             fail(image.who, fmt::format("with it the images take {} MiB decoded: {} MiB are read at most",
                                         total >> 20, limits::imageBytes() >> 20));
+    // Pictures of light are few, and say what they take when they are opened: one after the other.
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].radiance) continue;
+        images[i] = decodeRadiance(all[i].bytes, all[i].who, limits::imageBytes() - total, notes);
+        total += images[i].rgba32.size() * sizeof(float);
+    }
     ofEach([&](std::size_t i, const Encoded& image) {
-        images[i] = decodeImage(image.bytes);
+        if (!image.radiance) images[i] = decodeImage(image.bytes);
         images[i].name = image.file;
         tally.oneMore();
     });

@@ -70,7 +70,7 @@ LightKind kindOf(const JsonFields& fields) {
 
 void checkKeys(const JsonFields& fields, LightKind kind) {
     std::vector<std::string_view> known{"type",  "name",      "position", "direction",
-                                        "color", "intensity", "range"};
+                                        "color", "intensity", "range", "importance"};
     for (const OwnKey& own : ownKeys) {
         known.push_back(own.key);
         if (std::ranges::count(own.kinds, kind) > 0 || !fields.find(own.key)) continue;
@@ -134,6 +134,16 @@ std::vector<Light> readDocument(const Json& document) {
 
 }  // namespace
 
+Importance importanceOf(const JsonFields& fields) {
+    constexpr std::pair<Importance, std::string_view> words[] = {{Importance::automatic, "auto"},
+                                                                 {Importance::important, "important"},
+                                                                 {Importance::not_important, "not_important"}};
+    const std::string word = fields.text("importance", "auto");
+    for (const auto& [importance, name] : words)
+        if (word == name) return importance;
+    fields.fail("importance", fmt::format("\"{}\" is none of auto, important, not_important", oneLine(word)));
+}
+
 float sunAngle(const JsonFields& fields) {
     const double angle = fields.number("angle", 0, 0, any);
     if (angle > glm::pi<double>() + rounding) fields.fail("angle", fmt::format("{:g} is beyond pi", angle));
@@ -158,6 +168,7 @@ Light lightFromJson(const Json& object, const std::string& who) {
         if (light.kind != LightKind::directional) light.range = static_cast<float>(range);
     }
     if (light.kind == LightKind::directional) light.angle = sunAngle(fields);
+    light.importance = importanceOf(fields);
     if (isArea(light.kind)) readShape(fields, light);
     if (light.kind == LightKind::spot) {
         readCone(fields, light);

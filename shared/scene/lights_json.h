@@ -21,6 +21,7 @@ class JsonFields;
 //                 "intensity" (directional: lux; point, spot: cd; rect, disc, tube: cd/m^2), "range": m,
 //                 "extras" (not read). A directional light's position and range, a point's direction count
 //                 for nothing.
+//                 "importance": "auto", "important" or "not_important", of --assign per_object
 //   directional   "angle": rad, the diameter of its disc; the illuminance stays what it is
 //   spot          "spot": { "innerConeAngle": rad, "outerConeAngle": rad }, which may stand beside the type
 //   rect          "size": [along the axis, across it] m, "axis", "twoSided"
@@ -37,5 +38,7 @@ std::vector<Light> lightsFromJson(std::string_view text, const std::string& name
 Light lightFromJson(const nlohmann::json& object, const std::string& who);
 // "angle" of a directional light, 0 to pi; 0 where there is none.
 float sunAngle(const JsonFields& fields);
+// "importance"; automatic where there is none.
+Importance importanceOf(const JsonFields& fields);
 
 }  // namespace diptych

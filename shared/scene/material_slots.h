@@ -23,6 +23,7 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::emissive_texture, true},
     {&Material::specular_texture, false},
     {&Material::specular_color_texture, true},
+    {&Material::lightmap_texture, true},
 }};
 
 // Whether the slot has a texture that can change a pixel: one whose factor is zero cannot, and an unlit
@@ -37,6 +38,8 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
             return material.occlusion_strength != 0;
         case gpu::SLOT_emissive:
             return material.emissive != glm::vec3(0);
+        case gpu::SLOT_lightmap:
+            return material.lightmap_intensity != 0;
         default:
             return true;
     }

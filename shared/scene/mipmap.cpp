@@ -93,7 +93,7 @@ void encodeRow(const float* linear, std::size_t count, Texels texels, std::byte*
         case Texels::linear16:
             return each(std::uint16_t{}, rounded<std::uint16_t>);
         case Texels::float16:
-            return each(std::uint16_t{}, [](float x) { return glm::packHalf1x16(x); });
+            return each(std::uint16_t{}, [](float x) { return glm::packHalf1x16(std::min(x, 65504.0f)); });
         case Texels::float32:
             std::memcpy(out, linear, count * sizeof(float));
     }
@@ -204,16 +204,21 @@ int MipChain::height(std::size_t level) const {
 MipChain::MipChain(const TextureImage& image, bool srgb, Texels texels)
     : name_(image.name), texels_(texels), width_(image.width), height_(image.height), levels_(1) {
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
-    const bool deep = !image.rgba16.empty();
-    if (deep == (texels == Texels::srgb8 || texels == Texels::linear8) ||
-        (deep ? image.rgba16.size() : image.rgba.size()) != 4 * width * height || width * height == 0)
+    const bool deep = image.deep(), floats = !image.rgba32.empty();
+    if (deep == (texels == Texels::srgb8 || texels == Texels::linear8) || (floats && texels == Texels::linear16) ||
+        image.components() != 4 * width * height || width * height == 0)
         throw std::logic_error("MipChain: " + name_ + " has not the texels that are asked for");
 
     const auto rowsOfTop = [&](const auto& use) {
-        deep ? use(decodedRows(image.rgba16, width, srgb)) : use(decodedRows(image.rgba, width, srgb));
+        if (floats)
+            use([&](std::size_t y, float*) { return image.rgba32.data() + 4 * width * y; });
+        else
+            deep ? use(decodedRows(image.rgba16, width, srgb)) : use(decodedRows(image.rgba, width, srgb));
     };
-    image_ = deep ? std::as_bytes(std::span(image.rgba16)) : std::as_bytes(std::span(image.rgba));
-    if (texels == Texels::float16 || texels == Texels::float32) {
+    image_ = floats ? std::as_bytes(std::span(image.rgba32))
+             : deep ? std::as_bytes(std::span(image.rgba16))
+                    : std::as_bytes(std::span(image.rgba));
+    if (texels == Texels::float16 || (texels == Texels::float32 && !floats)) {
         levels_[0].resize(width * height * bytesPerTexel(texels));
         rowsOfTop([&](const auto& row) {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height, 16), [&](const auto& range) {

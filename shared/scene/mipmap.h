@@ -19,11 +19,12 @@ std::size_t bytesPerTexel(Texels texels);
 // The whole mip chain of an image, level 0 first, down to 1x1, each level half the one before, rounded down
 // (Vulkan's sizes). Averages are made in linear light: with `srgb` the colour components of the image are
 // sRGB, alpha never is. Odd sizes are weighted by area, so no texel is left out. Every level is averaged from
-// the one before it unrounded: rounding happens once, on the way out. Level 0 of 8 bits and of linear16 is
-// the image's own memory, which must outlive the chain.
+// the one before it unrounded: rounding happens once, on the way out. Level 0 of 8 bits, of linear16 and of
+// floats as float32 is the image's own memory, which must outlive the chain.
 class MipChain {
 public:
-    // An image of 8 bits becomes srgb8 or linear8, one of 16 bits one of the other three.
+    // An image of 8 bits becomes srgb8 or linear8, one of 16 bits one of the other three, one of floats float32 or
+    // float16, which ends at 65504.
     MipChain(const TextureImage& image, bool srgb, Texels texels);
 
     const std::string& name() const { return name_; }

@@ -15,7 +15,7 @@ namespace diptych {
 
 namespace {
 
-void addMaterial(Requirements& r, const Material& m, std::set<int>& textures) {
+void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::set<int>& textures) {
     r.alpha_mask |= m.alpha_mode == AlphaMode::mask;
     r.alpha_blend |= m.alpha_mode == AlphaMode::blend;
     r.double_sided |= m.double_sided;
@@ -37,6 +37,12 @@ void addMaterial(Requirements& r, const Material& m, std::set<int>& textures) {
         const TextureSlot& slot = m.*materialSlots[i].texture;
         textures.insert(slot.texture);
         r.second_texcoord |= slot.texcoord == 1;
+        if (i == gpu::SLOT_lightmap) {
+            const int image = scene.textures[static_cast<std::size_t>(slot.texture)].image;
+            r.lightmap = true;
+            r.max_lightmap = std::max(
+                r.max_lightmap, m.lightmap_intensity * scene.images[static_cast<std::size_t>(image)].largest);
+        }
         r.texture_transform |= isTransformed(slot);
     }
 }
@@ -65,7 +71,7 @@ Requirements requirements(const Scene& scene, const Pose& pose) {
 
     std::set<int> textures;
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i]) addMaterial(r, scene.materials[i], textures);
+        if (used[i]) addMaterial(r, scene, scene.materials[i], textures);
     r.textures = static_cast<std::uint32_t>(textures.size());
 
     for (const Light& light : pose.lights) {
@@ -129,6 +135,8 @@ std::vector<Requirements::Line> Requirements::lines() const {
             ? fmt::format("materials emit {:g} W/(sr m^2)", max_emission)
             : fmt::format("materials emit {:g} to {:g} W/(sr m^2)", min_emission, max_emission),
         "no material emits: no emission attachment");
+    say(lightmap, "lightmaps", fmt::format("a material has one, up to {:g} W/(sr m^2)", max_lightmap),
+        "no material has one: no lightmap attachment");
     say(unlit, "unlit materials",
         "a material has KHR_materials_unlit: it emits its base colour and reflects nothing",
         "no material has KHR_materials_unlit");

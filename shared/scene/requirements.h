@@ -17,6 +17,8 @@ struct Requirements {
     bool occlusion = false;            // an occlusion texture of non-zero strength
     bool unlit = false;                // KHR_materials_unlit: emits its base colour
     bool emission = false;             // of unlit materials too
+    bool lightmap = false;             // a lightmap of non-zero intensity
+    float max_lightmap = 0;            // the largest component of any, W/(sr m^2)
     bool dielectric_specular = false;  // KHR_materials_specular or _ior differs from its default, or unlit
     float max_emission = 0;       // largest component over all factors (textures only darken), W/(sr m^2)
     float min_emission = 0;       // smallest non-zero largest-component of a factor

@@ -33,13 +33,18 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
-// Level 0, RGBA, 8 or 16 bits a component, row 0 on top. Whether it is sRGB is decided by the slot that reads
-// it.
+// Level 0, RGBA, row 0 on top: 8 or 16 bits a component, which the slot that reads it takes for sRGB or linear, or
+// linear floats, finite and at least 0.
 struct TextureImage {
     std::string name;
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;        // one of the two is empty
+    std::vector<std::uint8_t> rgba;  // one of the three is filled
     std::vector<std::uint16_t> rgba16{};
+    std::vector<float> rgba32{};
+    float largest = 1;  // colour component that there may be; of floats that there is
+
+    bool deep() const { return !rgba16.empty() || !rgba32.empty(); }
+    std::size_t components() const { return rgba.size() + rgba16.size() + rgba32.size(); }
 };
 
 struct Texture {
@@ -66,13 +71,14 @@ struct Material {
     float ior = 1.5f;    // KHR_materials_ior; 0: reflects everything
     float specular = 1;  // KHR_materials_specular
     glm::vec3 specular_color{1, 1, 1};
+    float lightmap_intensity = 1;  // what the lightmap is multiplied by; see contract/material.h
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     bool unlit = false;  // KHR_materials_unlit: base colour, alpha and double_sided count, nothing else
     // In the order of SLOT_* of contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
-        emissive_texture, specular_texture, specular_color_texture;
+        emissive_texture, specular_texture, specular_color_texture, lightmap_texture;
 };
 
 // Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions, but
@@ -108,6 +114,10 @@ struct Node {
 };
 
 enum class LightKind { directional, point, spot, rect, disc, tube };
+
+// A mark that overrides how bright --assign per_object finds a light; other assignments know no difference.
+enum class Importance { automatic, important, not_important };
+
 constexpr bool isArea(LightKind kind) {
     return kind == LightKind::rect || kind == LightKind::disc || kind == LightKind::tube;
 }
@@ -129,6 +139,7 @@ struct Light {
     float radius = 0.5f;                                   // disc, tube; m
     float length = 1;                                      // tube: along the axis; m
     bool two_sided = false;                                // rect, disc
+    Importance importance = Importance::automatic;
     int node = -1;
     glm::dvec3 position{0, 0, 0};    // area: of its centre
     glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; a tube's counts for nothing

@@ -179,8 +179,8 @@ void requireSound(const Scene& scene) {
     for (const Texture& texture : scene.textures)
         require(withinOrNone(texture.image, scene.images), "a texture's image is there");
     for (const TextureImage& image : scene.images)
-        require((image.rgba.empty() || image.rgba16.empty()) &&
-                    image.rgba.size() + image.rgba16.size() ==
+        require(image.rgba.empty() + image.rgba16.empty() + image.rgba32.empty() == 2 &&
+                    image.components() ==
                         4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
                 "an image has its pixels");
     for (const Light& light : scene.lights) {

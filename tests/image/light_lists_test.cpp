@@ -73,6 +73,11 @@ void expectEveryWayEqual(Renderer& renderer, Size size, bool kernels) {
     const Image& expected = every.channels.at(lit);
     const Frame deferred = renderer.draw(picture(size, Path::deferred, Assignment::every), untimed());
     EXPECT_EQ(wrongPixels(expected, deferred.channels.at(lit)), 0u) << "deferred, every";
+    Settings objects = picture(size, Path::forward_plus, Assignment::per_object);
+    objects.pixel_lights = 1 << 20;
+    const Frame by_object = renderer.draw(objects, untimed());
+    EXPECT_EQ(wrongPixels(expected, by_object.channels.at(lit)), 0u) << "per_object, all per pixel";
+    EXPECT_EQ(by_object.counters.unreproduced_pixels, 0u);
     for (const Path path : {Path::forward_plus, Path::deferred})
         for (const Way& way : ways) {
             if (!kernels && way.kernel == LightKernel::gather) continue;

@@ -78,6 +78,8 @@ TEST(AssetScenes, AreAllThatThereAre) {
 struct Twin {
     const char* channel;
     void (*change)(Scene&);
+    Rgb ambient = {};
+    const char* scene = "builtin:gallery";
 };
 
 void PrintTo(const Twin& twin, std::ostream* out) {
@@ -87,10 +89,11 @@ void PrintTo(const Twin& twin, std::ostream* out) {
 class VerdictTwin : public testing::TestWithParam<Twin> {};
 
 TEST_P(VerdictTwin, Fails) {
-    const Scene scene = loadScene("builtin:gallery");
+    const Scene scene = loadScene(GetParam().scene);
     Scene changed = scene;
     GetParam().change(changed);
-    const Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallPicture(GBufferEncoding::standard);
+    settings.ambient = GetParam().ambient;
     std::vector<Frame> frames = bothPaths(scene, settings);
     frames[1] = bothPaths(changed, settings)[1];
     const Report report = verdictOn(std::move(frames), scene);
@@ -152,10 +155,21 @@ const Twin twins[] = {
      }},
     {"lit_diffuse", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
     {"lit_specular", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
+    {"lit_ambient",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.base_color *= 0.97f;
+     },
+     {0.2f, 0.2f, 0.2f}},
     {"dielectric_f90",
      [](Scene& s) {
          for (Material& m : s.materials) m.specular *= 0.99f;
      }},
+    {"lightmap",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.lightmap_intensity *= 1.005f;
+     },
+     {},
+     "builtin:lightmaps"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictTwin, testing::ValuesIn(twins),

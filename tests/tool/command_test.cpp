@@ -68,7 +68,7 @@ TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
 TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
     const Folder folder;
     for (const std::string option :
-         {"--assign per_object", "--time 1", "--frames 2", "--ambient 0.1,0.1,0.1",
+         {"--time 1", "--frames 2",
           "--shadows pcf", "--shadows evsm", "--shadows clipmap", "--shadow-lights 1", "--msaa 4",
           "--haze on"})
         for (const std::string command : {"compare ", "render ", "plan "})

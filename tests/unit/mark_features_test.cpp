@@ -186,10 +186,10 @@ TEST(MarkFeatures, FlatNormalsWhereTheyCanBeTold) {
 TEST(MarkFeatures, DeepImagesByTheirSlot) {
     Scene scene = plainScene();
     scene.materials[0].metallic_roughness_texture.texture = 0;
-    EXPECT_EQ(what(scene, "16 bit images"), "");
+    EXPECT_EQ(what(scene, "images of over 8 bits"), "");
     scene.images[0] = {"image", 1, 1, {}, {1, 2, 3, 4}};
-    EXPECT_EQ(what(scene, "16 bit images"),
-              "Metallic-roughness: 16 bits a component. Gradients run without steps.");
+    EXPECT_EQ(what(scene, "images of over 8 bits"),
+              "Metallic-roughness: over 8 bits a component. Gradients run without steps.");
 }
 
 }  // namespace diptych

@@ -206,14 +206,13 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
 
 TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
     const std::pair<const char*, const char*> rest[] = {
-        {"assign", "per_object"},
         {"size", "0x5"},
         {"size", "5x16385"},
         {"size", "-1x5"},
         {"time", "2"},
         {"ibl-intensity", "2"},
         {"ibl-intensity", "-1"},
-        {"ambient", "0,0.1,0"},
+        {"ambient", "0,-0.1,0"},
         {"light-cutoff", "-0.01"},
         {"pixel-lights", "8"},
         {"area-lights", "representative"},
@@ -237,6 +236,23 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         const std::string problem = s.problem().value_or("none");
         EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
     }
+}
+
+TEST(Settings, LightsByObjectAreForwardPlussAlone) {
+    Settings s;
+    s.assign = Assignment::per_object;
+    s.path = Path::forward_plus;
+    for (const int lights : {0, 1, 8, 100000}) {
+        s.pixel_lights = lights;
+        EXPECT_EQ(s.problem().value_or("none"), "none");
+    }
+    s.pixel_lights = -1;
+    EXPECT_EQ(s.problem().value_or("none"), "--pixel-lights -1: is at least 0");
+    s.pixel_lights = 4;
+    s.path = Path::deferred;
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object a pixel "
+              "is of; use --path forward_plus");
 }
 
 TEST(Settings, TheReferenceHasMoreThanThePaths) {

@@ -51,6 +51,8 @@ constexpr std::array ROWS{
         builtin::unlitMaterials},
     Row{"sixteen_bits", "textures of 16 bits beside the same in 8: dark colours, shallow normals, roughness",
         TEST, builtin::sixteenBits},
+    Row{"lightmaps", "baked light on the second UV set, of floats and of 8 bits, beside the same without", TEST,
+        builtin::lightmaps},
     Row{"coplanar", "coincident triangles and bodies that pass through each other: depth ties", TEST,
         builtin::coplanar},
     Row{"deep", "0.2 m to 90 km in one view with far 1e5, seen through its corner: position from depth", TEST,

@@ -23,6 +23,7 @@ Scene manyMaterials();
 Scene vertexColors();
 Scene unlitMaterials();
 Scene sixteenBits();
+Scene lightmaps();
 
 // places.cpp: where things are, and what covers what
 Scene coplanar();

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/ambient.h"
+
+#include "compare/reference/brdf.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace diptych::reference {
+namespace {
+
+// Gauss and Legendre's sixteen points on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss Quadrature Rules"; here
+// the roots are found by halving between the extrema of a finer grid, and refined by Newton's method).
+struct Rule {
+    static constexpr int points = 16;
+    std::array<double, points> at, weight;
+};
+
+// Legendre's polynomial of the rule's degree, and its slope.
+std::array<double, 2> legendre(double x) {
+    double before = 1, p = x;
+    for (int k = 2; k <= Rule::points; ++k) {
+        const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
+        before = p;
+        p = next;
+    }
+    return {p, Rule::points * (x * p - before) / (x * x - 1)};
+}
+
+Rule makeRule() {
+    Rule rule{};
+    constexpr int grid = 4000;
+    int found = 0;
+    for (int i = 0; i < grid && found < Rule::points; ++i) {
+        double low = -1 + (2.0 * i + 0.5) / grid, high = low + 2.0 / grid;
+        if (std::signbit(legendre(low)[0]) == std::signbit(legendre(high)[0])) continue;
+        double x = (low + high) / 2;
+        for (int step = 0; step < 20; ++step) {
+            const auto [p, slope] = legendre(x);
+            x -= p / slope;
+        }
+        const double slope = legendre(x)[1];
+        rule.at[static_cast<std::size_t>(found)] = (1 + x) / 2;
+        rule.weight[static_cast<std::size_t>(found++)] = 1 / ((1 - x * x) * slope * slope);
+    }
+    return rule;
+}
+
+template <class F>
+void eachPoint(double from, double to, const F& f) {
+    static const Rule rule = makeRule();
+    for (std::size_t i = 0; i < Rule::points; ++i) f(from + (to - from) * rule.at[i], (to - from) * rule.weight[i]);
+}
+
+// The viewer in the plane y = 0, the normal +Z.
+class Integrals {
+public:
+    explicit Integrals(const Surface& surface) : brdf_(framed(surface)) {}
+
+    // Evenly over the projected hemisphere, of which half is the other's mirror image.
+    glm::dvec3 diffuse() const {
+        glm::dvec3 sum(0);
+        eachPoint(0, 1, [&](double square, double step) {
+            const double cosine = std::sqrt(square), sine = std::sqrt(1 - square);
+            eachPoint(0, std::numbers::pi, [&](double phi, double turn) {
+                const glm::dvec3 l(sine * std::cos(phi), sine * std::sin(phi), cosine);
+                sum += brdf_(l).diffuse * (step * turn / cosine);  // d(cos^2) dphi is 2 cos dl; both halves
+            });
+        });
+        return sum;
+    }
+
+    // Over half vectors, by the tangent of their angle from the normal: up to where part of a ring begins to mirror
+    // light from below the horizon, from there to the lobe's width, and on to where all of a ring does.
+    glm::dvec3 specular() const {
+        const double view = std::acos(std::min(brdf_.toViewer().z, 1.0)), right = std::numbers::pi / 2;
+        const double whole = std::tan((right - view) / 2), none = std::tan((right + view) / 2);
+        const double alpha = brdf_.alpha(), width = std::clamp(alpha, whole, none);
+        glm::dvec3 sum(0);
+        const auto add = [&](double tangent, double step) {
+            sum += ring(std::atan(tangent)) * (step / (1 + tangent * tangent));
+        };
+        // A hyperbolic sine: even steps near the middle of the lobe, steps of the logarithm far out in it.
+        eachPoint(0, std::asinh(whole / alpha),
+                  [&](double y, double step) { add(alpha * std::sinh(y), alpha * std::cosh(y) * step); });
+        // Cubes draw out the ends at which rings open and close; far out the lobe is smooth in the cotangent.
+        eachPoint(0, 1, [&](double t, double step) {
+            const double cube = t * t * t, slope = 3 * t * t * step;
+            add(whole + (width - whole) * cube, (width - whole) * slope);
+            const double cotangent = 1 / none + (1 / width - 1 / none) * cube;
+            add(1 / cotangent, (1 / width - 1 / none) * slope / (cotangent * cotangent));
+        });
+        return sum;
+    }
+
+private:
+    static Surface framed(Surface s) {
+        constexpr double least = 1e-4;  // as the material is shaded (README, "The model")
+        const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least, 1.0);
+        s.normal = {0, 0, 1};
+        s.to_viewer = {std::sqrt(1 - cosine * cosine), 0, cosine};
+        return s;
+    }
+
+    // All half vectors at an angle from the normal whose light is above the horizon.
+    glm::dvec3 ring(double angle) const {
+        const glm::dvec3 v = brdf_.toViewer();
+        const double c = std::cos(angle), s = std::sin(angle);
+        // n.l = 2 (v.h) c - v.z > 0
+        const double edge = (v.z / (2 * c) - v.z * c) / std::max(v.x * s, 1e-300);
+        glm::dvec3 sum(0);
+        eachPoint(0, std::acos(std::clamp(edge, -1.0, 1.0)), [&](double phi, double turn) {
+            const glm::dvec3 h(s * std::cos(phi), s * std::sin(phi), c);
+            const double v_dot_h = glm::dot(v, h);
+            sum += brdf_(2 * v_dot_h * h - v).specular * (4 * v_dot_h * turn);  // dl = 4 v.h dh
+        });
+        return sum * (2 * s);  // dh = sin dangle dphi; both halves
+    }
+
+    Brdf brdf_;
+};
+
+}  // namespace
+
+glm::dvec3 diffuseAlbedo(const Surface& surface) {
+    return Integrals(surface).diffuse();
+}
+
+glm::dvec3 specularAlbedo(const Surface& surface) {
+    return Integrals(surface).specular();
+}
+
+}  // namespace diptych::reference

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The lists of --assign per_object on the device: one a draw.
+#pragma once
+
+#include "shared/draw/draw_list.h"
+#include "shared/light/per_object.h"
+#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/resources.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace diptych {
+
+class ObjectLightBuffers {
+public:
+    // `pixels`: lights per pixel; nothing: another assignment, and the buffers hold nothing.
+    ObjectLightBuffers(Device& device, Uploader& uploader, const DrawList& draws, const GpuLights& lights,
+                       std::optional<std::uint32_t> pixels);
+
+    void bind(DescriptorSets& sets) const;  // BINDING_OBJECT_LIST, BINDING_OBJECTS
+    std::uint32_t features() const { return features_; }  // FEATURE_object_lights
+    std::uint32_t longest() const { return longest_; }    // local lights per pixel of one draw
+    std::uint64_t bytes() const { return entries_.size() + objects_.size(); }
+
+private:
+    GpuBuffer entries_, objects_;
+    std::uint32_t features_ = 0, longest_ = 0;
+};
+
+}  // namespace diptych

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "shared/environment/directional_albedo.h"
+
+#include "shared/contract/albedo.h"
+#include "shared/contract/constants.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+// Gauss and Legendre's points and weights on [0, 1], by Newton's method from Tricomi's estimate of the roots.
+constexpr std::size_t points = 16;
+struct Rule {
+    std::array<double, points> at, weight;
+};
+Rule gaussLegendre() {
+    Rule rule{};
+    constexpr double n = points;
+    for (std::size_t i = 0; i < points; ++i) {
+        double z = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5)), slope = 0;
+        for (int step = 0; step < 100; ++step) {
+            double p = 1, before = 0;
+            for (double j = 0; j < n; ++j) {
+                const double last = before;
+                before = p;
+                p = ((2 * j + 1) * z * before - j * last) / (j + 1);
+            }
+            slope = n * (z * p - before) / (z * z - 1);
+            const double move = p / slope;
+            z -= move;
+            if (std::abs(move) < 1e-15) break;
+        }
+        rule.at[i] = (1 - z) / 2;
+        rule.weight[i] = 1 / ((1 - z * z) * slope * slope);
+    }
+    return rule;
+}
+const Rule rule = gaussLegendre();
+
+double schlickWeight(double v_dot_h) {
+    const double x = std::clamp(1 - v_dot_h, 0.0, 1.0);
+    return x * x * x * x * x;
+}
+
+// Smith's Lambda for GGX (Heitz 2014, equation 72).
+double lambda(double alpha, double cosine) {
+    return (std::sqrt(1 + alpha * alpha * (1 - cosine * cosine) / (cosine * cosine)) - 1) / 2;
+}
+
+// The lobe over half vectors (Walter et al. 2007: dl = 4 v.h dh), by T = tan of their angle from the normal:
+// D cos dh = density(T) dT dphi / (2 pi).
+class Lobe {
+public:
+    Lobe(double n_dot_v, double alpha)
+        : mu_(n_dot_v), sine_(std::sqrt(1 - n_dot_v * n_dot_v)), alpha_(alpha), lambda_v_(lambda(alpha, n_dot_v)) {}
+
+    double density(double t) const {
+        const double a2 = alpha_ * alpha_, sum = a2 + t * t;
+        return 2 * a2 * t / (sum * sum);
+    }
+
+    // The ring of half vectors at T, as far round as the light is above the horizon: n.l = 2 v.h n.h - n.v.
+    glm::dvec2 ring(double t) const {
+        const double cosine = 1 / std::sqrt(1 + t * t), sine = t * cosine;
+        const double edge = (mu_ / (2 * cosine) - mu_ * cosine) / std::max(sine_ * sine, 1e-300);
+        const double reach = std::acos(std::clamp(edge, -1.0, 1.0));
+        glm::dvec2 sum(0);
+        for (std::size_t i = 0; i < points; ++i) {
+            const double v_dot_h = mu_ * cosine + sine_ * sine * std::cos(reach * rule.at[i]);
+            const double n_dot_l = std::min(2 * v_dot_h * cosine - mu_, 1.0);
+            if (!(n_dot_l > 0)) continue;
+            const double masking = 1 / (1 + lambda_v_ + lambda(alpha_, n_dot_l));
+            const double w = schlickWeight(v_dot_h);
+            sum += glm::dvec2(1 - w, w) * (masking * v_dot_h / (mu_ * cosine) * rule.weight[i]);
+        }
+        return sum * (reach / std::numbers::pi);
+    }
+
+private:
+    double mu_, sine_, alpha_, lambda_v_;
+};
+
+double alongRow(double n_dot_v, double alpha) {
+    const double k = 2 * alpha, blend = double{gpu::ALBEDO_BLEND};
+    return blend * std::sqrt(n_dot_v * (1 + k) / (n_dot_v + k)) + (1 - blend) * std::sqrt(n_dot_v);
+}
+
+// n.v of a place in a row, by bisection; at the very rim that of a hair above the horizon.
+double viewAt(double x, double alpha) {
+    double low = 1e-7, high = 1;
+    for (int step = 0; step < 60; ++step) {
+        const double middle = std::sqrt(low * high);
+        (alongRow(middle, alpha) < x ? low : high) = middle;
+    }
+    return high;
+}
+
+}  // namespace
+
+// Three pieces of T: up to where the first light of a ring sets all of it is above the horizon; from there on up to
+// the lobe's width; and, by 1 / T, to where the last one sets. Each is smooth, with its quick end drawn out.
+glm::dvec2 specularAlbedo(double n_dot_v, double alpha) {
+    const Lobe lobe(n_dot_v, alpha);
+    const double view = std::acos(std::min(n_dot_v, 1.0)), quarter = std::numbers::pi / 2;
+    const double first = std::tan((quarter - view) / 2), last = std::tan((quarter + view) / 2);
+    const double width = std::clamp(alpha, first, last), all = std::asinh(first / alpha);
+    glm::dvec2 sum(0);
+    const auto add = [&](double t, double step) { sum += lobe.ring(t) * (lobe.density(t) * step); };
+    for (std::size_t i = 0; i < points; ++i) {
+        const double x = rule.at[i], weight = rule.weight[i];
+        add(alpha * std::sinh(all * x), alpha * std::cosh(all * x) * all * weight);
+        const double cube = x * x * x, slope = 3 * x * x * weight;
+        if (width > first) add(first + (width - first) * cube, (width - first) * slope);
+        if (width < last) {
+            const double cotangent = 1 / last + (1 / width - 1 / last) * cube;
+            add(1 / cotangent, (1 / width - 1 / last) * slope / (cotangent * cotangent));
+        }
+    }
+    return sum;
+}
+
+double meanSchlickWeight(double n_dot_v) {
+    const double sine = std::sqrt(1 - n_dot_v * n_dot_v);
+    double sum = 0;
+    for (std::size_t i = 0; i < points; ++i)
+        for (std::size_t j = 0; j < points; ++j) {
+            const double n_dot_l = std::sqrt(rule.at[i]), across = std::sqrt(1 - rule.at[i]);
+            const double v_dot_l = n_dot_v * n_dot_l + sine * across * std::cos(std::numbers::pi * rule.at[j]);
+            sum += rule.weight[i] * rule.weight[j] * schlickWeight(std::sqrt(std::max(0.0, (1 + v_dot_l) / 2)));
+        }
+    return sum;
+}
+
+const std::vector<glm::vec2>& directionalAlbedoTable() {
+    static const std::vector<glm::vec2> table = [] {
+        constexpr std::size_t width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
+        const double least = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
+        std::vector<glm::vec2> made(width * (height + 1));
+        tbb::parallel_for(std::size_t{0}, height + 1, [&](std::size_t row) {
+            const double y = least + (1 - least) * static_cast<double>(row) / (height - 1), alpha = y * y * y * y;
+            for (std::size_t i = 0; i < width; ++i) {
+                const double x = static_cast<double>(i) / (width - 1);
+                made[row * width + i] = row < height ? glm::vec2(specularAlbedo(viewAt(x, alpha), alpha))
+                                                     : glm::vec2(meanSchlickWeight(x * x), 0);
+            }
+        });
+        return made;
+    }();
+    return table;
+}
+
+}  // namespace diptych

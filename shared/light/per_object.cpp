@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "shared/light/per_object.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+namespace diptych {
+
+namespace {
+
+constexpr std::size_t vertexLights = 4;
+
+double luminance(const glm::dvec3& rgb) {
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));  // Rec.709
+}
+
+double window(const gpu::Light& light, double distance) {
+    const double x = distance * distance * double{light.inverse_range_squared};
+    return x < 1 ? 1 - x * x : 0;
+}
+
+double coneAt(const gpu::SpotCone& cone, double cosine) {
+    const double c = std::clamp(double{cone.offset} + cosine * double{cone.scale}, 0.0, 1.0);
+    return c * c;
+}
+
+const gpu::SpotCone* coneOf(const GpuLights& lights, std::size_t i) {
+    const std::size_t first = lights.directional + lights.point;
+    return i >= first && i < first + lights.spot ? &lights.spot_cones[i - first] : nullptr;
+}
+
+const gpu::AreaLight* areaOf(const GpuLights& lights, std::size_t i) {
+    const std::size_t first = lights.directional + lights.point + lights.spot;
+    return i >= first ? &lights.area_lights[i - first] : nullptr;
+}
+
+// An area light from afar: the area that it shows, m^2, by which its radiance becomes intensity: the most of all
+// directions, and into the unit direction `to_place` from its centre.
+struct Shown {
+    double most, there;
+};
+Shown shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place) {
+    const gpu::AreaLight& area = *areaOf(lights, i);
+    const std::size_t number = lights.count() - i;  // from the end, where the tubes are
+    const double r = double{area.radius}, half = glm::length(glm::dvec3(area.x));
+    const double cosine = glm::dot(glm::dvec3(area.direction), to_place);
+    if (number <= lights.tube) {
+        const double side = 4 * half * r, end = std::numbers::pi * r * r;
+        return {side + end, side * std::sqrt(std::max(0.0, 1 - cosine * cosine)) + end * std::abs(cosine)};
+    }
+    const double halves = glm::length(glm::cross(glm::dvec3(area.x), glm::dvec3(area.y)));
+    const double flat = halves * (number <= lights.tube + lights.disc ? std::numbers::pi : 4);
+    return {flat, flat * (area.two_sided > 0 ? std::abs(cosine) : std::max(cosine, 0.0))};
+}
+
+// From the light's axis to the sphere around the box; the cosine of the nearest direction.
+double nearestCosine(const glm::dvec3& axis, const glm::dvec3& to_centre, double radius) {
+    const double distance = glm::length(to_centre);
+    if (distance <= radius) return 1;
+    const double off = std::acos(std::clamp(glm::dot(axis, to_centre) / distance, -1.0, 1.0));
+    return std::cos(std::max(0.0, off - std::asin(radius / distance)));
+}
+
+// Shaders compare in float32, of positions that are float32 relative to the camera: a box is taken a little larger.
+ObjectPlace widened(ObjectPlace object) {
+    constexpr double relative = 1e-5;
+    object.half += relative * (glm::abs(object.centre) + object.half);
+    return object;
+}
+
+}  // namespace
+
+double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& object) {
+    const gpu::Light& light = lights.lights[i];
+    const double strength = luminance(glm::dvec3(light.intensity));
+    if (i < lights.directional) return strength;
+    const ObjectPlace box = widened(object);
+    const glm::dvec3 to_centre = box.centre - glm::dvec3(light.position);
+    const glm::dvec3 outside = glm::max(glm::abs(to_centre) - box.half, glm::dvec3(0));
+    const double nearest = glm::length(outside), radius = glm::length(box.half);
+    const double reach = window(light, nearest * (1 - 1e-5));
+    if (!(reach > 0)) return 0;
+    double shone = strength * reach / (nearest * nearest + radius * radius / 4 + 1e-20);
+    if (const gpu::AreaLight* area = areaOf(lights, i)) {
+        const double near = std::max(nearest - double{area->extent}, 0.0), extent = double{area->extent};
+        const double square = near * near + radius * radius / 4 + extent * extent + 1e-20;
+        shone = strength * reach * shownArea(lights, i, {}).most / square;
+    }
+    if (const gpu::SpotCone* cone = coneOf(lights, i))
+        shone *= coneAt(*cone, nearestCosine(glm::dvec3(cone->direction), to_centre, radius) + 1e-5);
+    return shone;
+}
+
+double fade(double brightness, double threshold) {
+    if (!(threshold > 0)) return 1;
+    if (!(brightness > threshold)) return 0;
+    const double x = std::clamp(std::log(brightness / threshold) / std::log(fadeRange), 0.0, 1.0);
+    return x * x * (3 - 2 * x);
+}
+
+std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace& object, std::uint32_t pixels) {
+    const std::size_t count = lights.count();
+    std::vector<double> brightness(count);
+    for (std::size_t i = 0; i < count; ++i) brightness[i] = brightnessAt(lights, i, object);
+    const auto importance = [&](std::size_t i) { return lights.importance[i]; };
+
+    // The k-th brightest, from 0; no light at all where there are fewer.
+    const auto ranked = [](std::vector<double>& values, std::size_t k) {
+        if (k >= values.size()) return 0.0;
+        std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(k), std::greater<>());
+        return values[k];
+    };
+    std::vector<double> byRank, suns;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (importance(i) != Importance::automatic) continue;
+        byRank.push_back(brightness[i]);
+        if (i < lights.directional) suns.push_back(brightness[i]);
+    }
+    const double noPixel = ranked(byRank, pixels), noBase = ranked(suns, 1);
+    // Who is left when the pixels have theirs.
+    std::vector<double> others(byRank.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(pixels, byRank.size())),
+                               byRank.end());
+    for (std::size_t i = 0; i < count; ++i)
+        if (importance(i) == Importance::not_important) others.push_back(brightness[i]);
+    const double noVertex = ranked(others, vertexLights);
+
+    std::vector<LightShares> shares(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(brightness[i] > 0)) continue;
+        double pixel = importance(i) == Importance::important ? 1 : 0;
+        if (importance(i) == Importance::automatic) {
+            pixel = fade(brightness[i], noPixel);
+            if (i < lights.directional) pixel = std::max(pixel, fade(brightness[i], noBase));
+        }
+        const double either = std::max(pixel, fade(brightness[i], noVertex));
+        // Vertices know no area lights.
+        const double vertex = areaOf(lights, i) ? 0 : either - pixel;
+        shares[i] = {pixel, vertex, 1 - (pixel + vertex)};
+    }
+    return shares;
+}
+
+void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dvec3& l, double directed) {
+    const glm::dvec3 linear = e * (directed / 2), square = e * (directed * directed * 15 / 32);
+    sum.constant += glm::vec3(e / 4.0);
+    sum.linear_x += glm::vec3(linear * l.x);
+    sum.linear_y += glm::vec3(linear * l.y);
+    sum.linear_z += glm::vec3(linear * l.z);
+    // 5/32 (3 l l' - 1): without a trace, its last square is minus the others.
+    sum.xx += glm::vec3(square * (l.x * l.x - 1.0 / 3));
+    sum.yy += glm::vec3(square * (l.y * l.y - 1.0 / 3));
+    sum.xy += glm::vec3(square * (l.x * l.y));
+    sum.yz += glm::vec3(square * (l.y * l.z));
+    sum.xz += glm::vec3(square * (l.x * l.z));
+}
+
+void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i, const ObjectPlace& object,
+                  double share) {
+    const gpu::Light& light = lights.lights[i];
+    const glm::dvec3 intensity = glm::dvec3(light.intensity) * share;
+    if (i < lights.directional) return addHarmonics(sum, intensity, glm::dvec3(light.position));
+    const glm::dvec3 to_light = glm::dvec3(light.position) - object.centre;
+    const double distance = glm::length(to_light), radius = std::max(glm::length(object.half), 1e-10);
+    const glm::dvec3 l = distance > 0 ? to_light / distance : glm::dvec3(0);
+    const gpu::AreaLight* area = areaOf(lights, i);
+    const double soft = std::max(distance, area ? std::max(radius, double{area->extent}) : radius);
+    double shone = window(light, distance) / (soft * soft);
+    if (area) shone *= shownArea(lights, i, -l).there;
+    if (const gpu::SpotCone* cone = coneOf(lights, i)) shone *= coneAt(*cone, -glm::dot(l, glm::dvec3(cone->direction)));
+    if (shone > 0) addHarmonics(sum, intensity * shone, l, distance / soft);
+}
+
+ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const ObjectPlace> objects,
+                                  std::uint32_t pixels) {
+    struct Own {
+        gpu::ObjectLights head{};  // relative to the object's own entries
+        std::vector<gpu::ObjectLight> entries;
+    };
+    std::vector<Own> all(objects.size());
+    tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t o) {
+        Own& own = all[o];
+        const std::vector<LightShares> shares = lightShares(lights, objects[o], pixels);
+        const std::size_t points = lights.directional + lights.point, spots = points + lights.spot;
+        const std::size_t kinds[] = {0, lights.directional, points, spots, lights.count()};
+        const auto list = [&](double LightShares::*share, std::size_t kind) {
+            for (std::size_t i = kinds[kind]; i < kinds[kind + 1]; ++i)
+                if (shares[i].*share > 0)
+                    own.entries.push_back({static_cast<gpu::uint>(i), static_cast<float>(shares[i].*share)});
+            return static_cast<gpu::uint>(own.entries.size());
+        };
+        own.head.local_begin = list(&LightShares::pixel, 0);
+        own.head.point_end = list(&LightShares::pixel, 1);
+        own.head.spot_end = list(&LightShares::pixel, 2);
+        own.head.area_end = list(&LightShares::pixel, 3);
+        own.head.vertex_directional_end = list(&LightShares::vertex, 0);
+        own.head.vertex_point_end = list(&LightShares::vertex, 1);
+        own.head.vertex_end = list(&LightShares::vertex, 2);
+        if (!objects[o].harmonics) return;
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            if (shares[i].harmonics > 0)
+                addHarmonics(own.head.irradiance, lights, i, objects[o], shares[i].harmonics);
+    });
+
+    ObjectLightLists result;
+    for (Own& own : all) {
+        gpu::ObjectLights& head = own.head;
+        const auto begin = static_cast<gpu::uint>(result.entries.size());
+        result.longest = std::max(result.longest, head.area_end - head.local_begin);
+        for (gpu::uint* end : {&head.begin, &head.local_begin, &head.point_end, &head.spot_end, &head.area_end,
+                               &head.vertex_directional_end, &head.vertex_point_end, &head.vertex_end})
+            *end += begin;
+        result.objects.push_back(head);
+        result.entries.insert(result.entries.end(), own.entries.begin(), own.entries.end());
+    }
+    std::size_t ranked = 0, unimportant = 0;
+    for (const Importance importance : lights.importance) {
+        ranked += importance == Importance::automatic;
+        unimportant += importance == Importance::not_important;
+    }
+    const std::size_t rest = unimportant + ranked - std::min<std::size_t>(ranked, pixels);
+    result.features = gpu::OBJECT_LIGHTS_LISTS;
+    if (rest > 0) result.features |= gpu::OBJECT_LIGHTS_VERTEX;
+    if (rest > vertexLights || (rest > 0 && lights.area() > 0)) result.features |= gpu::OBJECT_LIGHTS_SH;
+    return result;
+}
+
+}  // namespace diptych

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Light that is the same from everywhere, in both paths: by hand, and against the reference.
+#include "shared/contract/debug_mode.h"
+#include "tests/image/square.h"
+
+namespace diptych::tests {
+namespace {
+
+constexpr int lit_ambient = static_cast<int>(gpu::DEBUG_lit_ambient);
+
+std::vector<Frame> drawIn(const Scene& scene, const Rgb& ambient, Size size = {4, 4}) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = size;
+    settings.ambient = ambient;
+    return bothPaths(scene, settings);
+}
+
+// A base without a layer sends back what it has of the colour; the green texel of the square's texture is closed.
+TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.metallic = 0;
+    m.specular = 0;
+    m.base_color = {0.8f, 0.4f, 0.2f, 1};
+    m.occlusion_texture.texture = 0;
+    m.occlusion_strength = 0.75f;
+    for (const Frame& frame : drawIn(scene, {1, 2, 4})) {
+        expectColor(colorAt(frame, lit_ambient, 0, 0), {0.8f, 0.8f, 0.8f}, float32, frame.name + " open");
+        expectColor(colorAt(frame, lit_ambient, 3, 0), {0.2f, 0.2f, 0.2f}, float32, frame.name + " a quarter");
+    }
+}
+
+// At normal incidence and roughness 1 the lobe's integral is 1 - ln 2 (tests/unit/reference_ambient_test.cpp).
+TEST(Ambient, OfARoughMetalSeenStraightOn) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.metallic = m.roughness = 1;
+    m.base_color = {1, 1, 1, 1};
+    scene.lights.emplace_back().intensity = 0;  // instead of the default sun
+    for (const Frame& frame : drawIn(scene, {1, 1, 1}, {33, 33})) {
+        const glm::vec3 centre = colorAt(frame, lit_ambient, 16, 16);
+        expectColor(centre, glm::vec3(1 - std::numbers::ln2_v<float>), 5e-5f, frame.name);
+        EXPECT_EQ(colorAt(frame, lit, 16, 16), centre) << "nothing else shines";
+    }
+}
+
+// The second set of the square is mirrored left to right: the green texel is at its top left. A lightmap is irradiance
+// over pi, which a Lambertian base sends back times its colour and a metal not at all.
+TEST(Ambient, OfALightmap) {
+    Scene scene = square();
+    scene.lights.emplace_back().intensity = 0;
+    scene.images.push_back({"light", 2, 2, {}});
+    scene.images.back().rgba32 = {8, 0, 0, 1, 0, 4, 0, 1, 0, 0, 2, 1, 1, 1, 1, 1};
+    scene.images.back().largest = 8;
+    scene.textures.push_back({1, scene.textures[0].sampler});
+    Material& m = scene.materials[0];
+    m.metallic = 0;
+    m.specular = 0;
+    m.base_color = {0.5f, 0.5f, 0.5f, 1};
+    m.lightmap_texture = {1, 1, {1, 0, 0}, {0, 1, 0}};
+    m.lightmap_intensity = 3;
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " second set");
+        expectColor(colorAt(frame, lit_ambient, 3, 0), {12, 0, 0}, 1e-5f, frame.name);
+        expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_lightmap), 3, 3), {0, 0, 6}, 1e-6f, frame.name);
+        EXPECT_EQ(colorAt(frame, lit, 0, 0), colorAt(frame, lit_ambient, 0, 0));
+    }
+    m.metallic = 1;
+    for (const Frame& frame : draw(scene))
+        EXPECT_EQ(colorAt(frame, lit_ambient, 0, 0), glm::vec3(0)) << "a metal has no base";
+    m.metallic = 0;
+    m.occlusion_texture.texture = 0;  // red: open at the top left of the first set, closed at its right
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " open");
+        expectColor(colorAt(frame, lit_ambient, 3, 0), {0, 0, 0}, 1e-6f, frame.name + " occluded");
+    }
+    // Of 8 bits it is a colour: sRGB.
+    m.occlusion_texture.texture = -1;
+    m.lightmap_texture.texture = 0;
+    for (const Frame& frame : draw(scene))
+        expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_lightmap), 0, 3), 3.0f * greys, 3 * srgbTexel,
+                    frame.name + " 8 bits");
+}
+
+TEST(Ambient, IsExactlyNothingWhereNoneIsAskedFor) {
+    for (const Frame& frame : drawIn(loadScene("builtin:gallery"), {}, {96, 54}))
+        for (const float value : frame.channels.at(lit_ambient).data) ASSERT_EQ(value, 0.0f) << frame.name;
+}
+
+// 6e-5 is what the table is off by at most, float32 is far below; 1e-4 is what any light may be off by.
+class AmbientTruth : public testing::TestWithParam<const char*> {};
+
+TEST_P(AmbientTruth, BothPathsAreTheIntegral) {
+    const Scene scene = loadScene(GetParam());
+    const Size size{160, 90};
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = Path::reference;
+    settings.size = size;
+    settings.ambient = {0.3f, 0.4f, 0.5f};
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    const Frame truth = renderAll(device(), scene, {settings}, options).front();
+    for (const Frame& path : drawIn(scene, settings.ambient, size)) {
+        const Coverage covered = coverage(truth, path);
+        const DebugMode& mode = debugMode(lit_ambient);
+        const ChannelStats stats = channelStats(mode.metric, mode.kind, truth.channels.at(lit_ambient),
+                                                path.channels.at(lit_ambient), covered);
+        EXPECT_LE(stats.max, 1e-4) << path.name;
+        EXPECT_GT(stats.max, 0) << path.name << ": a table of 2048 samples cannot be the integral itself";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AmbientTruth,
+                         testing::Values("builtin:furnace", "builtin:gallery", "builtin:dielectrics",
+                                         "builtin:normals", "builtin:lightmaps"),
+                         [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });
+
+}  // namespace
+}  // namespace diptych::tests

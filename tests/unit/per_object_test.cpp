@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// Lights by object: ranking, fading, marks and harmonics, against what they stand for.
+#include "shared/light/per_object.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace diptych {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Light point(const glm::dvec3& position, float candela, float range = std::numeric_limits<float>::infinity()) {
+    Light light;
+    light.position = position;
+    light.intensity = candela;
+    light.range = range;
+    return light;
+}
+
+Light sun(float lux) {
+    Light light;
+    light.kind = LightKind::directional;
+    light.intensity = lux;
+    return light;
+}
+
+GpuLights gpu(const std::vector<Light>& lights) {
+    return gpuLights(lights, {0, 0, 0});
+}
+
+const ObjectPlace unitBox{{0, 0, 0}, {0.5, 0.5, 0.5}};
+
+double evaluated(const gpu::ObjectIrradiance& e, const glm::dvec3& n) {
+    return double{e.constant.g} + double{e.linear_x.g} * n.x + double{e.linear_y.g} * n.y + double{e.linear_z.g} * n.z +
+           double{e.xx.g} * (n.x * n.x - n.z * n.z) + double{e.yy.g} * (n.y * n.y - n.z * n.z) +
+           2 * (double{e.xy.g} * n.x * n.y + double{e.yz.g} * n.y * n.z + double{e.xz.g} * n.x * n.z);
+}
+
+// ---- brightness --------------------------------------------------------------------------------------
+
+TEST(PerObject, BrightnessIsTheLuminanceOfIrradianceFarAway) {
+    Light light = point({0, 0, 200}, 8);
+    light.color = {1, 0.5f, 0.25f};
+    const double expected = 8 * (0.2126 + 0.7152 / 2 + 0.0722 / 4) / (200.0 * 200.0);
+    EXPECT_NEAR(brightnessAt(gpu({light}), 0, unitBox), expected, 0.01 * expected) << "the box is a point there";
+    EXPECT_NEAR(brightnessAt(gpu({sun(3)}), 0, unitBox), 3, 1e-6);
+    EXPECT_TRUE(std::isfinite(brightnessAt(gpu({point({0, 0, 0}, 8)}), 0, unitBox))) << "inside the box";
+}
+
+// A long box is lit where the light is near, not only where its centre is.
+TEST(PerObject, BrightnessIsThatOfTheNearestPlace) {
+    const ObjectPlace plank{{0, 0, 0}, {10, 0.1, 0.1}};
+    const GpuLights lights = gpu({point({10, 1, 0}, 1, 2)});
+    EXPECT_GT(brightnessAt(lights, 0, plank), 0) << "10 m from the centre, beyond its range";
+}
+
+// Whatever gives some point of a box any light by the shaders' formula is not left out.
+TEST(PerObject, NoLightThatReachesIsDark) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    const auto vec = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+    std::size_t lit = 0, dark = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const ObjectPlace box{20.0 * vec(), glm::abs(vec()) * std::pow(10.0, 2 * unit(random))};
+        Light light = point(20.0 * vec(), 1, static_cast<float>(std::pow(10.0, 1 + unit(random))));
+        if (round % 2) {
+            light.kind = LightKind::spot;
+            light.direction = glm::normalize(vec());
+            light.outer_cone = static_cast<float>(0.01 + 1.5 * std::abs(unit(random)));
+            light.inner_cone = light.outer_cone / 2;
+        }
+        const GpuLights lights = gpu({light});
+        const bool found = brightnessAt(lights, 0, box) > 0;
+        bool reached = false;
+        for (int i = 0; i < 50 && !reached; ++i) {
+            const glm::vec3 place(box.centre + box.half * glm::sign(vec()) * (i % 2 ? glm::dvec3(1) : glm::abs(vec())));
+            const glm::vec3 to_light = lights.lights[0].position - place;
+            const float d2 = glm::dot(to_light, to_light), x = d2 * lights.lights[0].inverse_range_squared;
+            reached = x < 1;
+            if (light.kind == LightKind::spot) {
+                const gpu::SpotCone& cone = lights.spot_cones[0];
+                reached &= cone.offset - glm::dot(to_light / std::sqrt(d2), cone.direction) * cone.scale > 0;
+            }
+        }
+        EXPECT_TRUE(found || !reached) << round;
+        (found ? lit : dark) += 1;
+    }
+    EXPECT_GT(lit, 500u);
+    EXPECT_GT(dark, 500u) << "and not everything counts as lit";
+}
+
+// ---- shares ------------------------------------------------------------------------------------------
+
+TEST(PerObject, FadesFromTheThresholdUp) {
+    EXPECT_EQ(fade(1, 0), 1) << "nobody is left out";
+    EXPECT_EQ(fade(1, 1), 0);
+    EXPECT_EQ(fade(0.5, 1), 0);
+    EXPECT_EQ(fade(fadeRange, 1), 1);
+    double last = 0;
+    for (double b = 1; b < 5; b += 0.01) {
+        EXPECT_GE(fade(b, 1), last);
+        EXPECT_LE(fade(b, 1) - last, 0.012);
+        last = fade(b, 1);
+    }
+}
+
+std::vector<Light> row(std::size_t count) {
+    std::vector<Light> lights;
+    for (std::size_t i = 0; i < count; ++i)
+        lights.push_back(point({0, 0, 3.0 + 0.1 * static_cast<double>(i)}, std::ldexp(1024.0f, -2 * static_cast<int>(i))));
+    return lights;
+}
+
+TEST(PerObject, TheBrightestArePerPixelTheNextPerVertexTheRestHarmonics) {
+    // Each four times fainter than the one before, and farther: no share is broken but the first of the next group's.
+    const std::vector<LightShares> shares = lightShares(gpu(row(12)), unitBox, 3);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        EXPECT_NEAR(shares[i].pixel + shares[i].vertex + shares[i].harmonics, 1, 1e-15);
+        EXPECT_EQ(shares[i].pixel, i < 3 ? 1 : 0) << i;
+        EXPECT_EQ(shares[i].vertex, i >= 3 && i < 7 ? 1 : 0) << i;
+    }
+}
+
+TEST(PerObject, WithRoomForAllEachIsWholeAndInOrder) {
+    std::vector<Light> lights = row(9);
+    lights.push_back(sun(1));
+    Light spot = point({0, 2, 3}, 5);
+    spot.kind = LightKind::spot;
+    lights.insert(lights.begin(), spot);
+    spot.direction = {0, -0.6, -0.8};
+    lights[0] = spot;
+    const GpuLights all = gpu(lights);
+    for (const std::uint32_t pixels : {static_cast<std::uint32_t>(all.count()), 1u << 30}) {
+        const ObjectLightLists lists = objectLightLists(all, std::span(&unitBox, 1), pixels);
+        EXPECT_EQ(lists.features, gpu::OBJECT_LIGHTS_LISTS) << "nothing per vertex, no harmonics";
+        ASSERT_EQ(lists.entries.size(), all.count());
+        for (std::size_t i = 0; i < lists.entries.size(); ++i) {
+            EXPECT_EQ(lists.entries[i].light, i);
+            EXPECT_EQ(lists.entries[i].weight, 1.0f);
+        }
+        EXPECT_EQ(lists.objects[0].local_begin, 1u);
+        EXPECT_EQ(lists.objects[0].point_end, 10u);
+        EXPECT_EQ(lists.objects[0].spot_end, 11u);
+        EXPECT_EQ(lists.objects[0].area_end, 11u);
+        EXPECT_EQ(lists.objects[0].vertex_end, 11u);
+        EXPECT_EQ(lists.longest, 10u);
+    }
+}
+
+TEST(PerObject, NeverMoreThanThereIsRoomFor) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Light> lights;
+        for (int i = 0; i < 30; ++i)
+            lights.push_back(point({9 * unit(random), 9 * unit(random), 9 * unit(random)}, 1));
+        for (const std::uint32_t pixels : {0u, 1u, 4u, 8u}) {
+            std::size_t perPixel = 0, beyond = 0;
+            for (const LightShares& s : lightShares(gpu(lights), unitBox, pixels)) {
+                perPixel += s.pixel > 0;
+                beyond += s.pixel == 0 && s.vertex > 0;
+                EXPECT_GE(s.vertex, 0);
+                EXPECT_GE(s.harmonics, 0);
+            }
+            EXPECT_LE(perPixel, pixels);
+            EXPECT_LE(beyond, 4u);
+        }
+    }
+}
+
+// One of six lights walks past the others, into its range and out of it, in steps of a hundredth of a metre: no share
+// jumps. 0.05 of a share: a step changes the nearest light's brightness by up to 3 %, and the fade's steepest is 1.5
+// over ln 4.
+TEST(PerObject, NothingPopsAsALightMoves) {
+    std::vector<LightShares> before;
+    std::vector<double> dark;
+    double largest = 0, moved = 0;
+    for (int step = 0; step <= 1600; ++step) {
+        std::vector<Light> lights{point({-8 + 0.01 * step, 1.5, 0}, 3, 5)};
+        for (int i = 0; i < 12; ++i) lights.push_back(point({std::cos(i) * (2 + 0.2 * i), std::sin(i), 2}, 1.0f + 0.2f * static_cast<float>(i), 6));
+        Light strongest = sun(0.2f);
+        lights.push_back(strongest);
+        const GpuLights all = gpu(lights);
+        const std::vector<LightShares> shares = lightShares(all, unitBox, 3);
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const double brightness = brightnessAt(all, i, unitBox);
+            // What is faint enough may change its group: a light at the end of its range is nothing in any.
+            if (brightness < 1e-3) continue;
+            for (const auto share : {&LightShares::pixel, &LightShares::vertex, &LightShares::harmonics}) {
+                largest = std::max(largest, std::abs(shares[i].*share - before[i].*share));
+                moved = std::max(moved, std::abs(shares[i].*share - lightShares(all, unitBox, 12)[i].*share));
+            }
+        }
+        before = shares;
+    }
+    EXPECT_LE(largest, 0.05);
+    EXPECT_GT(moved, 0.5) << "lights do change their group";
+}
+
+TEST(PerObject, MarksOverrideTheRanking) {
+    std::vector<Light> lights = row(12);
+    lights[0].importance = Importance::not_important;
+    lights[11].importance = Importance::important;
+    const std::vector<LightShares> shares = lightShares(gpu(lights), unitBox, 2);
+    EXPECT_EQ(shares[0].pixel, 0) << "the brightest";
+    EXPECT_EQ(shares[0].vertex, 1);
+    EXPECT_EQ(shares[11].pixel, 1) << "the faintest";
+    EXPECT_EQ(shares[1].pixel, 1);
+    EXPECT_EQ(shares[2].pixel, 1) << "the important one takes nobody's room";
+    EXPECT_EQ(shares[3].pixel, 0);
+    lights[11].range = 1;
+    EXPECT_EQ(lightShares(gpu(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
+}
+
+// A lamp's panel: by rank like any, never per vertex, and in the harmonics as bright as a small light of its intensity.
+TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
+    Light panel = point({0, 0, 20}, 5);
+    panel.kind = LightKind::rect;
+    panel.width = 0.2f;
+    panel.height = 0.3f;
+    std::vector<Light> lights = row(3);
+    lights.push_back(panel);
+    const GpuLights all = gpu(lights);
+    EXPECT_EQ(lightShares(all, unitBox, 4)[3].pixel, 1);
+    const LightShares faint = lightShares(all, unitBox, 1)[3];
+    EXPECT_EQ(faint.pixel, 0);
+    EXPECT_EQ(faint.vertex, 0);
+    EXPECT_EQ(faint.harmonics, 1);
+    gpu::ObjectIrradiance of_panel{}, of_point{};
+    addHarmonics(of_panel, all, 3, unitBox, 1);
+    addHarmonics(of_point, gpu({point({0, 0, 20}, 5 * 0.2f * 0.3f)}), 0, unitBox, 1);
+    for (int i = 0; i < 20; ++i) {
+        const glm::dvec3 n(std::sin(i), 0, std::cos(i));
+        EXPECT_NEAR(evaluated(of_panel, n), evaluated(of_point, n), 1e-9);
+    }
+    const ObjectPlace places[] = {unitBox};
+    EXPECT_EQ(objectLightLists(all, places, 10).objects[0].area_end, 4u);
+}
+
+TEST(PerObject, TheBaseIsTheBrightestDirectionalLight) {
+    std::vector<Light> lights = row(6);
+    lights.push_back(sun(1e-3f));
+    lights.push_back(sun(1e-5f));
+    const std::vector<LightShares> shares = lightShares(gpu(lights), unitBox, 0);
+    EXPECT_EQ(shares[0].pixel, 1) << "directional lights come first";
+    EXPECT_EQ(shares[1].pixel, 0);
+    for (std::size_t i = 2; i < 8; ++i) EXPECT_EQ(shares[i].pixel, 0);
+    lights[6].importance = Importance::not_important;
+    EXPECT_EQ(lightShares(gpu(lights), unitBox, 0)[0].pixel, 0);
+}
+
+TEST(PerObject, AnObjectWithALightmapHasNoHarmonics) {
+    ObjectPlace baked = unitBox;
+    baked.harmonics = false;
+    const ObjectPlace places[] = {unitBox, baked};
+    const ObjectLightLists lists = objectLightLists(gpu(row(12)), places, 1);
+    EXPECT_EQ(lists.features, gpu::OBJECT_LIGHTS_LISTS | gpu::OBJECT_LIGHTS_VERTEX | gpu::OBJECT_LIGHTS_SH);
+    EXPECT_GT(lists.objects[0].irradiance.constant.g, 0);
+    EXPECT_EQ(lists.objects[1].irradiance.constant, glm::vec3(0));
+    EXPECT_EQ(lists.objects[1].spot_end - lists.objects[1].begin, lists.objects[0].spot_end - lists.objects[0].begin);
+}
+
+// ---- harmonics ---------------------------------------------------------------------------------------
+
+glm::dvec3 direction(double cosine, double phi) {
+    const double sine = std::sqrt(1 - cosine * cosine);
+    return {sine * std::cos(phi), sine * std::sin(phi), cosine};
+}
+
+// The nine real harmonics (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks", appendix A2).
+std::array<double, 9> harmonics(const glm::dvec3& n) {
+    const double a = std::sqrt(1 / (4 * pi)), b = std::sqrt(3 / (4 * pi)), c = std::sqrt(15 / (4 * pi));
+    return {a,
+            b * n.y,
+            b * n.z,
+            b * n.x,
+            c * n.x * n.y,
+            c * n.y * n.z,
+            std::sqrt(5 / (16 * pi)) * (3 * n.z * n.z - 1),
+            c * n.x * n.z,
+            c / 2 * (n.x * n.x - n.y * n.y)};
+}
+
+// The clamped cosine around a light, projected on the nine harmonics by quadrature and put together again.
+TEST(PerObject, HarmonicsAreTheProjectionOfTheClampedCosine) {
+    constexpr int rings = 400, sectors = 400;
+    for (const glm::dvec3 to_light : {direction(1, 0), direction(-0.3, 1), direction(0.5, 4)}) {
+        std::array<double, 9> projected{};
+        for (int i = 0; i < rings; ++i)
+            for (int j = 0; j < sectors; ++j) {
+                const glm::dvec3 n = direction(-1 + 2 * (i + 0.5) / rings, 2 * pi * (j + 0.5) / sectors);
+                const double cosine = std::max(glm::dot(n, to_light), 0.0) * 4 * pi / (rings * sectors);
+                for (std::size_t k = 0; k < 9; ++k) projected[k] += cosine * harmonics(n)[k];
+            }
+        gpu::ObjectIrradiance sum{};
+        addHarmonics(sum, {1, 2, 3}, to_light);
+        for (int i = 0; i < 40; ++i) {
+            const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
+            double expected = 0;
+            for (std::size_t k = 0; k < 9; ++k) expected += projected[k] * harmonics(n)[k];
+            EXPECT_NEAR(evaluated(sum, n), 2 * expected, 1e-4);
+            // Three bands of the cosine: off by up to 3/32, straight behind by 1/16 (Ramamoorthi and Hanrahan 2001).
+            EXPECT_NEAR(evaluated(sum, n) / 2, std::max(glm::dot(n, to_light), 0.0), 3.0 / 32 + 1e-6);
+        }
+    }
+}
+
+// From inside the light comes from ever more sides: at the centre from all, and what all of them bring is the mean of
+// the clamped cosine over the sphere, a quarter.
+TEST(PerObject, ALightInTheCentreShinesOnAllSidesAlike) {
+    const double radius2 = 0.75;
+    for (const double distance : {0.0, 1e-9}) {
+        const GpuLights lights = gpu({point({0, 0, distance}, 2)});
+        gpu::ObjectIrradiance sum{};
+        addHarmonics(sum, lights, 0, unitBox, 0.5);
+        for (int i = 0; i < 20; ++i)
+            EXPECT_NEAR(evaluated(sum, direction(std::cos(i), i)), 2 * 0.5 / radius2 / 4, 1e-5);
+    }
+    // And from outside it is a light of the centre's irradiance.
+    const GpuLights far = gpu({point({0, 0, 10}, 2)});
+    gpu::ObjectIrradiance sum{}, same{};
+    addHarmonics(sum, far, 0, unitBox, 1);
+    addHarmonics(same, glm::dvec3(0.02), {0, 0, 1});
+    for (int i = 0; i < 20; ++i)
+        EXPECT_NEAR(evaluated(sum, direction(std::cos(i), i)), evaluated(same, direction(std::cos(i), i)), 1e-8);
+}
+
+}  // namespace
+}  // namespace diptych

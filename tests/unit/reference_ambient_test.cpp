@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Light that is the same from everywhere: the reference's integral against closed forms and brute force, and the
+// paths' against the reference's.
+#include "tests/unit/reference_maker.h"
+
+#include "compare/reference/ambient.h"
+#include "compare/reference/quadrature.h"
+#include "shared/environment/directional_albedo.h"
+
+namespace diptych::reference {
+namespace {
+
+Reflected ambientAlbedo(const Surface& s) {
+    return {diffuseAlbedo(s), specularAlbedo(s)};
+}
+
+// Without an angle of its own: every direction of the hemisphere, in parameters that know nothing of the lobe.
+Reflected bruteForce(const Surface& surface) {
+    const Brdf brdf(surface);
+    const auto integrand = [&](double u, double v) {
+        const double cosine = u, sine = std::sqrt(1 - u * u), phi = 2 * pi * v;
+        return brdf({sine * std::cos(phi), sine * std::sin(phi), cosine}) * (2 * pi);
+    };
+    // 8 x 8 cells at least, and then as many as it takes.
+    const auto mustSplit = [](const Cell& cell) {
+        return cell.u1 - cell.u0 > 0.125 ? Split::u : cell.v1 - cell.v0 > 0.125 ? Split::v : Split::none;
+    };
+    return Quadrature(integrand, mustSplit, 1e-8, nullptr)().value;
+}
+
+TEST(ReferenceAmbient, AWhiteLambertianSurfaceSendsItBack) {
+    for (const double angle : {0.0, 0.8, 1.5}) {
+        Surface s = mirror(0.5, angle);
+        s.metallic = 0;
+        s.dielectric_f90 = 0;
+        const Reflected share = ambientAlbedo(s);
+        EXPECT_NEAR(share.diffuse.g, 1, 1e-12);
+        EXPECT_EQ(share.specular.g, 0);
+    }
+}
+
+// Height-correlated Smith masking at normal incidence and alpha = 1: D = 1 / pi, G / (4 n.l) = 1 / (2 (1 + n.l)),
+// so that the integral of 2 n.l / (2 (1 + n.l)) over n.l from 0 to 1 is 1 - ln 2.
+TEST(ReferenceAmbient, ARoughMirrorSeenFromAboveLosesTheLogarithmOfTwo) {
+    EXPECT_NEAR(ambientAlbedo(mirror(1, 0)).specular.g, 1 - std::numbers::ln2, 1e-6);
+}
+
+TEST(ReferenceAmbient, IsTheBrdfsIntegral) {
+    for (const double roughness : {0.3, 0.55, 0.8, 1.0})
+        for (const double angle : {0.0, 0.4, 1.1, 1.5}) {
+            Surface s = mirror(roughness, angle);
+            s.metallic = 0.25;
+            s.albedo = {0.9, 0.5, 0.1};
+            s.dielectric_f0 = {0.04, 0.1, 0.3};
+            s.dielectric_f90 = 0.9;
+            const Reflected share = ambientAlbedo(s), truth = bruteForce(s);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(share.diffuse[c], truth.diffuse[c], 5e-6) << roughness << " " << angle;
+                EXPECT_NEAR(share.specular[c], truth.specular[c], 5e-6) << roughness << " " << angle;
+            }
+        }
+}
+
+TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
+    for (const double roughness : {0.0, 0.05, 0.2, 0.5, 1.0})
+        for (const double cosine : {-0.5, 1e-6, 1e-3, 0.02, 0.2, 0.9, 1.0}) {
+            Surface s = mirror(roughness, std::acos(cosine));
+            for (const double metallic : {0.0, 0.5, 1.0}) {
+                s.metallic = metallic;
+                s.dielectric_f0 = glm::dvec3(0.04);
+                s.dielectric_f90 = 1;
+                const Reflected share = ambientAlbedo(s);
+                // A base under Schlick's layer is given 1 - F by the half vector, and so gains at grazing angles.
+                EXPECT_LE(share.specular.g, 1 + 1e-6);
+                EXPECT_LE(share.diffuse.g, 1 + 1e-6);
+                EXPECT_GE(share.size(), 0);
+            }
+        }
+}
+
+// The paths' own integrals, another derivation in other words, from the mirror to the roughest, from grazing to
+// straight on.
+TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
+    for (const double roughness : {0.045, 0.07, 0.15, 0.3, 0.6, 1.0})
+        for (const double cosine : {1e-4, 1e-3, 0.004, 0.02, 0.1, 0.35, 0.8, 1.0}) {
+            Surface s = mirror(roughness, std::acos(cosine));
+            const glm::dvec2 table = diptych::specularAlbedo(cosine, roughness * roughness);
+            EXPECT_NEAR(table.x + table.y, ambientAlbedo(s).specular.g, 1e-5) << roughness << " " << cosine;
+            s.metallic = 0;
+            s.dielectric_f0 = glm::dvec3(0);
+            s.dielectric_f90 = 1;
+            const Reflected edge = ambientAlbedo(s);
+            EXPECT_NEAR(table.y, edge.specular.g, 1e-5) << roughness << " " << cosine;
+            EXPECT_NEAR(1 - diptych::meanSchlickWeight(cosine), edge.diffuse.g, 1e-5) << cosine;
+        }
+}
+
+TEST(ReferenceAmbient, OcclusionDimsItAndNothingElse) {
+    Surface s = lambertian();
+    s.occlusion = 0.25;
+    const Light sun = lightOf(LightKind::directional, {0, 0, 0});
+    const glm::dvec3 ambient(1, 2, 4);
+    const Shading shading = Lighting(std::span(&sun, 1), nullptr, 1, {0, 0, 0}, ambient)(s, {}, 1);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shading.ambient[c], ambient[c] / 4, 1e-12);
+    EXPECT_NEAR(shading.reflected.diffuse.g, 1 / pi, 1e-12);
+    EXPECT_EQ(shadedBy(std::span(&sun, 1), s).ambient, glm::dvec3(0));
+}
+
+}  // namespace
+}  // namespace diptych::reference
