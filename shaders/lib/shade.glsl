@@ -3,8 +3,16 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
+// AREA_LIGHTS: 1 in the modules for scenes that have some. They would be pruned from a pipeline that switches them off,
+// but only after a compiler has read three times as much.
+#ifndef AREA_LIGHTS
+#define AREA_LIGHTS 0
+#endif
+
 #include "shaders/lib/ambient.glsl"
+#if AREA_LIGHTS
 #include "shaders/lib/area.glsl"
+#endif
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/carry.glsl"
 #include "shaders/lib/light_lists.glsl"
@@ -91,6 +99,7 @@ Radiance shade(Surface s, PixelLights lights) {
             addIncident(shading, fromDirectionalLight(directionalAt(i.x)), radiance);
     if (on(feature_point_lights)) ADD_GROUPS(addPoint, walked(lights, lights.groups.begin, lights.groups.point_end))
     if (on(feature_spot_lights)) ADD_GROUPS(addSpot, walked(lights, lights.groups.point_end, lights.groups.spot_end))
+#if AREA_LIGHTS
     if (on(feature_area_lights)) {
         AreaView area = areaView(shading.brdf, s, v);
         AreaWalk walk = areaWalk(walked(lights, lights.groups.spot_end, lights.groups.end));
@@ -98,6 +107,7 @@ Radiance shade(Surface s, PixelLights lights) {
         if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
         if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
     }
+#endif
     if (on(feature_ambient) || on(feature_lightmap))
         radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
     return radiance;

@@ -24,6 +24,12 @@ struct Specialization {
     VkSpecializationInfo info;
 };
 
+// Where a shader is there once more with the code of area lights, that one for variants that have them.
+std::string moduleOf(const std::string& shader, const Variant& variant) {
+    const std::string area = shader + ".area";
+    return variant.get(gpu::FEATURE_area_lights) != 0 && !findSpirv(area).empty() ? area : shader;
+}
+
 }  // namespace
 
 OwnedShaderModule makeShaderModule(Device& device, const std::string& name) {
@@ -52,7 +58,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
         if (!isNew) continue;
         missing.emplace_back(&entry->first, &entry->second);
         module(key.vertex);
-        if (!key.fragment.empty()) module(key.fragment);
+        if (!key.fragment.empty()) module(moduleOf(key.fragment, key.variant));
     }
     tbb::parallel_for(std::size_t{0}, missing.size(),
                       [&](std::size_t i) { *missing[i].second = make(*missing[i].first); });
@@ -93,7 +99,7 @@ OwnedPipeline Pipelines::make(const PipelineKey& key) const {
                           .pSpecializationInfo = &specialization.info});
     };
     addStage(VK_SHADER_STAGE_VERTEX_BIT, key.vertex);
-    if (!key.fragment.empty()) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, key.fragment);
+    if (!key.fragment.empty()) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, moduleOf(key.fragment, key.variant));
 
     using Attributes = gpu::VertexAttributes;
     constexpr std::array bindings{
