@@ -100,6 +100,12 @@ std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     const AgainstTruth against = againstTruth(tradeoff, row);
     if (!against.sameTruth) return {};
+    // compare draws both paths, and one of them may not know these Settings.
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Settings other = row.settings;
+        other.path = path;
+        if (other.problem()) return {};
+    }
     return shellLine(with(withCameras(wordsOf("compare", tradeoff.scene, against.settings), tradeoff),
                           "--baseline", "reference"));
 }

@@ -16,7 +16,8 @@ struct AreaView {
     vec3 n, v;          // unit, world axes
     mat3 surface;       // from world axes to the frame of shared/contract/ltc.h
     Ltc ltc;            // of the specular lobe
-    vec3 reflected;     // its directional albedo, Fresnel included
+    float magnitude;    // its directional albedo where F = 1
+    float fresnel;      // the same with Schlick's weight for F
 };
 
 // A light from where it shines on.
@@ -42,7 +43,8 @@ AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, vec4 cell, float fresnel) {
     a.ltc.inverse_a = m2 / (cell.x * 2.0 * brdf.alpha);
     a.ltc.inverse_c = 1.0 / (cell.y * 2.0 * brdf.alpha);
     a.ltc.b = (1.0 - cell.z) * sqrt(sin2 / m2);
-    a.reflected = brdf.f0 * cell.w + (vec3(brdf.f90) - brdf.f0) * fresnel;
+    a.magnitude = cell.w;
+    a.fresnel = fresnel;
     return a;
 }
 
@@ -76,15 +78,19 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
     return i;
 }
 
-// `plain`, `lobe`: the factors of the light (ltc.glsl) under the cosine and under the specular lobe. What the
-// dielectric's layer lets through to its base is that of the light's mean direction: exact for a small light.
+// `plain`, `lobe`: the factors of the light (ltc.glsl) under the cosine and under the specular lobe. What a layer
+// reflects of a small light is that of the light's mean direction, exactly; of what fills the whole lobe, the table's.
 void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
-    vec3 l = unitOrZero(transpose(a.surface) * plain);
-    float weight = schlickWeight(0.5 * length(l + a.v));
+    mat3 world = transpose(a.surface);
+    float weight = schlickWeight(0.5 * length(unitOrZero(world * plain) + a.v));
     float base = 1.0 - (a.brdf.base_f0 + (a.brdf.base_f90 - a.brdf.base_f0) * weight);
+    float share = clamp(lobe.z, 0.0, 1.0);
+    weight = schlickWeight(0.5 * length(unitOrZero(world * fromCosine(a.ltc, lobe)) + a.v));
+    vec3 reflected = a.brdf.f0 * a.magnitude +
+                     (vec3(a.brdf.f90) - a.brdf.f0) * mix(a.magnitude * weight, a.fresnel, share);
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     precise vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
-    precise vec3 from_lobe = a.reflected * max(lobe.z, 0.0) * radiance;
+    precise vec3 from_lobe = reflected * share * radiance;
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 

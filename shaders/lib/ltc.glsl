@@ -18,6 +18,8 @@ struct Ltc {
 
 vec3 toCosine(Ltc m, vec3 l) { return vec3((l.x - m.b * l.z) * m.inverse_a, l.y * m.inverse_c, l.z); }
 
+vec3 fromCosine(Ltc m, vec3 l) { return vec3(l.x / m.inverse_a + m.b * l.z, l.y / m.inverse_c, l.z); }
+
 vec3 unitOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 
 // acos(x) / sqrt(1 - x^2) for x in [0, 1]: the polynomial of degree 7 with the least relative error, 6e-7, that is

@@ -113,14 +113,17 @@ TEST(FrameOf, EveryTimeIsKeptInOrder) {
     RenderOptions options;
     options.channels = {0};
     options.runs = 3;
-    const Frame frame = renderAll(device(), loadScene("builtin:triangle"),
-                                  {smallPicture(GBufferEncoding::standard)}, options)[0];
+    Settings settings = smallPicture(GBufferEncoding::standard);
+    settings.prepass = Switch::on;
+    const Frame frame = renderAll(device(), loadScene("builtin:triangle"), {settings}, options)[0];
     EXPECT_EQ(frame.time.runs, 3);
     EXPECT_LE(frame.time.min, frame.time.median);
     EXPECT_LE(frame.time.median, frame.time.max);
     EXPECT_GT(frame.time.min, 0);
-    ASSERT_EQ(frame.passes.size(), 2u);
+    ASSERT_EQ(frame.passes.size(), 3u);
     EXPECT_EQ(frame.passes[0].name, "depth pre-pass");
+    EXPECT_EQ(frame.passes[1].name, "assign lights");
+    EXPECT_EQ(frame.passes[2].name, "shade");
 }
 
 }  // namespace

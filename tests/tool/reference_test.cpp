@@ -19,16 +19,18 @@ Json jsonIn(const fs::path& file) {
 TEST(ReferenceTool, RendersInBothModes) {
     const Folder folder;
     for (const std::string mode : {"surface", "scene"}) {
-        const Ran ran = runTool(folder, "render builtin:triangle --size 32x18 --path reference --reference-mode " +
-                                            mode + " -o " + mode);
+        const Ran ran =
+            runTool(folder, "render builtin:triangle --size 32x18 --path reference --reference-mode " + mode +
+                                " -o " + mode);
         EXPECT_EQ(ran.code, 0) << ran.err;
         const Json frame = jsonIn(folder / mode / "frame.json");
         EXPECT_NE(frame.dump().find("\"reference\""), std::string::npos) << frame.dump();
         EXPECT_TRUE(fs::exists(folder / mode / "reference.exr")) << ran.out;
     }
     // One triangle without a texture: the same place, but for what a raster snaps.
-    const Ran same = runTool(folder, "diff surface/reference.exr scene/reference.exr --channels lit "
-                                     "--metric relative_p99 --tolerance 1e-4");
+    const Ran same = runTool(folder,
+                             "diff surface/reference.exr scene/reference.exr --channels lit "
+                             "--metric relative_p99 --tolerance 1e-4");
     EXPECT_EQ(same.code, 0) << same.out << same.err;
 }
 
@@ -36,7 +38,8 @@ TEST(ReferenceTool, WhatAPathIsToldChangesNothing) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render builtin:triangle --size 32x18 --path reference -o a.exr").code, 0);
     for (const std::string option : {"--gbuffer compact", "--gbuffer full", "--prepass on"}) {
-        const Ran ran = runTool(folder, "render builtin:triangle --size 32x18 --path reference --force -o b.exr " + option);
+        const Ran ran = runTool(
+            folder, "render builtin:triangle --size 32x18 --path reference --force -o b.exr " + option);
         EXPECT_EQ(ran.code, 0) << ran.err;
         EXPECT_EQ(runTool(folder, "diff a.exr b.exr --metric max --tolerance 0").code, 0) << option;
     }
@@ -48,7 +51,8 @@ TEST(ReferenceTool, RefusesWhatHasNoMeaning) {
     EXPECT_TRUE(runTool(folder, "plan builtin:triangle --path reference").failedOver("--path reference"));
     EXPECT_TRUE(runTool(folder, "compare builtin:triangle --baseline reference --update-baseline")
                     .failedOver("--update-baseline"));
-    EXPECT_TRUE(runTool(folder, "render builtin:triangle --path reference --reference-mode other").failedOver("other"));
+    EXPECT_TRUE(runTool(folder, "render builtin:triangle --path reference --reference-mode other")
+                    .failedOver("other"));
     EXPECT_TRUE(leftoversIn(folder.path()).empty());
 }
 
@@ -56,17 +60,20 @@ TEST(ReferenceTool, RefusesWhatHasNoMeaning) {
 
 TEST(ReferenceTool, IsTheLeftPanelOfBothPaths) {
     const Folder folder;
-    const Ran ran = runTool(folder, "compare builtin:triangle --size 32x18 --runs 0 --baseline reference --json -o r "
-                                    "--camera 'eye=0,0,3 target=0,0,0' --camera 'eye=1,0,3 target=0,0,0'");
+    const Ran ran = runTool(folder,
+                            "compare builtin:triangle --size 32x18 --runs 0 --ambient 0.1,0.1,0.1 --baseline "
+                            "reference --json -o r "
+                            "--camera 'eye=0,0,3 target=0,0,0' --camera 'eye=1,0,3 target=0,0,0'");
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json report = jsonIn(folder / "r/report.json");
-    EXPECT_EQ(Json::parse(ran.out, nullptr, false)["truth"], report["truth"]) << "what --json prints is the file";
+    EXPECT_EQ(Json::parse(ran.out, nullptr, false)["truth"], report["truth"])
+        << "what --json prints is the file";
     EXPECT_EQ(report["verdict"], "pass");
     ASSERT_EQ(report["frames"].size(), 6u);
     ASSERT_EQ(report["comparisons"].size(), 6u) << "both paths against the reference, and against each other";
     ASSERT_EQ(report["truth"].size(), 2u) << "one a camera";
     for (const Json& truth : report["truth"]) {
-        ASSERT_EQ(truth["channels"].size(), 3u);
+        ASSERT_EQ(truth["channels"].size(), 4u) << "lit, its two lobes and ambient light";
         for (const Json& channel : truth["channels"]) {
             EXPECT_EQ(channel["nearer"], "forward_plus") << "a packed G-buffer is further away";
             EXPECT_GT(channel["by"].get<double>(), 1);
@@ -82,8 +89,8 @@ TEST(ReferenceTool, IsTheLeftPanelOfBothPaths) {
 
 TEST(ReferenceTool, FitsIntoOneFile) {
     const Folder folder;
-    const Ran ran =
-        runTool(folder, "compare builtin:triangle --size 32x18 --runs 0 --baseline reference --single-file -o r");
+    const Ran ran = runTool(
+        folder, "compare builtin:triangle --size 32x18 --runs 0 --baseline reference --single-file -o r");
     ASSERT_EQ(ran.code, 0) << ran.err;
     const std::string page = contentsOf(folder / "r/index.html");
     EXPECT_NE(page.find("id=\"truth\""), std::string::npos);
@@ -94,8 +101,9 @@ TEST(ReferenceTool, FitsIntoOneFile) {
 TEST(ReferenceTool, ADifferenceIsExitCodeOne) {
     const Folder folder;
     folder.write("none.json", R"({"rules": [{"channel": "lit", "max": 0, "because": "to fail"}]})");
-    const Ran ran = runTool(folder, "compare builtin:triangle --size 32x18 --runs 0 --baseline reference "
-                                    "--tolerances none.json -o r");
+    const Ran ran = runTool(folder,
+                            "compare builtin:triangle --size 32x18 --runs 0 --baseline reference "
+                            "--tolerances none.json -o r");
     EXPECT_EQ(ran.code, 1) << ran.err;
     EXPECT_EQ(jsonIn(folder / "r/report.json")["verdict"], "fail");
 }
@@ -105,8 +113,8 @@ TEST(ReferenceTool, ADifferenceIsExitCodeOne) {
 constexpr const char* panel =
     R"({"lights": [{"type": "rect", "position": [0, 3, 1], "direction": [0, -1, 0], "size": [2, 1], "intensity": 100}]})";
 const std::vector<std::string> longDrawing{
-    "render",    "builtin:gallery", "--path", "reference", "--reference-mode", "scene", "--spp", "2", "--size", "64x36",
-    "--shadows", "pcf",             "--lights", "panel.json", "-o",               "r.exr"};
+    "render", "builtin:gallery", "--path", "reference", "--reference-mode", "scene", "--spp", "2", "--size",
+    "64x36",  "--shadows",       "pcf",    "--lights",  "panel.json",       "-o",    "r.exr"};
 
 std::string inShell(const std::vector<std::string>& words) {
     std::string line;
@@ -130,7 +138,8 @@ void endsAndGoesOn(int signal, bool says) {
     ::kill(tool.process(), signal);
     ASSERT_TRUE(soon([&] { return tool.ended(); }));
     EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
-    EXPECT_EQ(tool.err().find(".r.exr.reference-1: the same command goes on") != std::string::npos, says) << tool.err();
+    EXPECT_EQ(tool.err().find(".r.exr.reference-1: the same command goes on") != std::string::npos, says)
+        << tool.err();
     ASSERT_GT(size(), 20000u) << "what is done is there";
     EXPECT_FALSE(fs::exists(folder / "r.exr"));
 

@@ -5,6 +5,8 @@
 
 #include "shared/scene/requirements.h"
 
+#include <algorithm>
+
 namespace diptych {
 namespace {
 
@@ -70,8 +72,9 @@ TEST(GltfLightmap, OpenExrIsReadAsLinearLightAndOnlyThere) {
     const TextureImage& image = scene.images.at(0);
     EXPECT_EQ(image.rgba32, (std::vector<float>{0.25f, 40, 0.25f, 1, 0.25f, 0.25f, 0, 1}));
     EXPECT_EQ(image.largest, 40);
-    ASSERT_EQ(scene.notes.size(), 1u);
-    EXPECT_NE(scene.notes[0].find("negative, taken as 0"), std::string::npos) << scene.notes[0];
+    EXPECT_TRUE(std::ranges::any_of(scene.notes, [](const std::string& note) {
+        return note.find("negative, taken as 0") != std::string::npos;
+    }));
 
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
     EXPECT_THROW(file.load(), std::runtime_error) << "glTF's own slots read PNG and JPEG";
