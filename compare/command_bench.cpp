@@ -12,7 +12,7 @@ namespace diptych {
 namespace {
 
 // Frames of one kernel where --runs says less: its slope is that of the fastest two.
-constexpr int fewestKernelRuns = 9;
+constexpr int fewestKernelRuns = 15;
 
 std::filesystem::path folderOf(const Options& options) {
     const Output output = outputOf(options.out.empty() ? "diptych-bench" : options.out);

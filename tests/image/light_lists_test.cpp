@@ -271,6 +271,25 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 100u);
 }
 
+// More pairs of lights and cells than the device's largest buffer holds.
+TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
+    Scene scene = loadScene("builtin:spheres?lights=1");
+    scene.lights.assign(65600, pointAt({0, 2, 0}, 1e-4f, std::numeric_limits<float>::infinity()));
+    // The median light in front that ends somewhere is small: slices are thin, and there are many.
+    for (int i = 0; i < 200; ++i) scene.lights.push_back(pointAt({0.1 * i - 10, 0.1, 0.07 * i - 8}, 1, 0.2f));
+    Renderer renderer(device(), scene);
+    const Size size{192, 24};
+    const Frame every = renderer.draw(picture(size, Path::forward_plus, Assignment::every), untimed());
+    const Frame frame =
+        renderer.draw(picture(size, Path::deferred, Assignment::clustered), untimed({lit, listOverflow}));
+    if (device().limits().maxStorageBufferRange <= (128u << 20)) {
+        EXPECT_GT(frame.counters.overflowed_lists, 0u);
+        const std::vector<float>& overflow = frame.channels.at(listOverflow).data;
+        EXPECT_GT(std::count(overflow.begin(), overflow.end(), 1.0f), 0);
+    }
+    EXPECT_EQ(wrongPixels(every.channels.at(lit), frame.channels.at(lit)), 0u);
+}
+
 // ---- what the lists say of themselves ------------------------------------------------------------------
 
 TEST(LightLists, TheChannelCountsWhatIsEvaluated) {

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The cells that lists are made for, and the ranges that a cutoff gives.
+#include "shared/light/light_grid.h"
+#include "shared/light/cutoff.h"
+#include "shared/scene/builtin/builtin.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+constexpr std::uint64_t lavapipes = std::uint64_t{128} << 20;
+
+View viewOf(int width, int height) {
+    View view;
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+std::vector<Light> pointsAhead(std::size_t count, float range) {
+    std::vector<Light> lights(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        lights[i].position = {0.01 * static_cast<double>(i % 100) - 0.5, 0,
+                              -2 - 0.3 * static_cast<double>(i % 50)};
+        lights[i].range = range;
+    }
+    return lights;
+}
+
+gpu::LightGrid gridOf(gpu::uint lists, const View& view, const std::vector<Light>& lights,
+                      std::uint64_t bytes = lavapipes) {
+    const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
+    return makeLightGrid(lists, view, gpu, lightBounds(gpu, view), bytes);
+}
+
+TEST(LightGrid, CoversAnyPictureWithWholeTiles) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {15, 17}, {16, 16}, {1279, 719}, {16384, 3}})
+        for (const gpu::uint lists : {gpu::LISTS_CLUSTERED, gpu::LISTS_TILED}) {
+            const gpu::LightGrid grid = gridOf(lists, viewOf(width, height), pointsAhead(300, 3));
+            const auto side = 1u << grid.tile_shift;
+            EXPECT_GE(grid.tiles.x * side, static_cast<unsigned>(width));
+            EXPECT_LT((grid.tiles.x - 1) * side, static_cast<unsigned>(width));
+            EXPECT_GE(grid.tiles.y * side, static_cast<unsigned>(height));
+            EXPECT_EQ(grid.cells, grid.tiles.x * grid.tiles.y * grid.slices);
+            EXPECT_EQ(grid.lists, lists == gpu::LISTS_TILED ? 2 * grid.cells : grid.cells);
+            if (lists == gpu::LISTS_TILED) {
+                EXPECT_EQ(side, gpu::LIGHT_TILE);
+            }
+        }
+}
+
+TEST(LightGrid, NoBufferExceedsTheDevices) {
+    for (const gpu::uint lists : {gpu::LISTS_CLUSTERED, gpu::LISTS_TILED})
+        for (const std::size_t count : {std::size_t{1}, std::size_t{4096}, std::size_t{65600}}) {
+            const gpu::LightGrid grid = gridOf(lists, viewOf(3840, 2160), pointsAhead(count, 5));
+            EXPECT_LE(std::uint64_t{grid.words} * grid.lists * 4, lavapipes) << count;
+            EXPECT_LE(std::uint64_t{grid.capacity} * grid.width * 4, lavapipes) << count;
+            EXPECT_GE(grid.capacity, grid.all_end) << "the list of all lights always fits";
+        }
+}
+
+TEST(LightGrid, SlicesMeetAndTheLastHasNoEnd) {
+    const gpu::LightGrid grid = gridOf(gpu::LISTS_CLUSTERED, viewOf(640, 360), pointsAhead(300, 3));
+    ASSERT_GT(grid.slices, 4u);
+    EXPECT_EQ(sliceDepths(grid, 0).near, 0.0f);
+    EXPECT_EQ(sliceDepths(grid, grid.slices - 1).far, gpu::MAX_BOUND_RADIUS);
+    for (gpu::uint s = 0; s + 1 < grid.slices; ++s) {
+        const SliceDepths a = sliceDepths(grid, s), b = sliceDepths(grid, s + 1);
+        EXPECT_GE(a.far, b.near) << "no gap that rounding could fall into";
+        EXPECT_LT(a.far - b.near, 1e-4f * b.near);
+        EXPECT_LT(a.near, a.far);
+    }
+}
+
+TEST(LightGrid, LightsThatEndNowhereAreListedInAllCells) {
+    const gpu::LightGrid grid = gridOf(gpu::LISTS_CLUSTERED, viewOf(640, 360),
+                                       pointsAhead(10, std::numeric_limits<float>::infinity()));
+    EXPECT_GE(std::uint64_t{grid.capacity} * grid.width, std::uint64_t{10} * grid.lists);
+}
+
+TEST(LightCutoffRange, IsWhereAWhiteSurfaceIsAsDim) {
+    Light light;
+    light.intensity = 5;
+    const double range = cutoffRange(light, 0.01);
+    EXPECT_NEAR(5 / (range * range) / std::numbers::pi, 0.01, 1e-9);
+    Light ends = light;
+    ends.range = 2;
+    const std::vector<Light> lights = withCutoff({light, ends}, 0.01);
+    EXPECT_NEAR(lights[0].range, range, 1e-5 * range);
+    EXPECT_EQ(lights[1].range, 2) << "its own stays";
+    EXPECT_TRUE(std::isinf(withCutoff({light}, 0)[0].range));
+}
+
+TEST(LightCutoffRange, TheEnergyCutIsAShare) {
+    const Scene scene = loadScene("builtin:spheres?lights=4");
+    const Pose pose = poseAt(scene, 0);
+    Light lamp;
+    lamp.position = {0, 2, 0};
+    EXPECT_EQ(energyCut(scene, pose, std::vector{lamp}, 0), 0);
+    double before = 0;
+    for (const double cutoff : {1e-6, 1e-4, 1e-2, 0.1}) {
+        const double cut = energyCut(scene, pose, std::vector{lamp}, cutoff);
+        EXPECT_GT(cut, before);
+        before = cut;
+    }
+    EXPECT_GT(before, 0.9);
+    lamp.range = 3;
+    EXPECT_EQ(energyCut(scene, pose, std::vector{lamp}, 1), 0) << "it has a range";
+}
+
+}  // namespace
+}  // namespace diptych
