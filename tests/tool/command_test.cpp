@@ -102,7 +102,7 @@ TEST(Command, DiscsOfSunsAndTheEnvironmentAreNoted) {
         {"type": "directional", "angle": 0.0093, "intensity": 2}]})");
     const Image sky(4, 2, 3, 1.0f);
     writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
-    const std::string options = " unlit.gltf --size 16x9 --runs 0 --lights lights.json --env sky.exr";
+    const std::string options = " unlit.gltf --size 16x9 --runs 0 --prepass on --lights lights.json --env sky.exr";
     Json report = parsed(runTool(folder, "compare --json" + options));
     ASSERT_EQ(report["frames"].size(), 2u);
     for (const Json& frame : report["frames"]) {
