@@ -2,9 +2,11 @@
 #include "deferred/deferred.h"
 
 #include "shared/contract/bindings.h"
+#include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -12,7 +14,7 @@ namespace diptych {
 
 namespace {
 
-PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item) {
+PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool captured) {
     std::vector<VkFormat> formats;
     for (const VkFormat format : inputs.gbuffer.formats)
         if (format != VK_FORMAT_UNDEFINED) formats.push_back(format);
@@ -27,6 +29,7 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item) {
     for (const gpu::uint feature :
          {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_lightmap, gpu::FEATURE_orthographic})
         key.variant.set(feature, inputs.variant.get(feature));
+    key.variant.set(gpu::FEATURE_captured, captured);
     inputs.gbuffer.specialise(key.variant);
     return key;
 }
@@ -58,7 +61,8 @@ void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const F
     chunk.read(pass);
     pass.samples(frame.depth).depthTest(frame.depth);
     variant.set(gpu::FEATURE_light_chunk, chunk.kind);
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "full_screen.vert",
+    if (inputs.device.info().isCpu()) variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
+    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "resolve.vert",
                                                                  .fragment = fragment,
                                                                  .variant = variant,
                                                                  .input = VertexInput::none,
@@ -70,6 +74,15 @@ void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const F
     pass.record([&inputs, pipeline, set, chunk](VkCommandBuffer commands) {
         recordFullScreen(commands, inputs, pipeline, (*set)[0], chunk);
     });
+}
+
+// Draws the scene into the depth and the attachments. `captured`: with what shading does not ask for.
+void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& images, bool captured) {
+    Pass& pass = passes.draw("G-buffer").depth(images.depth, Load::clear);
+    for (const ImageRef image : images.gbuffer)
+        if (image.valid()) pass.color(image, Load::clear);
+    pass.record(recordDraws(
+        inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item, captured); }));
 }
 
 LightChunk addEarlier(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
@@ -84,14 +97,12 @@ LightChunk addEarlier(PassList& passes, const FrameInputs& inputs, const FrameIm
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
     images.depth = passes.image("depth", depthFormat);
-    Pass& geometry = passes.draw("G-buffer").depth(images.depth, Load::clear);
     for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {
         const VkFormat format = inputs.gbuffer.formats[i];
         if (format == VK_FORMAT_UNDEFINED) continue;
         images.gbuffer[i] = passes.image(gbufferAttachmentNames[i], format);
-        geometry.color(images.gbuffer[i], Load::clear);
     }
-    geometry.record(recordDraws(inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item); }));
+    addGBuffer(passes, inputs, images, false);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     const LightChunk last = addEarlier(passes, inputs, images);
     images.lit = passes.image("lit", litFormat);
@@ -103,6 +114,9 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
+    // The frame's own G-buffer holds no normals of triangles, which no light asks for.
+    if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) != request.modes.end())
+        addGBuffer(passes, inputs, frame, true);
     const LightChunk last = addEarlier(passes, inputs, frame);
     for (const CaptureGroup& group : captureGroups(request.modes)) {
         Pass& pass = passes.draw("capture");

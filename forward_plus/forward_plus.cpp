@@ -48,6 +48,7 @@ PipelineKey captureKey(const FrameInputs& inputs, const DrawItem& item, const Ca
     key.depth_write = false;
     quantise(key, inputs, throughGBuffer);
     group.specialise(key.variant);
+    key.variant.set(gpu::FEATURE_captured);
     return key;
 }
 

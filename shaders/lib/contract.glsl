@@ -25,8 +25,5 @@ FEATURES(FEATURE_CONSTANT)
 
 bool on(uint feature) { return feature != 0; }
 
-layout(set = SET_FRAME, binding = BINDING_VIEW, scalar) uniform ViewBlock { View view; };
-layout(set = SET_FRAME, binding = BINDING_DRAWS, scalar) readonly buffer Draws { Draw draws[]; };
-layout(set = SET_FRAME, binding = BINDING_MATERIALS, scalar) readonly buffer Materials { Material materials[]; };
 
 #endif

@@ -16,7 +16,7 @@ bool compactGBuffer() { return feature_gbuffer_encoding == GBUFFER_compact; }
 
 // The geometric normal is quantised alike in both paths: what is offset along it (shadow bias) must agree.
 vec3 quantiseGeometricNormal(vec3 n) {
-    if (fullGBuffer()) return n;
+    if (fullGBuffer() || !needsGeometricNormal()) return n;
     uint bits = compactGBuffer() ? COMPACT_GEOMETRIC_NORMAL_BITS : STANDARD_NORMAL_BITS;
     return decodeOctahedral(encodeOctahedral(n, bits), bits);
 }
@@ -45,12 +45,13 @@ GBufferTexel encodeGBuffer(Surface s) {
     if (compactGBuffer()) {
         t.attachments[GBUFFER_NORMALS].x = encodeOctahedral(s.normal, COMPACT_NORMAL_BITS) |
                                            (packUnorm(s.roughness, COMPACT_ROUGHNESS_BITS) << 24);
-        t.attachments[GBUFFER_PARAMS].x = encodeOctahedral(s.geometric_normal, COMPACT_GEOMETRIC_NORMAL_BITS) |
-                                          (packUnorm(s.metallic, COMPACT_METALLIC_BITS) << 16) |
-                                          (s.material_id << 22);
+        t.attachments[GBUFFER_PARAMS].x = (packUnorm(s.metallic, COMPACT_METALLIC_BITS) << 16) | (s.material_id << 22);
+        if (needsGeometricNormal())
+            t.attachments[GBUFFER_PARAMS].x |= encodeOctahedral(s.geometric_normal, COMPACT_GEOMETRIC_NORMAL_BITS);
     } else {
         t.attachments[GBUFFER_NORMALS].x = encodeOctahedral(s.normal, STANDARD_NORMAL_BITS);
-        t.attachments[GBUFFER_NORMALS].y = encodeOctahedral(s.geometric_normal, STANDARD_NORMAL_BITS);
+        if (needsGeometricNormal())
+            t.attachments[GBUFFER_NORMALS].y = encodeOctahedral(s.geometric_normal, STANDARD_NORMAL_BITS);
         t.attachments[GBUFFER_PARAMS].x = packUnorm(s.roughness, STANDARD_ROUGHNESS_BITS) |
                                           (packUnorm(s.metallic, STANDARD_METALLIC_BITS) << 12) |
                                           (s.material_id << 20);

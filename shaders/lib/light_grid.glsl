@@ -3,9 +3,7 @@
 #ifndef LIGHT_GRID_GLSL
 #define LIGHT_GRID_GLSL
 
-#include "shaders/lib/contract.glsl"
-
-layout(set = SET_FRAME, binding = BINDING_LIGHT_GRID, scalar) uniform LightGridBlock { LightGrid grid; };
+#include "shaders/lib/view.glsl"
 
 uint sliceOf(float depth) {
     uint steps = floatBitsToUint(max(depth, 0.0) + grid.slice_offset) - floatBitsToUint(grid.slice_offset);

@@ -6,19 +6,11 @@
 #define MATERIAL_GLSL
 
 #include "shaders/lib/draw.glsl"
+#include "shaders/lib/inputs.glsl"
+#include "shaders/lib/material_factors.glsl"
 #include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/surface.glsl"
-
-layout(location = 0) in vec3 in_world;  // interpolated: only for its derivatives
-layout(location = 1) in vec3 in_normal;
-layout(location = 2) in vec4 in_tangent;
-layout(location = 3) in vec2 in_texcoord0;
-layout(location = 4) in vec2 in_texcoord1;
-layout(location = 5) in vec4 in_color;
-layout(location = 6) in vec2 in_slot_texcoords[SLOT_COUNT];
-layout(location = 6 + SLOT_COUNT) in vec3 in_irradiance;          // of the vertex lights, W/m^2
-layout(location = 7 + SLOT_COUNT) in vec3 in_irradiance_behind;  // and on the back of a double-sided material
 
 layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
 layout(set = SET_MATERIAL, binding = SLOT_metallic_roughness) uniform sampler2D metallic_roughness_texture;
@@ -32,19 +24,22 @@ layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_t
 // Texture coordinates of a slot, worked out per vertex. Never from the material buffer here: lavapipe reads 0
 // in a quad's lanes that the triangle does not cover, and the derivatives that choose the mip level go wrong.
 vec2 slotTexcoord(uint slot) {
-    return on(feature_texture_transform) || on(feature_second_texcoord) ? in_slot_texcoords[slot] : in_texcoord0;
+#if INPUTS >= 3
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) return v_slot_texcoords[slot];
+#endif
+    return v_texcoord;
 }
 
 vec4 baseColor() {
-    vec4 color = materials[constants.material].base_color;
+    vec4 color = material.base_color;
     if (on(feature_base_color_texture)) color *= texture(base_color_texture, slotTexcoord(SLOT_base_color));
-    if (on(feature_vertex_color)) color *= in_color;
+    if (on(feature_vertex_color)) color *= v_color;
     return color;
 }
 
 // Alpha mask. Every pass that draws the material asks here, so a pre-pass cuts what shading cuts.
 bool isCutOut(vec4 base_color) {
-    return on(feature_alpha_mask) && base_color.a < materials[constants.material].alpha_cutoff;
+    return on(feature_alpha_mask) && base_color.a < material.alpha_cutoff;
 }
 
 float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
@@ -53,7 +48,7 @@ float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 // first: in a tiny scene the square of their product's length would underflow. Seen edge-on, or without area: what
 // looks at the viewer.
 vec3 triangleNormal(vec3 towards) {
-    vec3 dx = dFdxFine(in_world), dy = dFdyFine(in_world);
+    vec3 dx = dFdxFine(v_world), dy = dFdyFine(v_world);
     precise vec3 n = cross(dx * (1.0 / max(largestOf(dx), 1e-37)), dy * (1.0 / max(largestOf(dy), 1e-37)));
     precise vec3 facing = dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
     precise vec3 unit = facing * inversesqrt(dot(facing, facing));
@@ -64,12 +59,12 @@ vec3 triangleNormal(vec3 towards) {
 // asks; a back face of a double-sided material turns the result round. `triangle` stands in where a normal has
 // vanished: flattened by the node's scale, or by interpolation. What is known to have none asks no further.
 vec3 shadingNormal(vec3 triangle) {
-    precise vec3 n = in_normal;
+    precise vec3 n = v_normal;
     if (on(feature_normal_texture)) {
         vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
-        t.xy *= materials[constants.material].normal_scale;
-        vec3 bitangent = in_tangent.w * cross(in_normal, in_tangent.xyz);
-        n = t.x * in_tangent.xyz + t.y * bitangent + t.z * in_normal;
+        t.xy *= material.normal_scale;
+        vec3 bitangent = v_tangent.w * cross(v_normal, v_tangent.xyz);
+        n = t.x * v_tangent.xyz + t.y * bitangent + t.z * v_normal;
     }
     float length2 = dot(n, n);
     if (on(feature_vanishing_normals) && !(length2 > 0.0)) return triangle;
@@ -78,17 +73,19 @@ vec3 shadingNormal(vec3 triangle) {
 }
 
 Surface surfaceFromMaterial(vec4 base_color) {
-    Material m = materials[constants.material];
+    Material m = material;
     precise Surface s;  // the same bits in every shader that asks
     s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
-    s.geometric_normal = triangleNormal(on(feature_orthographic) ? view.backward : -s.position);
+    s.geometric_normal = vec3(0.0);
+    if (needsGeometricNormal() || on(feature_vanishing_normals))
+        s.geometric_normal = triangleNormal(on(feature_orthographic) ? view.backward : -v_world);
     s.normal = shadingNormal(s.geometric_normal);
     s.material_id = constants.material;
-    s.texcoord = in_texcoord0;
+    s.texcoord = v_texcoord;
     s.lightmap = vec3(0.0);
     s.object_irradiance = vec3(0.0);
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
-        s.object_irradiance += on(feature_double_sided) && !gl_FrontFacing ? in_irradiance_behind : in_irradiance;
+        s.object_irradiance += on(feature_double_sided) && !gl_FrontFacing ? v_irradiance_behind : v_irradiance;
     if ((feature_object_lights & OBJECT_LIGHTS_SH) != 0) s.object_irradiance += harmonicIrradiance(s.normal);
     if (on(feature_unlit)) {  // see contract/material.h
         s.albedo = vec3(0.0);

@@ -4,7 +4,7 @@
 #ifndef POSITION_GLSL
 #define POSITION_GLSL
 
-#include "shaders/lib/contract.glsl"
+#include "shaders/lib/view.glsl"
 
 // View depth in metres from the reversed depth z in [0, 1].
 float viewDepth(float z) {

@@ -54,23 +54,22 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
     addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position), radiance);
 }
 
-// The groups [x, y) of one kind, one at least with lists: on lavapipe a loop that tests last runs a body less than one
-// that tests first.
-#define ADD_GROUPS(add, groups)                                \
-    {                                                          \
-        uvec2 range = groups;                                  \
-        uint group = range.x;                                  \
-        bool more = group < range.y;                           \
-        while (more) {                                         \
-            uvec4 i = lightsOfGroup(group);                    \
-            add(shading, i.x, radiance);                       \
-            if (feature_list_width == 4) {                     \
-                add(shading, i.y, radiance);                   \
-                add(shading, i.z, radiance);                   \
-                add(shading, i.w, radiance);                   \
-            }                                                  \
-            more = ++group < range.y;                          \
-        }                                                      \
+// The groups [x, y) of one kind. On lavapipe a loop that ends at its test first runs a body too many, for nothing; one that
+// tests last alone goes on adding to pixels that are done, where others are not: what it computes is not masked unless
+// another way out makes it a merge of two values.
+#define ADD_GROUPS(add, groups)                   \
+    {                                             \
+        uvec2 range = groups;                     \
+        while (range.x < range.y) {               \
+            uvec4 i = lightsOfGroup(range.x);     \
+            add(shading, i.x, radiance);          \
+            if (feature_list_width == 4) {        \
+                add(shading, i.y, radiance);      \
+                add(shading, i.z, radiance);      \
+                add(shading, i.w, radiance);      \
+            }                                     \
+            if (++range.x >= range.y) break;      \
+        }                                         \
     }
 
 // Goes on with the area lights of one shape, numbers below `end`: a loop a shape, for a body costs what is in it.
@@ -94,9 +93,13 @@ Radiance shade(Surface s, PixelLights lights) {
         precise vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
         radiance.diffuse = reflected;
     }
-    if (on(feature_directional_lights) && feature_light_chunk != CHUNK_LATER)
-        for (uvec2 i = directionalGroups(); i.x < i.y; ++i.x)
-            addIncident(shading, fromDirectionalLight(directionalAt(i.x)), radiance);
+    if (on(feature_directional_lights) && feature_light_chunk != CHUNK_LATER) {
+        uvec2 range = directionalGroups();
+        while (range.x < range.y) {
+            addIncident(shading, fromDirectionalLight(directionalAt(range.x)), radiance);
+            if (++range.x >= range.y) break;
+        }
+    }
     if (on(feature_point_lights)) ADD_GROUPS(addPoint, walked(lights, lights.groups.begin, lights.groups.point_end))
     if (on(feature_spot_lights)) ADD_GROUPS(addSpot, walked(lights, lights.groups.point_end, lights.groups.spot_end))
 #if AREA_LIGHTS

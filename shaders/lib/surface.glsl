@@ -23,6 +23,9 @@ struct Surface {
     vec3 object_irradiance; // forward+ with object_lights: of those that are not shaded per pixel, W/m^2
 };
 
+// Whether someone asks for the triangle's own normal: a channel. (Shading does where a shading normal may vanish.)
+bool needsGeometricNormal() { return on(feature_captured); }
+
 // Specular colour at normal incidence.
 vec3 specularF0(Surface s) { return mix(s.dielectric_f0, s.albedo, s.metallic); }
 

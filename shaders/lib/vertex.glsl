@@ -5,12 +5,17 @@
 #define VERTEX_GLSL
 
 #include "shaders/lib/draw.glsl"
+#include "shaders/lib/view.glsl"
 
 invariant gl_Position;
 
+layout(location = 0) in vec3 position;
+// Of the instance: struct Draw.
+layout(location = 6) in mat4x3 world_from_object;
+
 // World axes, camera as origin, m.
-vec3 worldFromVertex(Draw draw, vec3 position) {
-    precise vec3 world = draw.world_from_object * vec4(position, 1.0);
+vec3 worldFromVertex() {
+    precise vec3 world = world_from_object * vec4(position, 1.0);
     return world;
 }
 

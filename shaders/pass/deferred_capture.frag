@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // ATTACHMENTS: 1 to 8 channels.
+#define FLAT_VIEW
 #include "shaders/lib/capture.glsl"
 #include "shaders/lib/gbuffer_read.glsl"
 

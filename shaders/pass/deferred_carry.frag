@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#define FLAT_VIEW
 #include "shaders/lib/gbuffer_read.glsl"
 #include "shaders/lib/shade.glsl"
 

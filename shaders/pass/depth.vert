@@ -4,6 +4,4 @@
 
 #include "shaders/lib/vertex.glsl"
 
-layout(location = 0) in vec3 position;
-
-void main() { gl_Position = clipFromVertex(worldFromVertex(draws[constants.draw], position)); }
+void main() { gl_Position = clipFromVertex(worldFromVertex()); }

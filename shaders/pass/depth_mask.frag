@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// INPUTS: 0 to 3
 
 // Depth of an alpha-masked material: what is cut out leaves none.
 #include "shaders/lib/material.glsl"

@@ -49,13 +49,18 @@
     X(37, object_lights)              /* OBJECT_LIGHTS_* of object_lights.h */                        \
     X(38, vanishing_normals)          /* an interpolated normal may be zero */                        \
     X(39, lightmap)                   /* a material of the scene has one */                           \
-    X(40, gbuffer_wide_lightmap)      /* beyond the packed format's range: float32 */
+    X(40, gbuffer_wide_lightmap)      /* beyond the packed format's range: float32 */                 \
+    X(41, view_source)                /* VIEW_*: where a fragment shader has the view from */             \
+    X(42, captured)                   /* for channels, which may ask for more than shading does */
 
 CONTRACT_BEGIN
 #define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
 FEATURES(DIPTYCH_FEATURE_ID)
 #undef DIPTYCH_FEATURE_ID
-CONTRACT_CONST(uint, FEATURE_COUNT, 41);
+CONTRACT_CONST(uint, FEATURE_COUNT, 43);
+
+CONTRACT_CONST(uint, VIEW_UNIFORM, 0);  // the uniform buffers View and LightGrid
+CONTRACT_CONST(uint, VIEW_FLAT, 1);     // flat inputs, handed on by the vertex shader
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

@@ -15,18 +15,18 @@ struct VertexAttributes {
     vec4 color;  // linear Rec.709, alpha
 };
 
-// One draw of one primitive.
+// One draw of one primitive: attributes of its instance, at the locations after a vertex's. lavapipe fetches those once
+// for all vertices, and what is in a buffer for each of them.
 struct Draw {
     mat4x3 world_from_object;  // world axes, camera as origin, m: subtracted in double
     mat3 normal_from_object;   // inverse transpose of the linear part, scaled to keep lengths near 1
     float handedness;          // -1 where the transform mirrors, else 1
 };
 
-// Push constants of a draw. Indices that come from here are the same for all lanes and known to be: lavapipe
-// then loads once for eight pixels what it would otherwise gather.
+// Push constants of a draw.
 struct DrawConstants {
     uint draw;      // into the draws
-    uint material;  // into the materials
+    uint material;  // its number: the channel material_id
     uint light_first;  // with FEATURE_light_chunk: positions of each list that this draw walks, from here
     uint light_end;    // to below here
 };

@@ -20,8 +20,8 @@ constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                            texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 // In the order of BINDING_* of SET_FRAME.
 constexpr std::array frameTypes{
-    uniform, storage, storage, texels, texels, texels, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    uniform, texels,  texels,  storage, storage, storage, storage};
+    uniform, uniform, texels,  texels,  texels,  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    texels,  texels,  storage, storage, storage, storage};
 
 constexpr std::array carriedTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
@@ -73,8 +73,8 @@ NothingCarried::NothingCarried(Device& device, Uploader& uploader, const Layouts
 }
 
 FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts,
-                           const Materials& materials, const View& view, const DrawList& draws,
-                           const GpuLights& lights, const LightLists::Choice& choice,
+                           const View& view, const DrawList& draws, const GpuLights& lights,
+                           const LightLists::Choice& choice,
                            std::optional<std::uint32_t> objectPixelLights)
     : lists_(device, uploader, layouts.lists, choice, view, lights),
       objects_(device, uploader, draws, lights, objectPixelLights),
@@ -91,7 +91,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     draws_ =
-        makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,
                                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     spot_cones_ = makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones,
@@ -112,8 +112,6 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     uploader.flush();
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
-    sets_.buffer(0, gpu::BINDING_DRAWS, draws_.handle());
-    sets_.buffer(0, gpu::BINDING_MATERIALS, materials.buffer());
     sets_.texels(0, gpu::BINDING_LIGHTS, lights_view_);
     sets_.texels(0, gpu::BINDING_SPOT_CONES, spot_cones_view_);
     sets_.texels(0, gpu::BINDING_AREA_LIGHTS, area_lights_view_);
@@ -157,7 +155,7 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
         };
         bind(gpu::SET_FRAME, inputs.frame_set);
         bind(gpu::SET_CARRIED, chunk.carried ? (*chunk.carried)[0] : inputs.carried_nothing);
-        inputs.geometry.bind(commands);
+        inputs.geometry.bind(commands, inputs.draw_buffer);
         const DrawItem* last = nullptr;
         VkPipeline lastPipeline = VK_NULL_HANDLE;
         for (std::size_t i = 0; i < pipelines.size(); ++i) {
@@ -175,7 +173,7 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
             vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants,
                                &constants);
             vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
-                             item.range.vertex_offset, 0);
+                             item.range.vertex_offset, item.draw);
             last = &item;
             lastPipeline = pipelines[i];
         }

@@ -48,10 +48,11 @@ private:
 // --pixel-lights of --assign per_object.
 class FrameBuffers {
 public:
-    FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const Materials& materials,
-                 const View& view, const DrawList& draws, const GpuLights& lights,
+    FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
+                 const DrawList& draws, const GpuLights& lights,
                  const LightLists::Choice& choice, std::optional<std::uint32_t> objectPixelLights = {});
     VkDescriptorSet set() const { return sets_[0]; }
+    VkBuffer draws() const { return draws_.handle(); }
     VkDescriptorSet carriedNothing() const { return carried_nothing_.set(); }
     LightLists& lists() { return lists_; }
     const ObjectLightBuffers& objects() const { return objects_; }
@@ -77,6 +78,7 @@ struct FrameInputs {
     const Geometry& geometry;
     const Materials& materials;
     const DrawList& draws;
+    VkBuffer draw_buffer;  // Draw[draws.draws]
     VkDescriptorSet frame_set;
     VkDescriptorSet
         carried_nothing;  // SET_CARRIED of draws that carry nothing on: shaders name it all the same

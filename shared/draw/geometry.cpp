@@ -71,10 +71,10 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
         makeBuffer<std::uint32_t>(device, uploader, "indices", indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
-void Geometry::bind(VkCommandBuffer commands) const {
-    const std::array buffers{positions_.handle(), attributes_.handle()};
-    const std::array<VkDeviceSize, 2> offsets{};
-    vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), offsets.data());
+void Geometry::bind(VkCommandBuffer commands, VkBuffer draws) const {
+    const std::array buffers{positions_.handle(), attributes_.handle(), draws};
+    const std::array<VkDeviceSize, 3> offsets{};
+    vkCmdBindVertexBuffers(commands, 0, 3, buffers.data(), offsets.data());
     vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT32);
 }
 

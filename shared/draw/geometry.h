@@ -25,7 +25,7 @@ public:
     const PrimitiveRange& range(int mesh, int primitive) const {
         return ranges_[static_cast<std::size_t>(mesh)][static_cast<std::size_t>(primitive)];
     }
-    void bind(VkCommandBuffer commands) const;
+    void bind(VkCommandBuffer commands, VkBuffer draws) const;
     std::uint64_t bytes() const { return positions_.size() + attributes_.size() + indices_.size(); }
 
 private:

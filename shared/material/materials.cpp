@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/material/materials.h"
 
+#include "shared/contract/bindings.h"
 #include "shared/contract/material.h"
 #include "shared/material/textures.h"
 #include "shared/scene/material_slots.h"
@@ -10,6 +11,7 @@
 #include <tbb/task_arena.h>
 
 #include <array>
+#include <cstring>
 #include <map>
 #include <utility>
 
@@ -17,9 +19,12 @@ namespace diptych {
 
 namespace {
 
-constexpr std::array<VkDescriptorType, gpu::SLOT_COUNT> slotTypes = [] {
-    std::array<VkDescriptorType, gpu::SLOT_COUNT> types{};
+// Of SET_MATERIAL.
+constexpr std::array<VkDescriptorType, gpu::SLOT_COUNT + 1> setTypes = [] {
+    std::array<VkDescriptorType, gpu::SLOT_COUNT + 1> types{};
     types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    static_assert(gpu::BINDING_MATERIAL == gpu::SLOT_COUNT);
+    types[gpu::BINDING_MATERIAL] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     return types;
 }();
 
@@ -69,7 +74,7 @@ gpu::Material gpuMaterial(const Material& m) {
 }  // namespace
 
 Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
-    : layout_(makeSetLayout(device, slotTypes)) {
+    : layout_(makeSetLayout(device, setTypes)) {
     // Every image that a slot reads, as sRGB or as linear; index 0 stands in for slots without a texture.
     std::map<ImageUse, std::size_t> imageOf;
     std::vector<ImageUse> uses;
@@ -87,24 +92,29 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
         return entry->second;
     };
 
-    std::vector<gpu::Material> data;
+    // Each at an offset where a uniform buffer may begin.
+    const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
+    const VkDeviceSize stride = (sizeof(gpu::Material) + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> data(scene.materials.size() * stride);
     for (const Material& material : scene.materials) {
         variants_.push_back(variantOf(material));
-        data.push_back(gpuMaterial(material));
+        const gpu::Material factors = gpuMaterial(material);
+        std::memcpy(&data[(variants_.size() - 1) * stride], &factors, sizeof factors);
         for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
             if (readsSlot(material, slot))
                 imageUse(material.*materialSlots[slot].texture, materialSlots[slot].srgb);
     }
     buffer_ =
-        makeBuffer<gpu::Material>(device, uploader, "materials", data, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        makeBuffer<std::byte>(device, uploader, "materials", data, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 
     images_.push_back(uploadTexture(
         device, uploader, MipChain(TextureImage{"white", 1, 1, {255, 255, 255, 255}}, false, Texels::linear8),
         VK_FORMAT_R8G8B8A8_UNORM));
     uploadInUse(device, uploader, scene, uses);
 
-    sets_ = DescriptorSets(device, layout_, slotTypes, count());
-    for (std::uint32_t m = 0; m < count(); ++m)
+    sets_ = DescriptorSets(device, layout_, setTypes, count());
+    for (std::uint32_t m = 0; m < count(); ++m) {
+        sets_.buffer(m, gpu::BINDING_MATERIAL, buffer_.handle(), m * stride, sizeof(gpu::Material));
         for (std::uint32_t slot = 0; slot < materialSlots.size(); ++slot) {
             const TextureSlot& texture = scene.materials[m].*materialSlots[slot].texture;
             const bool read = readsSlot(scene.materials[m], slot);
@@ -116,6 +126,7 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
             sets_.image(m, slot, images_[image].view(), samplers_[sampler],
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
+    }
 }
 
 // Chains are made on all cores, as few ahead of the upload as keep them busy: all at once they would take a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene's materials on the device: one buffer, one descriptor set of textures each, one Variant each.
+// A scene's materials on the device: one buffer of factors, one descriptor set and one Variant each.
 #pragma once
 
 #include "shared/scene/scene.h"
@@ -20,7 +20,6 @@ public:
 
     VkDescriptorSetLayout layout() const { return layout_; }
     VkDescriptorSet set(std::uint32_t material) const { return sets_[material]; }
-    VkBuffer buffer() const { return buffer_.handle(); }
     std::uint32_t count() const { return static_cast<std::uint32_t>(variants_.size()); }
 
     // The features that this material needs, all others off.

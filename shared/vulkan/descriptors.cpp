@@ -64,8 +64,9 @@ void DescriptorSets::write(std::size_t set, std::uint32_t binding, const VkDescr
     vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
 }
 
-void DescriptorSets::buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer) {
-    const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
+void DescriptorSets::buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer, VkDeviceSize offset,
+                            VkDeviceSize range) {
+    const VkDescriptorBufferInfo info{buffer, offset, range};
     write(set, binding, &info, nullptr, nullptr);
 }
 

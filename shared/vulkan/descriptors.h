@@ -20,7 +20,8 @@ public:
 
     VkDescriptorSet operator[](std::size_t i) const { return sets_[i]; }
 
-    void buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer);
+    void buffer(std::size_t set, std::uint32_t binding, VkBuffer buffer, VkDeviceSize offset = 0,
+                VkDeviceSize range = VK_WHOLE_SIZE);
     void texels(std::size_t set, std::uint32_t binding, VkBufferView view);
     void image(std::size_t set, std::uint32_t binding, VkImageView view, VkSampler sampler,
                VkImageLayout layout);

@@ -2,9 +2,11 @@
 #include "shared/vulkan/pipelines.h"
 
 #include "shared/contract/geometry.h"
+#include "shared/contract/object_lights.h"
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/spirv.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <cstddef>
@@ -24,10 +26,30 @@ struct Specialization {
     VkSpecializationInfo info;
 };
 
-// Where a shader is there once more with the code of area lights, that one for variants that have them.
+// The least set of inputs (shaders/lib/inputs.glsl) that has what a variant reads.
+int inputsOf(const Variant& variant) {
+    const auto any = [&](auto... features) { return ((variant.get(features) != 0) || ...); };
+    if (any(gpu::FEATURE_vertex_color, gpu::FEATURE_texture_transform, gpu::FEATURE_second_texcoord,
+            gpu::FEATURE_captured) ||
+        (variant.get(gpu::FEATURE_object_lights) & gpu::OBJECT_LIGHTS_VERTEX) != 0)
+        return 3;
+    if (any(gpu::FEATURE_normal_texture, gpu::FEATURE_vanishing_normals)) return 2;
+    return any(gpu::FEATURE_base_color_texture, gpu::FEATURE_metallic_roughness_texture,
+               gpu::FEATURE_occlusion_texture, gpu::FEATURE_emissive_texture, gpu::FEATURE_specular_texture,
+               gpu::FEATURE_specular_color_texture, gpu::FEATURE_lightmap_texture)
+               ? 1
+               : 0;
+}
+
+// Shaders are there more than once where a device pays for what a variant does not read: with the code of
+// area lights, and with fewer inputs.
 std::string moduleOf(const std::string& shader, const Variant& variant) {
-    const std::string area = shader + ".area";
-    return variant.get(gpu::FEATURE_area_lights) != 0 && !findSpirv(area).empty() ? area : shader;
+    const auto orElse = [](std::string better, std::string plain) {
+        return findSpirv(better).empty() ? plain : better;
+    };
+    std::string module = shader;
+    if (variant.get(gpu::FEATURE_area_lights) != 0) module = orElse(module + ".area", module);
+    return orElse(fmt::format("{}.inputs{}", module, inputsOf(variant)), module);
 }
 
 }  // namespace
@@ -57,7 +79,7 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
         const auto [entry, isNew] = pipelines_.try_emplace(key);
         if (!isNew) continue;
         missing.emplace_back(&entry->first, &entry->second);
-        module(key.vertex);
+        module(moduleOf(key.vertex, key.variant));
         if (!key.fragment.empty()) module(moduleOf(key.fragment, key.variant));
     }
     tbb::parallel_for(std::size_t{0}, missing.size(),
@@ -98,33 +120,51 @@ OwnedPipeline Pipelines::make(const PipelineKey& key) const {
                           .pName = "main",
                           .pSpecializationInfo = &specialization.info});
     };
-    addStage(VK_SHADER_STAGE_VERTEX_BIT, key.vertex);
+    addStage(VK_SHADER_STAGE_VERTEX_BIT, moduleOf(key.vertex, key.variant));
     if (!key.fragment.empty()) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, moduleOf(key.fragment, key.variant));
 
     using Attributes = gpu::VertexAttributes;
+    using Draw = gpu::Draw;
+    constexpr std::uint32_t perDraw = 2;
     constexpr std::array bindings{
         VkVertexInputBindingDescription{0, sizeof(gpu::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
+        VkVertexInputBindingDescription{perDraw, sizeof(Draw), VK_VERTEX_INPUT_RATE_INSTANCE},
         VkVertexInputBindingDescription{1, sizeof(Attributes), VK_VERTEX_INPUT_RATE_VERTEX}};
-    constexpr std::array attributes{
-        VkVertexInputAttributeDescription{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
-        VkVertexInputAttributeDescription{1, 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Attributes, normal)},
-        VkVertexInputAttributeDescription{2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Attributes, tangent)},
-        VkVertexInputAttributeDescription{3, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(Attributes, texcoord0)},
-        VkVertexInputAttributeDescription{4, 1, VK_FORMAT_R32G32_SFLOAT, offsetof(Attributes, texcoord1)},
-        VkVertexInputAttributeDescription{5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Attributes, color)}};
-    const std::uint32_t bindingCount = key.input == VertexInput::none        ? 0
-                                       : key.input == VertexInput::positions ? 1
-                                                                             : 2;
-    const std::uint32_t attributeCount = key.input == VertexInput::none        ? 0
-                                         : key.input == VertexInput::positions ? 1
-                                                                               : 6;
+    constexpr std::uint32_t column = sizeof(gpu::vec3), world = offsetof(Draw, world_from_object),
+                            normal = offsetof(Draw, normal_from_object);
+    // What a module does not declare is not bound: with the least set of inputs that reads it, -1 always.
+    struct Attribute {
+        int inputs;
+        VkVertexInputAttributeDescription description;
+    };
+    constexpr VkFormat float2 = VK_FORMAT_R32G32_SFLOAT, float3 = VK_FORMAT_R32G32B32_SFLOAT,
+                       float4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+    constexpr std::array all{Attribute{-1, {0, 0, float3, 0}},
+                             Attribute{0, {1, 1, float3, offsetof(Attributes, normal)}},
+                             Attribute{2, {2, 1, float4, offsetof(Attributes, tangent)}},
+                             Attribute{1, {3, 1, float2, offsetof(Attributes, texcoord0)}},
+                             Attribute{3, {4, 1, float2, offsetof(Attributes, texcoord1)}},
+                             Attribute{3, {5, 1, float4, offsetof(Attributes, color)}},
+                             Attribute{-1, {6, perDraw, float3, world}},
+                             Attribute{-1, {7, perDraw, float3, world + column}},
+                             Attribute{-1, {8, perDraw, float3, world + 2 * column}},
+                             Attribute{-1, {9, perDraw, float3, world + 3 * column}},
+                             Attribute{0, {10, perDraw, float3, normal}},
+                             Attribute{0, {11, perDraw, float3, normal + column}},
+                             Attribute{0, {12, perDraw, float3, normal + 2 * column}},
+                             Attribute{2, {13, perDraw, VK_FORMAT_R32_SFLOAT, offsetof(Draw, handedness)}}};
+    const bool none = key.input == VertexInput::none;
+    const int inputs = key.input == VertexInput::positions ? -1 : inputsOf(key.variant);
+    std::vector<VkVertexInputAttributeDescription> attributes;
+    for (const Attribute& attribute : all)
+        if (!none && attribute.inputs <= inputs) attributes.push_back(attribute.description);
     const VkPipelineVertexInputStateCreateInfo input{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
         .pNext = nullptr,
         .flags = 0,
-        .vertexBindingDescriptionCount = bindingCount,
+        .vertexBindingDescriptionCount = none ? 0u : static_cast<std::uint32_t>(bindings.size()),
         .pVertexBindingDescriptions = bindings.data(),
-        .vertexAttributeDescriptionCount = attributeCount,
+        .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size()),
         .pVertexAttributeDescriptions = attributes.data()};
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
