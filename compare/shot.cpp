@@ -105,6 +105,7 @@ Shot::Shot(Device& device, SharedResources& shared, const Scene& scene, const Se
              gbuffer,
              settings.prepass != Switch::off} {
     buffers.lists().specialise(inputs.variant);
+    if (device.info().isCpu()) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
     const LightLists& lists = buffers.lists();
     const ObjectLightBuffers& objects = buffers.objects();
     inputs.variant.set(gpu::FEATURE_object_lights, objects.features());

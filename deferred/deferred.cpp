@@ -61,7 +61,8 @@ void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const F
     chunk.read(pass);
     pass.samples(frame.depth).depthTest(frame.depth);
     variant.set(gpu::FEATURE_light_chunk, chunk.kind);
-    if (inputs.device.info().isCpu()) variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
+    if (inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
+        variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "resolve.vert",
                                                                  .fragment = fragment,
                                                                  .variant = variant,

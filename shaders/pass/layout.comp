@@ -18,6 +18,7 @@ layout(set = 3, binding = 9, scalar) buffer LightBoundArray { LightBound light_b
 layout(set = 3, binding = 10, scalar) buffer LightListHeadArray { LightListHead light_list_head_array[]; };
 layout(set = 3, binding = 11, scalar) buffer LightListCountArray { LightListCount light_list_count_array[]; };
 layout(set = 3, binding = 12, scalar) buffer AreaLightArray { AreaLight area_light_array[]; };
+layout(set = 3, binding = 13, scalar) buffer PackedViewArray { PackedView packed_view_array[]; };
 layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
 
 layout(set = 3, binding = 20, scalar) buffer ObjectLightArray { ObjectLight object_light_array[]; };
@@ -29,6 +30,7 @@ void main() {
     object_irradiance_array[0] = object_irradiance_array[1];
     object_lights_array[0] = object_lights_array[1];
     view_array[0] = view_array[1];
+    packed_view_array[0] = packed_view_array[1];
     draw_array[0] = draw_array[1];
     material_array[0] = material_array[1];
     light_array[0] = light_array[1];

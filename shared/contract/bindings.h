@@ -25,6 +25,7 @@ CONTRACT_CONST(uint, BINDING_LIST_COUNTS, 8);   // buffer uint[lists]
 CONTRACT_CONST(uint, BINDING_ALBEDO, 9);        // buffer vec2[], see albedo.h
 CONTRACT_CONST(uint, BINDING_OBJECT_LIST, 10);  // buffer ObjectLight[]
 CONTRACT_CONST(uint, BINDING_OBJECTS, 11);      // buffer ObjectLights[draws]
+CONTRACT_CONST(uint, BINDING_VIEW_TEXELS, 12);  // texels of PackedView
 
 CONTRACT_CONST(uint, BINDING_MATERIAL, 8);   // of SET_MATERIAL: uniform Material, after the slots
 

@@ -60,7 +60,8 @@ FEATURES(DIPTYCH_FEATURE_ID)
 CONTRACT_CONST(uint, FEATURE_COUNT, 43);
 
 CONTRACT_CONST(uint, VIEW_UNIFORM, 0);  // the uniform buffers View and LightGrid
-CONTRACT_CONST(uint, VIEW_FLAT, 1);     // flat inputs, handed on by the vertex shader
+CONTRACT_CONST(uint, VIEW_FLAT, 1);     // flat inputs, handed on by the vertex shader: texels of PackedView
+CONTRACT_CONST(uint, VIEW_TEXELS, 2);   // texels of PackedView
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

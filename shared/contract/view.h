@@ -32,6 +32,25 @@ struct View {
     vec3 ambient;              // W/(sr m^2), from everywhere
 };
 
+// What a fragment reads of View and LightGrid, as five texels of four. Perspective only: the rays of an orthographic
+// camera are not in it.
+struct PackedView {
+    vec3 direction_0;
+    float depth_numerator_0;
+    vec3 direction_x;
+    float depth_numerator_z;
+    vec3 direction_y;
+    float depth_denominator_0;
+    float depth_denominator_z;
+    float slice_offset;
+    uint shifts;  // of a slice, and from bit 16 of a tile
+    uint tiles;   // across, and from bit 16 down
+    uint slices;
+    uint directional_light_count;
+    uint point_light_count;
+    uint spot_light_count;
+};
+
 CONTRACT_END
 
 #endif

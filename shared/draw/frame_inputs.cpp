@@ -21,7 +21,8 @@ constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
 // In the order of BINDING_* of SET_FRAME.
 constexpr std::array frameTypes{
     uniform, uniform, texels,  texels,  texels,  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    texels,  texels,  storage, storage, storage, storage};
+    texels,  texels,  storage, storage, storage, storage,
+    texels};
 
 constexpr std::array carriedTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
@@ -32,6 +33,23 @@ VkFormat formatFor(const DebugMode& mode) {
     return mode.width == 1   ? VK_FORMAT_R32_SFLOAT
            : mode.width == 2 ? VK_FORMAT_R32G32_SFLOAT
                              : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+gpu::PackedView packedView(const gpu::View& view, const gpu::LightGrid& grid) {
+    return {view.direction_0,
+            view.depth_numerator.x,
+            view.direction_x,
+            view.depth_numerator.y,
+            view.direction_y,
+            view.depth_denominator.x,
+            view.depth_denominator.y,
+            grid.slice_offset,
+            grid.slice_shift | (grid.tile_shift << 16),
+            grid.tiles.x | (grid.tiles.y << 16),
+            grid.slices,
+            view.directional_light_count,
+            view.point_light_count,
+            view.spot_light_count};
 }
 
 }  // namespace
@@ -90,6 +108,10 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.ambient = lights.ambient;
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    const gpu::PackedView packed = packedView(gpuView, lists_.grid());
+    packed_view_ = makeBuffer<gpu::PackedView>(device, uploader, "packed view", std::span(&packed, 1),
+                                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    packed_view_texels_ = makeTexelView(device, "packed view", packed_view_, VK_FORMAT_R32G32B32A32_UINT);
     draws_ =
         makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,
@@ -112,6 +134,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     uploader.flush();
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
+    sets_.texels(0, gpu::BINDING_VIEW_TEXELS, packed_view_texels_);
     sets_.texels(0, gpu::BINDING_LIGHTS, lights_view_);
     sets_.texels(0, gpu::BINDING_SPOT_CONES, spot_cones_view_);
     sets_.texels(0, gpu::BINDING_AREA_LIGHTS, area_lights_view_);

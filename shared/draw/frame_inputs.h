@@ -57,13 +57,13 @@ public:
     LightLists& lists() { return lists_; }
     const ObjectLightBuffers& objects() const { return objects_; }
     std::uint64_t bytes() const {
-        return view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + area_lights_.size() +
+        return view_.size() + packed_view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + area_lights_.size() +
                ltc_.bytes() + albedo_.size() + lists_.bytes() + objects_.bytes();
     }
 
 private:
-    GpuBuffer view_, draws_, lights_, spot_cones_, area_lights_, albedo_;
-    OwnedBufferView lights_view_, spot_cones_view_, area_lights_view_;
+    GpuBuffer view_, packed_view_, draws_, lights_, spot_cones_, area_lights_, albedo_;
+    OwnedBufferView packed_view_texels_, lights_view_, spot_cones_view_, area_lights_view_;
     LtcImage ltc_;
     LightLists lists_;
     ObjectLightBuffers objects_;
