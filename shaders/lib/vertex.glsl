@@ -5,22 +5,15 @@
 #define VERTEX_GLSL
 
 #include "shaders/lib/draw.glsl"
-#include "shaders/lib/view.glsl"
 
 invariant gl_Position;
 
 layout(location = 0) in vec3 position;
 // Of the instance: struct Draw.
-layout(location = 6) in mat4x3 world_from_object;
+layout(location = 5) in mat4 clip_from_object;
 
-// World axes, camera as origin, m.
-vec3 worldFromVertex() {
-    precise vec3 world = world_from_object * vec4(position, 1.0);
-    return world;
-}
-
-vec4 clipFromVertex(vec3 world) {
-    precise vec4 clip = view.clip_from_world * vec4(world, 1.0);
+vec4 clipFromVertex() {
+    precise vec4 clip = clip_from_object * vec4(position, 1.0);
     return clip;
 }
 

@@ -4,4 +4,4 @@
 
 #include "shaders/lib/vertex.glsl"
 
-void main() { gl_Position = clipFromVertex(worldFromVertex()); }
+void main() { gl_Position = clipFromVertex(); }

@@ -9,17 +9,18 @@
 
 // INPUTS: 0 to 3
 layout(location = 1) in vec3 normal;
-layout(location = 10) in mat3 normal_from_object;
+layout(location = 9) in vec3 normal_from_object_x;
+layout(location = 10) in vec3 normal_from_object_y;
+layout(location = 11) in vec4 normal_from_object_z;  // w: handedness
 #if INPUTS >= 1
-layout(location = 3) in vec2 texcoord0;
+layout(location = 3) in vec4 texcoords;  // first and second set
 #endif
 #if INPUTS >= 2
 layout(location = 2) in vec4 tangent;
-layout(location = 13) in float handedness;
+layout(location = 12) in mat4x3 world_from_object;
 #endif
 #if INPUTS >= 3
-layout(location = 4) in vec2 texcoord1;
-layout(location = 5) in vec4 color;
+layout(location = 4) in vec4 color;
 #endif
 
 vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
@@ -27,7 +28,7 @@ vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)
 #if INPUTS >= 3
 // KHR_texture_transform and the choice of the UV set.
 vec2 slotTexcoord(uint slot) {
-    vec2 uv = bounded((material.second_texcoord & (1u << slot)) != 0 ? texcoord1 : texcoord0);
+    vec2 uv = bounded((material.second_texcoord & (1u << slot)) != 0 ? texcoords.zw : texcoords.xy);
     TextureTransform t = material.transforms[slot];
     return bounded(vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0))));
 }
@@ -40,14 +41,15 @@ vec3 unitOrZero(vec3 v) {
 }
 
 void main() {
-    vec3 world = worldFromVertex();
-    gl_Position = clipFromVertex(world);
-    v_normal = unitOrZero(normal_from_object * normal);
+    gl_Position = clipFromVertex();
+    v_normal = unitOrZero(normal_from_object_x * normal.x + normal_from_object_y * normal.y +
+                          normal_from_object_z.xyz * normal.z);
 #if INPUTS >= 1
-    v_texcoord = bounded(texcoord0);
+    v_texcoord = bounded(texcoords.xy);
 #endif
 #if INPUTS >= 2
-    v_tangent = vec4(unitOrZero(mat3(world_from_object) * tangent.xyz), tangent.w * handedness);
+    precise vec3 world = world_from_object * vec4(position, 1.0);
+    v_tangent = vec4(unitOrZero(mat3(world_from_object) * tangent.xyz), tangent.w * normal_from_object_z.w);
     v_world = world;
 #endif
 #if INPUTS >= 3

@@ -18,9 +18,10 @@ struct VertexAttributes {
 // One draw of one primitive: attributes of its instance, at the locations after a vertex's. lavapipe fetches those once
 // for all vertices, and what is in a buffer for each of them.
 struct Draw {
+    mat4 clip_from_object;     // the product in double, rounded once
     mat4x3 world_from_object;  // world axes, camera as origin, m: subtracted in double
     mat3 normal_from_object;   // inverse transpose of the linear part, scaled to keep lengths near 1
-    float handedness;          // -1 where the transform mirrors, else 1
+    float handedness;          // -1 where the transform mirrors, else 1; read with the last column before it
 };
 
 // Push constants of a draw.

@@ -24,11 +24,11 @@ glm::dmat3 normalFromObject(const glm::dmat3& m) {
     return cofactors * ((glm::determinant(m) < 0 ? -1.0 : 1.0) / length);
 }
 
-gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye) {
+gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye, const glm::dmat4& clipFromWorld) {
     const glm::dmat3 linear(worldFromObject);
     glm::dmat4 fromCamera = worldFromObject;
     fromCamera[3] -= glm::dvec4(eye, 0.0);
-    return {glm::mat4x3(fromCamera), glm::mat3(normalFromObject(linear)),
+    return {glm::mat4(clipFromWorld * fromCamera), glm::mat4x3(fromCamera), glm::mat3(normalFromObject(linear)),
             glm::determinant(linear) < 0 ? -1.0f : 1.0f};
 }
 
@@ -88,7 +88,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
             flattens(instance.world_from_object))
             item.variant.set(gpu::FEATURE_vanishing_normals);
-        list.draws.push_back(gpuDraw(instance.world_from_object, eye));
+        list.draws.push_back(gpuDraw(instance.world_from_object, eye, clipFromWorld));
         item.mirrored = list.draws.back().handedness < 0;
         list.items.push_back(item);
     }

@@ -130,29 +130,34 @@ OwnedPipeline Pipelines::make(const PipelineKey& key) const {
         VkVertexInputBindingDescription{0, sizeof(gpu::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
         VkVertexInputBindingDescription{perDraw, sizeof(Draw), VK_VERTEX_INPUT_RATE_INSTANCE},
         VkVertexInputBindingDescription{1, sizeof(Attributes), VK_VERTEX_INPUT_RATE_VERTEX}};
-    constexpr std::uint32_t column = sizeof(gpu::vec3), world = offsetof(Draw, world_from_object),
-                            normal = offsetof(Draw, normal_from_object);
+    constexpr std::uint32_t clip = offsetof(Draw, clip_from_object), world = offsetof(Draw, world_from_object),
+                            normal = offsetof(Draw, normal_from_object), column3 = sizeof(gpu::vec3),
+                            column4 = sizeof(gpu::vec4);
+    static_assert(offsetof(Draw, handedness) == normal + 3 * column3);
+    static_assert(offsetof(Attributes, texcoord1) == offsetof(Attributes, texcoord0) + sizeof(gpu::vec2));
     // What a module does not declare is not bound: with the least set of inputs that reads it, -1 always.
     struct Attribute {
         int inputs;
         VkVertexInputAttributeDescription description;
     };
-    constexpr VkFormat float2 = VK_FORMAT_R32G32_SFLOAT, float3 = VK_FORMAT_R32G32B32_SFLOAT,
-                       float4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+    constexpr VkFormat float3 = VK_FORMAT_R32G32B32_SFLOAT, float4 = VK_FORMAT_R32G32B32A32_SFLOAT;
     constexpr std::array all{Attribute{-1, {0, 0, float3, 0}},
                              Attribute{0, {1, 1, float3, offsetof(Attributes, normal)}},
                              Attribute{2, {2, 1, float4, offsetof(Attributes, tangent)}},
-                             Attribute{1, {3, 1, float2, offsetof(Attributes, texcoord0)}},
-                             Attribute{3, {4, 1, float2, offsetof(Attributes, texcoord1)}},
-                             Attribute{3, {5, 1, float4, offsetof(Attributes, color)}},
-                             Attribute{-1, {6, perDraw, float3, world}},
-                             Attribute{-1, {7, perDraw, float3, world + column}},
-                             Attribute{-1, {8, perDraw, float3, world + 2 * column}},
-                             Attribute{-1, {9, perDraw, float3, world + 3 * column}},
-                             Attribute{0, {10, perDraw, float3, normal}},
-                             Attribute{0, {11, perDraw, float3, normal + column}},
-                             Attribute{0, {12, perDraw, float3, normal + 2 * column}},
-                             Attribute{2, {13, perDraw, VK_FORMAT_R32_SFLOAT, offsetof(Draw, handedness)}}};
+                             Attribute{1, {3, 1, float4, offsetof(Attributes, texcoord0)}},
+                             Attribute{3, {4, 1, float4, offsetof(Attributes, color)}},
+                             Attribute{-1, {5, perDraw, float4, clip}},
+                             Attribute{-1, {6, perDraw, float4, clip + column4}},
+                             Attribute{-1, {7, perDraw, float4, clip + 2 * column4}},
+                             Attribute{-1, {8, perDraw, float4, clip + 3 * column4}},
+                             Attribute{0, {9, perDraw, float3, normal}},
+                             Attribute{0, {10, perDraw, float3, normal + column3}},
+                             Attribute{0, {11, perDraw, float4, normal + 2 * column3}},
+                             Attribute{2, {12, perDraw, float3, world}},
+                             Attribute{2, {13, perDraw, float3, world + column3}},
+                             Attribute{2, {14, perDraw, float3, world + 2 * column3}},
+                             Attribute{2, {15, perDraw, float3, world + 3 * column3}}};
+    static_assert(all.size() <= 16);  // what every device has
     const bool none = key.input == VertexInput::none;
     const int inputs = key.input == VertexInput::positions ? -1 : inputsOf(key.variant);
     std::vector<VkVertexInputAttributeDescription> attributes;
