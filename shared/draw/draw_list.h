@@ -16,6 +16,8 @@ struct DrawItem {
     std::uint32_t draw = 0;  // into DrawList::draws
     Variant variant;         // the material's features and the primitive's
     bool mirrored = false;   // the transform turns front faces round
+    bool masked = false;     // alpha mask
+    int distance = 0;        // of the farthest corner: only its order counts
 };
 
 struct DrawList {
@@ -24,8 +26,10 @@ struct DrawList {
     std::uint32_t culled = 0;  // instances outside the view
 };
 
-// Opaque before masked, then by variant and material, then in the scene's order. An instance is left out
-// only where its bounding box is wholly beyond one plane of the view.
+// Opaque before masked, then from near to far by the farthest corner of the bounding box, then by variant and
+// material, then in the scene's order: what encloses others, a room, a ground, comes after them, and most of what is
+// hidden fails its depth test before it is shaded. An instance is left out only where its bounding box is wholly beyond
+// one plane of the view.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view);
 
