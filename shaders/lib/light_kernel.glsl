@@ -8,7 +8,7 @@
 layout(set = SET_LISTS, binding = BINDING_BOUNDS, scalar) readonly buffer Bounds { LightBound light_bounds[]; };
 layout(set = SET_LISTS, binding = BINDING_MASKS, scalar) buffer Masks { uint masks[]; };
 layout(set = SET_LISTS, binding = BINDING_COUNTS, scalar) buffer Counts { LightListCount counts[]; };
-layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec2 tile_depths[]; };
+layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec3 tile_depths[]; };
 layout(set = SET_LISTS, binding = BINDING_OVERFLOW, scalar) buffer Overflow { uint overflowed_lists; };
 
 layout(set = SET_LISTS, binding = BINDING_HEADS, scalar) writeonly buffer Heads { LightListHead heads[]; };
@@ -44,8 +44,11 @@ uint maskWord(uint word, uint list) { return word * grid.lists + list; }
 
 // Depths of a cell's list of opaques; tiled: what the picture's depths say.
 vec2 cellDepths(uint tile, uint slice) {
-    return feature_light_lists == LISTS_TILED ? tile_depths[tile] : sliceDepths(slice);
+    return feature_light_lists == LISTS_TILED ? tile_depths[tile].xy : sliceDepths(slice);
 }
+
+// Depths of a tile's list of transparents: down to the camera.
+vec2 transparentDepths(uint tile) { return vec2(0.0, tile_depths[tile].z); }
 
 // The bits of `word` that are lights below number `end`.
 uint bitsBelow(uint word, uint end) {

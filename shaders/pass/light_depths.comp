@@ -2,7 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The least and the largest view depth in each tile, over all samples of all its pixels; a workgroup a tile.
+// The least and the largest view depth in each tile, over all samples of all its pixels, and how far transparents may
+// be seen in it: without end where a sample shows the background. A workgroup a tile.
 // MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
@@ -19,15 +20,16 @@ int samples() { return 1; }
 ivec2 size() { return textureSize(depth, 0); }
 #endif
 
-shared uint least, largest;  // bits of positive floats, which order as they do
+shared uint least, largest, farthest;  // bits of positive floats, which order as they do
 
 void main() {
     if (gl_LocalInvocationIndex == 0u) {
         least = floatBitsToUint(MAX_BOUND_RADIUS);
         largest = 0u;
+        farthest = 0u;
     }
     barrier();
-    float low = MAX_BOUND_RADIUS, high = 0.0;
+    float low = MAX_BOUND_RADIUS, high = 0.0, end = 0.0;
     uint side = 1u << grid.tile_shift;
     // A tile of more pixels than threads: every LIGHT_TILE-th of them, both ways.
     uint steps = side / LIGHT_TILE;
@@ -40,11 +42,14 @@ void main() {
             float d = viewDepth(z);
             low = z > 0.0 ? min(low, d) : low;  // 0: nothing was drawn there
             high = z > 0.0 ? max(high, d) : high;
+            end = inside && z <= 0.0 ? MAX_BOUND_RADIUS : end;
         }
     }
     atomicMin(least, floatBitsToUint(max(low, 0.0)));
     atomicMax(largest, floatBitsToUint(max(high, 0.0)));
+    atomicMax(farthest, floatBitsToUint(max(high, end)));
     barrier();
     if (gl_LocalInvocationIndex == 0u)
-        tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] = vec2(uintBitsToFloat(least), uintBitsToFloat(largest));
+        tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] =
+            vec3(uintBitsToFloat(least), uintBitsToFloat(largest), uintBitsToFloat(farthest));
 }

@@ -17,7 +17,7 @@ void main() {
     vec2 depths = cellDepths(number, slice);
     CellBounds opaque = cellBounds(tile, depths);
     bool tiled = feature_light_lists == LISTS_TILED;
-    CellBounds transparent = cellBounds(tile, depths.x <= depths.y ? vec2(0.0, depths.y) : depths);
+    CellBounds transparent = cellBounds(tile, tiled ? transparentDepths(number) : depths);
     for (uint first = 0u; first < grid.local_lights; first += LIST_GROUP) {
         if (thread < LIST_GROUP / 32u) {
             near_bits[thread] = 0u;
@@ -27,8 +27,9 @@ void main() {
         uint light = first + thread;
         if (light < grid.local_lights) {
             LightBound bound = light_bounds[light];
-            if (reaches(bound, opaque)) atomicOr(near_bits[thread / 32u], 1u << (thread % 32u));
-            if (tiled && reaches(bound, transparent)) atomicOr(far_bits[thread / 32u], 1u << (thread % 32u));
+            bool around = !tiled || reaches(bound, transparent);
+            if (around && reaches(bound, opaque)) atomicOr(near_bits[thread / 32u], 1u << (thread % 32u));
+            if (tiled && around) atomicOr(far_bits[thread / 32u], 1u << (thread % 32u));
         }
         barrier();
         uint word = first / 32u + thread;

@@ -77,7 +77,7 @@ CONTRACT_CONST(float, MAX_BOUND_RADIUS, 1e15f);   // m; its square stays finite
 CONTRACT_CONST(uint, BINDING_BOUNDS, 0);        // buffer LightBound[local_lights]
 CONTRACT_CONST(uint, BINDING_MASKS, 1);         // buffer uint[words][lists]: bit i of word w is light 32 w + i
 CONTRACT_CONST(uint, BINDING_COUNTS, 2);        // buffer LightListCount[lists][segments]
-CONTRACT_CONST(uint, BINDING_TILE_DEPTHS, 3);   // buffer vec2[tiles]: least and largest view depth, m
+CONTRACT_CONST(uint, BINDING_TILE_DEPTHS, 3);   // buffer vec3[tiles]: least, largest and visible view depth, m
 CONTRACT_CONST(uint, BINDING_OVERFLOW, 4);      // buffer uint: lists that found no room
 CONTRACT_CONST(uint, BINDING_LISTS_DEPTH, 5);   // texture: the picture's depth
 CONTRACT_CONST(uint, BINDING_HEADS, 6);         // buffer LightListHead[lists]

@@ -102,7 +102,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.lists, 4);
     counts_ =
         buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
-    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec2));
+    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec3));
     overflow_ =
         GpuBuffer(device, "overflow", 4,
                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
