@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The tests that keep lights out of cells, against exact intersections in double precision: never a false no,
 // and how many false yeses.
+#include "shared/contract/features.h"
 #include "shared/light/light_grid.h"
+#include "tests/probe/cells.h"
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -19,93 +21,6 @@
 
 namespace diptych {
 namespace {
-
-// A frustum's cell in view axes: sides over depth, and depths.
-struct Cell {
-    glm::dvec2 x, y, z;
-
-    std::array<glm::dvec3, 8> corners() const {
-        std::array<glm::dvec3, 8> result;
-        for (int i = 0; i < 8; ++i) {
-            const double depth = z[(i >> 2) & 1];
-            result[static_cast<std::size_t>(i)] = {x[i & 1] * depth, y[(i >> 1) & 1] * depth, depth};
-        }
-        return result;
-    }
-    bool holds(const glm::dvec3& p) const {
-        return p.z >= z.x && p.z <= z.y && p.x >= x.x * p.z && p.x <= x.y * p.z && p.y >= y.x * p.z &&
-               p.y <= y.y * p.z;
-    }
-};
-
-glm::dvec3 nearestOnTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
-                             const glm::dvec3& c) {
-    // Ericson 2004, "Real-Time Collision Detection", 5.1.5: by the regions of the triangle's plane.
-    const glm::dvec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-    const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap), d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp),
-                 d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-    if (d1 <= 0 && d2 <= 0) return a;
-    if (d3 >= 0 && d4 <= d3) return b;
-    if (d6 >= 0 && d5 <= d6) return c;
-    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    return a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc));
-}
-
-glm::dvec3 nearestInCell(const glm::dvec3& p, const Cell& cell) {
-    if (cell.holds(p)) return p;
-    const auto c = cell.corners();
-    constexpr std::size_t faces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                          {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
-    glm::dvec3 best = c[0];
-    for (const auto& face : faces) {
-        const glm::dvec3 q = nearestOnTriangle(p, c[face[0]], c[face[1]], c[face[2]]);
-        if (glm::distance(p, q) < glm::distance(p, best)) best = q;
-    }
-    return best;
-}
-
-// A ball, or the sector of one: what a point light or a spot lights.
-struct Felt {
-    glm::dvec3 apex, axis;
-    double range = 1, half = glm::pi<double>();  // half: the cone's half angle, rad
-
-    glm::dvec3 nearest(const glm::dvec3& p) const {
-        const glm::dvec3 v = p - apex;
-        const double length = glm::length(v);
-        if (length == 0) return apex;
-        const double along = glm::dot(v, axis);
-        if (half < 3 && along < length * std::cos(half)) {
-            // On the cone's side, or the apex.
-            glm::dvec3 across = v - axis * along;
-            across = glm::length(across) > 0 ? glm::normalize(across) : glm::dvec3(0);
-            const glm::dvec3 side = axis * std::cos(half) + across * std::sin(half);
-            return apex + side * std::clamp(glm::dot(v, side), 0.0, range);
-        }
-        return length > range ? apex + v * (range / length) : p;
-    }
-};
-
-// The distance between the two convex sets, by alternating projections (Cheney and Goldstein 1959, "Proximity
-// maps for convex sets"), from several starts; negative where it has not settled.
-double gap(const Felt& felt, const Cell& cell) {
-    const auto corners = cell.corners();
-    double least = std::numeric_limits<double>::infinity();
-    const glm::dvec3 middle = (corners[0] + corners[7]) * 0.5;
-    glm::dvec3 p = nearestInCell(felt.apex, cell);
-    if (glm::distance(p, felt.nearest(p)) > glm::distance(middle, felt.nearest(middle))) p = middle;
-    double before = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 20000; ++i) {
-        const glm::dvec3 q = felt.nearest(p);
-        p = nearestInCell(q, cell);
-        least = glm::distance(p, q);
-        if (least < 1e-13 || (i % 50 == 49 && before - least < 1e-12 * felt.range)) return least;
-        if (i % 50 == 49) before = least;
-    }
-    return -1;
-}
 
 struct Case {
     Felt felt;
@@ -293,6 +208,144 @@ TEST(LightCull, WhatIsOnePerCentTooSmallIsCaught) {
     EXPECT_GT(tally(probes, false, Shrunk::depths, 21).false_no, 0) << "a slice's depths";
     EXPECT_GT(tally(probes, true, Shrunk::radius, 22).false_no, 0) << "a spot's radius";
     EXPECT_GT(tally(probes, true, Shrunk::cone, 22).false_no, 0) << "a spot's cone";
+}
+
+// ---- the scatter kernel's rectangles -----------------------------------------------------------------
+
+// A picture's grid, a ball and a slab of depth, of which the rectangle of tiles is asked.
+struct RectCase {
+    gpu::LightGrid grid;
+    glm::dvec3 centre;
+    double radius;          // what is lit
+    gpu::LightBound bound;  // what the kernel is given
+    SliceDepths slab;
+};
+
+// Pictures of any shape, from one pixel on, with the grids that the program makes for them.
+std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
+    std::vector<RectCase> cases;
+    for (int picture = 0; picture < 120; ++picture) {
+        View view;
+        view.width = 1 + static_cast<int>(400 * unit(random) * unit(random));
+        view.height = 1 + static_cast<int>(300 * unit(random) * unit(random));
+        view.camera.orthographic = orthographic;
+        view.camera.yfov = glm::radians(5 + 130 * unit(random));
+        view.camera.ymag = 0.5 + 5 * unit(random);
+        view.camera.far = orthographic ? 50 : std::numeric_limits<double>::infinity();
+        const double half = orthographic ? view.camera.ymag : std::tan(view.camera.yfov / 2);
+        const double aspect = static_cast<double>(view.width) / view.height;
+        std::vector<Light> lights(40);
+        for (Light& light : lights) {
+            // In the picture and around it, a few behind the camera, some around the camera.
+            const double depth = 30 * unit(random) * unit(random) - 1,
+                         scale = orthographic ? 1 : std::abs(depth);
+            light.position = {1.3 * half * aspect * scale * both(random), 1.3 * half * scale * both(random),
+                              -depth};
+            light.range = static_cast<float>((0.05 + std::abs(depth)) * std::pow(10.0, 2 * unit(random) - 2));
+        }
+        const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
+        const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
+        const bool tiled = picture % 3 == 0;
+        const gpu::LightGrid grid = makeLightGrid(tiled ? gpu::LISTS_TILED : gpu::LISTS_CLUSTERED, view, gpu,
+                                                  bounds, std::uint64_t{128} << 20);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            const glm::dvec3 at(gpu.lights[i].position);
+            RectCase c{grid, {at.x, -at.y, -at.z}, static_cast<double>(lights[i].range), bounds[i], {}};
+            // One of the slices that it reaches, if any.
+            std::vector<SliceDepths> slabs;
+            for (gpu::uint s = 0; s < grid.slices; ++s) {
+                const SliceDepths slab = tiled ? SliceDepths{0, gpu::MAX_BOUND_RADIUS} : sliceDepths(grid, s);
+                if (c.centre.z + c.radius >= double{slab.near} && c.centre.z - c.radius <= double{slab.far})
+                    slabs.push_back(slab);
+            }
+            if (slabs.empty()) continue;
+            c.slab = slabs[random() % slabs.size()];
+            cases.push_back(c);
+        }
+    }
+    return cases;
+}
+
+enum class RectShrunk { nothing, radius, pixel, last_column, last_row };
+
+// What of the rectangles is wrong, tile by tile.
+struct RectTally {
+    std::size_t felt = 0, missed = 0, walked = 0, tiles = 0;
+};
+
+double distanceTo(const RectCase& c, gpu::uint x, gpu::uint y, bool orthographic) {
+    const double side = std::ldexp(double{c.grid.pixel}, static_cast<int>(c.grid.tile_shift));
+    const glm::dvec2 middle = glm::dvec2(c.grid.centre) * double{c.grid.pixel};
+    const glm::dvec2 xs = glm::dvec2(x, x + 1) * side - middle.x, ys = glm::dvec2(y, y + 1) * side - middle.y;
+    // Beyond the ball nothing matters: the last slice has no end.
+    const glm::dvec2 zs(c.slab.near, std::min(double{c.slab.far}, c.centre.z + c.radius + 1));
+    if (!orthographic) return glm::distance(c.centre, nearestInCell(c.centre, {xs, ys, zs}));
+    const glm::dvec3 low(xs.x, ys.x, zs.x), high(xs.y, ys.y, zs.y);
+    return glm::distance(c.centre, glm::clamp(c.centre, low, high));
+}
+
+RectTally rectangles(Probes& probes, bool orthographic, RectShrunk shrunk) {
+    const std::vector<RectCase> cases = rectCases(orthographic, orthographic ? 62 : 61);
+    std::vector<float> input;
+    for (const RectCase& c : cases) {
+        const gpu::LightBound& b = c.bound;
+        const float radius = shrunk == RectShrunk::radius ? 0.99f * b.radius : b.radius;
+        const float pixel = shrunk == RectShrunk::pixel ? 1.01f * c.grid.pixel : c.grid.pixel;
+        const float side = static_cast<float>(1u << c.grid.tile_shift);
+        for (const float v : {b.centre.x, b.centre.y, b.centre.z, radius, c.slab.near, c.slab.far,
+                              c.grid.centre.x, c.grid.centre.y, pixel, side,
+                              static_cast<float>(c.grid.tiles.x), static_cast<float>(c.grid.tiles.y)})
+            input.push_back(v);
+    }
+    const std::vector<float> out =
+        probes.run("light_rect", input, 12, 4, {gpu::FEATURE_orthographic, orthographic ? 1u : 0u});
+    RectTally tally;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const auto at = [&](std::size_t k) { return static_cast<gpu::uint>(out[4 * i + k]); };
+        gpu::uint columns = at(1), rows = at(3);
+        if (shrunk == RectShrunk::last_column && columns > 0) --columns;
+        if (shrunk == RectShrunk::last_row && rows > 0) --rows;
+        const gpu::uvec2 tiles = cases[i].grid.tiles;
+        EXPECT_LE(at(1), tiles.x);
+        EXPECT_LE(at(3), tiles.y);
+        for (gpu::uint y = 0; y < tiles.y; ++y)
+            for (gpu::uint x = 0; x < tiles.x; ++x) {
+                const bool walked = x >= at(0) && x < columns && y >= at(2) && y < rows;
+                const bool felt = distanceTo(cases[i], x, y, orthographic) <= cases[i].radius;
+                tally.felt += felt;
+                tally.missed += felt && !walked;
+                tally.walked += walked;
+                ++tally.tiles;
+            }
+    }
+    return tally;
+}
+
+TEST(LightRect, NoTileThatALightReachesIsLeftOut) {
+    Probes probes;
+    for (const bool orthographic : {false, true}) {
+        const RectTally t = rectangles(probes, orthographic, RectShrunk::nothing);
+        std::printf("%s rectangles: of %zu tiles %zu are reached, %zu walked\n",
+                    orthographic ? "orthographic" : "perspective", t.tiles, t.felt, t.walked);
+        EXPECT_EQ(t.missed, 0u);
+        EXPECT_GT(t.felt, 5000u);
+        EXPECT_LT(t.walked, t.tiles / 2) << "a rectangle of all tiles would pass the rest";
+        // A disc fills pi/4 of its square: at most 4/pi as many, of lights that cover many tiles.
+        EXPECT_LT(static_cast<double>(t.walked), 4 / glm::pi<double>() * static_cast<double>(t.felt));
+    }
+}
+
+TEST(LightRect, WhatIsTooSmallIsCaught) {
+    Probes probes;
+    for (const bool orthographic : {false, true}) {
+        EXPECT_GT(rectangles(probes, orthographic, RectShrunk::radius).missed, 0u) << "a radius, by 1 %";
+        EXPECT_GT(rectangles(probes, orthographic, RectShrunk::pixel).missed, 0u)
+            << "a picture's scale, by 1 %";
+        EXPECT_GT(rectangles(probes, orthographic, RectShrunk::last_column).missed, 0u);
+        EXPECT_GT(rectangles(probes, orthographic, RectShrunk::last_row).missed, 0u);
+    }
 }
 
 }  // namespace

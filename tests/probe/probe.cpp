@@ -17,8 +17,10 @@ namespace {
 
 constexpr std::uint32_t groupSize = 64;  // local_size_x of every probe
 
-OwnedShaderModule loadModule(Device& device, const std::string& shader) {
-    const std::filesystem::path file = std::filesystem::path(DIPTYCH_PROBE_DIR) / (shader + ".comp.spv");
+}  // namespace
+
+OwnedShaderModule probeModule(Device& device, const std::string& shader) {
+    const std::filesystem::path file = std::filesystem::path(DIPTYCH_PROBE_DIR) / (shader + ".spv");
     std::vector<std::uint32_t> words(std::filesystem::file_size(file) / 4);
     std::ifstream(file, std::ios::binary)
         .read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
@@ -32,8 +34,6 @@ OwnedShaderModule loadModule(Device& device, const std::string& shader) {
     return {device.handle(), module};
 }
 
-}  // namespace
-
 Probes::Probes() : device_(std::make_unique<Device>(DeviceOptions{})) {}
 Probes::~Probes() = default;
 Device& Probes::device() {
@@ -46,7 +46,7 @@ std::vector<float> Probes::run(const std::string& shader, const std::vector<floa
     Device& device = *device_;
     const std::size_t rows = input.size() / inWidth;
     const auto count = static_cast<std::uint32_t>(rows);
-    const OwnedShaderModule module = loadModule(device, shader);
+    const OwnedShaderModule module = probeModule(device, shader + ".comp");
 
     constexpr std::array types{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     const OwnedDescriptorSetLayout layout = makeSetLayout(device, types);

@@ -3,6 +3,8 @@
 // shaders/lib and maps `in_width` floats to `out_width` floats, once for each row of the input.
 #pragma once
 
+#include "shared/vulkan/owned.h"
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,6 +14,9 @@
 namespace diptych {
 
 class Device;
+
+// A shader of tests/probe/shaders, by file name.
+OwnedShaderModule probeModule(Device& device, const std::string& shader);
 
 class Probes {
 public:

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+// The depth bounds of tiles by the shipped kernel, from one sample a pixel and from four: over all samples,
+// as what a tile's lists are made of must not depend on which sample is looked at.
+#include "tests/probe/kernel_frame.h"
+#include "tests/probe/probe.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace diptych {
+namespace {
+
+Device& device() {
+    static Device theDevice{DeviceOptions{}};
+    return theDevice;
+}
+
+// Reversed depths of a picture, `samples` a pixel side by side; 0: background.
+struct Picture {
+    int width, height, samples;
+    std::vector<float> z = std::vector<float>(static_cast<std::size_t>(width * height * samples));
+    float& at(int x, int y, int sample) {
+        return z[static_cast<std::size_t>((y * width + x) * samples + sample)];
+    }
+    float at(int x, int y, int sample) const {
+        return z[static_cast<std::size_t>((y * width + x) * samples + sample)];
+    }
+};
+
+OwnedImageView viewOf(VkImage image) {
+    const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                     .pNext = nullptr,
+                                     .flags = 0,
+                                     .image = image,
+                                     .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                     .format = VK_FORMAT_D32_SFLOAT,
+                                     .components = {},
+                                     .subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1}};
+    VkImageView view = VK_NULL_HANDLE;
+    check(vkCreateImageView(device().handle(), &info, nullptr, &view), "vkCreateImageView");
+    return {device().handle(), view};
+}
+
+// A depth image of any sample count.
+struct DepthImage {
+    Allocation memory;
+    OwnedImage image;
+    OwnedImageView view;
+
+    explicit DepthImage(const Picture& picture) {
+        const VkImageCreateInfo info{
+            .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+            .pNext = nullptr,
+            .flags = 0,
+            .imageType = VK_IMAGE_TYPE_2D,
+            .format = VK_FORMAT_D32_SFLOAT,
+            .extent = {static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height),
+                       1},
+            .mipLevels = 1,
+            .arrayLayers = 1,
+            .samples = static_cast<VkSampleCountFlagBits>(picture.samples),
+            .tiling = VK_IMAGE_TILING_OPTIMAL,
+            .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+            .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+            .queueFamilyIndexCount = 0,
+            .pQueueFamilyIndices = nullptr,
+            .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+        VkImage handle = VK_NULL_HANDLE;
+        check(vkCreateImage(device().handle(), &info, nullptr, &handle), "vkCreateImage");
+        image = OwnedImage(device().handle(), handle);
+        VkMemoryRequirements needs;
+        vkGetImageMemoryRequirements(device().handle(), handle, &needs);
+        memory = device().memory().allocate(needs, MemoryUse::device, true);
+        check(vkBindImageMemory(device().handle(), handle, memory.memory(), memory.offset()),
+              "vkBindImageMemory");
+        view = viewOf(handle);
+    }
+};
+
+// Draws the whole picture to the samples of `mask` alone.
+OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask mask) {
+    const OwnedShaderModule modules[] = {probeModule(device(), "whole_picture.vert"),
+                                         probeModule(device(), "sample_depths.frag")};
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stages[i].stage = i == 0 ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
+        stages[i].module = modules[i];
+        stages[i].pName = "main";
+    }
+    VkPipelineVertexInputStateCreateInfo input{};
+    input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{};
+    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    viewport.viewportCount = viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{};
+    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.lineWidth = 1;
+    VkPipelineMultisampleStateCreateInfo multisample{};
+    multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(samples);
+    multisample.pSampleMask = &mask;
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
+    depth.depthCompareOp = VK_COMPARE_OP_ALWAYS;
+    VkPipelineColorBlendStateCreateInfo blend{};
+    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    constexpr std::array dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineDynamicStateCreateInfo dynamics{};
+    dynamics.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+    dynamics.dynamicStateCount = dynamic.size();
+    dynamics.pDynamicStates = dynamic.data();
+    VkPipelineRenderingCreateInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    rendering.depthAttachmentFormat = VK_FORMAT_D32_SFLOAT;
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.pNext = &rendering;
+    info.stageCount = stages.size();
+    info.pStages = stages.data();
+    info.pVertexInputState = &input;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &multisample;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamics;
+    info.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateGraphicsPipelines(device().handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+          "vkCreateGraphicsPipelines");
+    return {device().handle(), pipeline};
+}
+
+// The picture's samples, one after the other, drawn to an image that a kernel then reads.
+class SampleDraw {
+public:
+    SampleDraw(Uploader& uploader, const Picture& picture)
+        : picture_(picture),
+          values_(makeBuffer<float>(device(), uploader, "sample depths", picture.z,
+                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+          set_layout_(makeSetLayout(device(), types)),
+          sets_(device(), set_layout_, types, 1) {
+        uploader.flush();
+        sets_.buffer(0, 0, values_.handle());
+        const std::array<VkDescriptorSetLayout, 1> layouts{set_layout_};
+        const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, 12};
+        VkPipelineLayoutCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+        info.setLayoutCount = layouts.size();
+        info.pSetLayouts = layouts.data();
+        info.pushConstantRangeCount = 1;
+        info.pPushConstantRanges = &range;
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        check(vkCreatePipelineLayout(device().handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+        layout_ = OwnedPipelineLayout(device().handle(), layout);
+        for (int s = 0; s < picture.samples; ++s)
+            pipelines_.push_back(depthPipeline(layout, picture.samples, 1u << s));
+    }
+
+    void record(VkCommandBuffer commands, const DepthImage& target) const {
+        const VkRect2D all{
+            {0, 0},
+            {static_cast<std::uint32_t>(picture_.width), static_cast<std::uint32_t>(picture_.height)}};
+        constexpr ImageState attachment{
+            VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+            VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+            VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
+        constexpr ImageState sampled{VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+                                     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                     VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+        const auto become = [&](const ImageState& from, const ImageState& to) {
+            const std::array barriers{barrier(target.image, VK_IMAGE_ASPECT_DEPTH_BIT, from, to)};
+            submitBarriers(commands, barriers);
+        };
+        become({}, attachment);
+        VkRenderingAttachmentInfo depth{};
+        depth.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+        depth.imageView = target.view;
+        depth.imageLayout = attachment.layout;
+        depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+        VkRenderingInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+        info.renderArea = all;
+        info.layerCount = 1;
+        info.pDepthAttachment = &depth;
+        vkCmdBeginRendering(commands, &info);
+        const VkViewport viewport{
+            0, 0, static_cast<float>(picture_.width), static_cast<float>(picture_.height), 0, 1};
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+        vkCmdSetScissor(commands, 0, 1, &all);
+        const VkDescriptorSet set = sets_[0];
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set, 0, nullptr);
+        for (std::uint32_t s = 0; s < pipelines_.size(); ++s) {
+            const std::array constants{all.extent.width, static_cast<std::uint32_t>(picture_.samples), s};
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
+                               constants.data());
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[s]);
+            vkCmdDraw(commands, 3, 1, 0, 0);
+        }
+        vkCmdEndRendering(commands);
+        become(attachment, sampled);
+    }
+
+private:
+    static constexpr std::array types{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    const Picture& picture_;
+    GpuBuffer values_;
+    OwnedDescriptorSetLayout set_layout_;
+    DescriptorSets sets_;
+    OwnedPipelineLayout layout_;
+    std::vector<OwnedPipeline> pipelines_;
+};
+
+struct Bounds {
+    gpu::uvec2 tiles;
+    std::vector<gpu::vec3> depths;
+};
+
+// The kernel's answer, over tiles of 1 << tileShift pixels.
+Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
+    KernelFrame frame(device(), view);
+    gpu::LightGrid grid{};
+    grid.tile_shift = tileShift;
+    const gpu::uint side = 1u << tileShift;
+    grid.tiles = {(static_cast<gpu::uint>(picture.width) + side - 1) / side,
+                  (static_cast<gpu::uint>(picture.height) + side - 1) / side};
+    const GpuBuffer gridBuffer = makeBuffer<gpu::LightGrid>(
+        device(), frame.uploader(), "light grid", std::span(&grid, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    frame.uploader().flush();
+    frame.sets().buffer(0, gpu::BINDING_LIGHT_GRID, gridBuffer.handle());
+
+    const DepthImage image(picture);
+    const SampleDraw samples(frame.uploader(), picture);
+    const std::size_t tiles = std::size_t{grid.tiles.x} * grid.tiles.y;
+    const GpuBuffer out(device(), "tile depths", tiles * sizeof(gpu::vec3),
+                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    constexpr std::array types{storage, storage, storage,
+                               storage, storage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                               storage, storage, storage};
+    DescriptorSets set(device(), frame.lists().lists(), types, 1);
+    for (std::uint32_t binding = 0; binding < types.size(); ++binding)
+        if (types[binding] == storage) set.buffer(0, binding, out.handle());
+    const OwnedSampler sampler = makeNearestSampler(device());
+    set.image(0, gpu::BINDING_LISTS_DEPTH, image.view, sampler, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    Pipelines kernels(device(), VK_NULL_HANDLE);
+    const VkPipeline kernel = kernels.compute(
+        picture.samples > 1 ? "light_depths.comp.1" : "light_depths.comp.0", {}, frame.lists().pipeline());
+    device().submit([&](VkCommandBuffer commands) {
+        samples.record(commands, image);
+        const std::array sets{frame.set(), set[0]};
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, frame.lists().pipeline(), 0,
+                                sets.size(), sets.data(), 0, nullptr);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel);
+        vkCmdDispatch(commands, grid.tiles.x, grid.tiles.y, 1);
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+    });
+    return {grid.tiles, contents<gpu::vec3>(device(), out)};
+}
+
+// Depths from 0.5 m to 500 m. A tile's nearest and farthest are each in one sample of one pixel, anywhere in
+// it; some tiles show background in one sample, some nothing else.
+Picture randomPicture(const View& view, int samples, gpu::uint tileShift, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto among = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    Picture picture{view.width, view.height, samples};
+    const int side = 1 << tileShift;
+    for (int y = 0; y < picture.height; y += side)
+        for (int x = 0; x < picture.width; x += side) {
+            if (among(6) == 0) continue;
+            const int across = std::min(side, picture.width - x), down = std::min(side, picture.height - y);
+            const double middle = 1 + 99 * unit(random);
+            const auto sampleOf = [&]() -> float& {
+                return picture.at(x + among(across), y + among(down), among(samples));
+            };
+            for (int v = 0; v < down; ++v)
+                for (int u = 0; u < across; ++u)
+                    for (int s = 0; s < samples; ++s)
+                        picture.at(x + u, y + v, s) =
+                            static_cast<float>(reversedOf(view, middle * (1 + 0.1 * unit(random))));
+            sampleOf() = static_cast<float>(reversedOf(view, middle * (0.5 + 0.3 * unit(random))));
+            sampleOf() = static_cast<float>(reversedOf(view, middle * (2 + 3 * unit(random))));
+            if (among(3) == 0) sampleOf() = 0;
+        }
+    return picture;
+}
+
+// Tiles of which a bound is not that of the picture's samples in double; a float32 division is within 3 ULP
+// of it (Vulkan's own bound, 2.5, and one of the sum).
+int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, const Bounds& bounds) {
+    const int side = 1 << tileShift;
+    const auto same = [](float a, double b) { return std::abs(double{a} - b) <= 4e-7 * b; };
+    int wrong = 0;
+    for (gpu::uint ty = 0; ty < bounds.tiles.y; ++ty)
+        for (gpu::uint tx = 0; tx < bounds.tiles.x; ++tx) {
+            double least = gpu::MAX_BOUND_RADIUS, largest = 0;
+            bool background = false;
+            const int x0 = static_cast<int>(tx) * side, y0 = static_cast<int>(ty) * side;
+            for (int y = y0; y < std::min(y0 + side, picture.height); ++y)
+                for (int x = x0; x < std::min(x0 + side, picture.width); ++x)
+                    for (int s = 0; s < picture.samples; ++s) {
+                        const float z = picture.at(x, y, s);
+                        background |= z == 0;
+                        if (z == 0) continue;
+                        least = std::min(least, depthOf(view, double{z}));
+                        largest = std::max(largest, depthOf(view, double{z}));
+                    }
+            const gpu::vec3 got = bounds.depths[ty * bounds.tiles.x + tx];
+            const double farthest = background ? double{gpu::MAX_BOUND_RADIUS} : largest;
+            wrong += !same(got.x, least) || !same(got.y, largest) || !same(got.z, farthest);
+        }
+    return wrong;
+}
+
+// Samples of pixels, tiles of as many pixels as threads and of four times as many.
+TEST(LightDepths, AreThoseOfAllSamples) {
+    const View view = plainView(75, 53);
+    for (const int samples : {1, 4})
+        for (const gpu::uint tileShift : {4u, 5u}) {
+            const Picture picture = randomPicture(view, samples, tileShift, 41);
+            const Bounds bounds = boundsOf(view, picture, tileShift);
+            EXPECT_EQ(wrongTiles(view, picture, tileShift, bounds), 0)
+                << samples << " samples, 2^" << tileShift;
+        }
+}
+
+// The twins: each sample counts. A picture that differs in one sample of each pixel, all else being equal,
+// has other bounds.
+TEST(LightDepths, NoSampleIsPassedOver) {
+    const View view = plainView(75, 53);
+    const Picture picture = randomPicture(view, 4, 4, 42);
+    const Bounds bounds = boundsOf(view, picture, 4);
+    EXPECT_EQ(wrongTiles(view, picture, 4, bounds), 0);
+    for (int s = 0; s < 4; ++s) {
+        Picture other = picture;
+        for (int y = 0; y < other.height; ++y)
+            for (int x = 0; x < other.width; ++x)
+                if (float& z = other.at(x, y, s); z > 0) z *= 0.1f;
+        EXPECT_GT(wrongTiles(view, other, 4, bounds), 10) << "sample " << s;
+        EXPECT_EQ(wrongTiles(view, other, 4, boundsOf(view, other, 4)), 0) << "sample " << s;
+    }
+}
+
+}  // namespace
+}  // namespace diptych

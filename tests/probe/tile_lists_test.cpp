@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+// The two lists of each tile (Billeter, Olsson and Assarsson 2013), read back, against exact intersections in
+// double: of opaques between the depths that were drawn, of transparents from the camera to the farthest
+// depth that is seen.
+#include "tests/probe/cells.h"
+#include "tests/probe/kernel_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <random>
+#include <set>
+
+namespace diptych {
+namespace {
+
+constexpr int width = 103, height = 61, block = 4;  // seven by four tiles, the last ones cut off
+constexpr int side = static_cast<int>(gpu::LIGHT_TILE);
+
+Device& device() {
+    static Device theDevice{DeviceOptions{}};
+    return theDevice;
+}
+
+// View depths of the picture, m, a block of pixels each; 0: background. Tiles of all kinds: drawn whole, near
+// and far in one, half background, nothing but background.
+struct Depths {
+    static constexpr int across = (width + block - 1) / block, down = (height + block - 1) / block;
+    std::vector<double> blocks = std::vector<double>(std::size_t{across} * down);
+    double& at(int x, int y) { return blocks[static_cast<std::size_t>(y * across + x)]; }
+    double at(int x, int y) const { return blocks[static_cast<std::size_t>(y * across + x)]; }
+};
+
+Depths randomDepths(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    Depths depths;
+    constexpr int perTile = side / block;
+    for (int y = 0; y < Depths::down; y += perTile)
+        for (int x = 0; x < Depths::across; x += perTile) {
+            const double near = 1 + 19 * unit(random), thick = 1 + unit(random), empty = unit(random);
+            const double background = empty < 0.2 ? 1 : empty < 0.5 ? 0.3 : 0;
+            for (int v = y; v < std::min(y + perTile, Depths::down); ++v)
+                for (int u = x; u < std::min(x + perTile, Depths::across); ++u)
+                    depths.at(u, v) = unit(random) < background ? 0 : near * (1 + thick * unit(random));
+        }
+    return depths;
+}
+
+// Points, then spots.
+std::vector<Light> randomLights(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
+    std::vector<Light> lights;
+    for (int i = 0; i < 360; ++i) {
+        Light light;
+        const double depth = i % 20 == 0 ? -1 : 45 * unit(random) * unit(random);
+        light.position = {1.2 * depth * both(random), 0.8 * depth * both(random), -depth};
+        light.range = static_cast<float>((0.2 + std::abs(depth)) * std::pow(10.0, 1.5 * unit(random) - 1.5));
+        if (i >= 240) {
+            light.kind = LightKind::spot;
+            light.direction = glm::normalize(glm::dvec3(both(random), both(random), both(random)));
+            light.outer_cone = static_cast<float>(glm::radians(1 + 88 * unit(random)));
+            light.range *= 2;
+        }
+        lights.push_back(light);
+    }
+    return lights;
+}
+
+Felt feltOf(const Light& light) {
+    const glm::dvec3 at(glm::vec3(light.position)), axis(glm::vec3(light.direction));
+    Felt felt;
+    felt.apex = {at.x, -at.y, -at.z};
+    felt.axis = glm::normalize(glm::dvec3(axis.x, -axis.y, -axis.z));
+    felt.range = static_cast<double>(light.range);
+    if (light.kind == LightKind::spot) felt.half = static_cast<double>(light.outer_cone);
+    return felt;
+}
+
+struct Lists {
+    gpu::LightGrid grid{};
+    std::vector<std::vector<gpu::uint>> lists;  // lights in their order; of opaques, then of transparents
+};
+
+// `nearer`: the picture's depths are drawn at so much of themselves.
+Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, ListKernel kernel,
+              double nearer = 1) {
+    KernelFrame frame(device(), view);
+    LightLists made(device(), frame.uploader(), frame.lists(), {gpu::LISTS_TILED, kernel}, view, lights);
+    made.bind(frame.sets());
+    Pipelines pipelines(device(), VK_NULL_HANDLE);
+    PassList passes(device(), width, height);
+    const ImageRef depth = passes.image("depth", VK_FORMAT_D32_SFLOAT);
+    passes.draw("depth").depth(depth, Load::clear).record([&](VkCommandBuffer commands) {
+        for (int y = 0; y < Depths::down; ++y)
+            for (int x = 0; x < Depths::across; ++x) {
+                if (depths.at(x, y) == 0) continue;
+                const double z = reversedOf(view, nearer * depths.at(x, y));
+                const VkClearAttachment value{
+                    VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {static_cast<float>(z), 0}}};
+                const VkClearRect rect{{{x * block, y * block},
+                                        {static_cast<std::uint32_t>(std::min(block, width - x * block)),
+                                         static_cast<std::uint32_t>(std::min(block, height - y * block))}},
+                                       0,
+                                       1};
+                vkCmdClearAttachments(commands, 1, &value, 1, &rect);
+            }
+    });
+    Variant variant;
+    variant.set(gpu::FEATURE_spot_lights);
+    made.addPasses(passes, pipelines, variant, frame.set(), depth);
+    passes.run();
+    EXPECT_EQ(made.overflowed(), 0u);
+    Lists result;
+    result.grid = made.grid();
+    const auto heads = contents<gpu::LightListHead>(device(), made.heads());
+    const auto indices = contents<gpu::uint>(device(), made.indices());
+    for (gpu::uint list = 0; list < made.grid().lists; ++list) {
+        result.lists.emplace_back();
+        for (gpu::uint i = heads[list].begin * made.grid().width; i < heads[list].end * made.grid().width;
+             ++i)
+            if (indices[i] != made.grid().null_light) result.lists.back().push_back(indices[i]);
+    }
+    return result;
+}
+
+struct TileCells {
+    bool drawn = false, background = false;
+    Cell opaque, transparent;
+};
+
+// What a tile spans, from the picture's depths alone. `end` stands for no end.
+TileCells cellsOf(const View& view, const Depths& depths, int x, int y, double end) {
+    TileCells cells;
+    const double pixel = 2 * std::tan(view.camera.yfov / 2) / height;
+    Cell& cell = cells.opaque;
+    cell.x = (glm::dvec2(x, x + 1) * double{side} - width / 2.0) * pixel;
+    cell.y = (glm::dvec2(y, y + 1) * double{side} - height / 2.0) * pixel;
+    cell.z = {std::numeric_limits<double>::infinity(), 0};
+    for (int v = y * side / block; v < std::min((y + 1) * side / block, Depths::down); ++v)
+        for (int u = x * side / block; u < std::min((x + 1) * side / block, Depths::across); ++u) {
+            const double d = depths.at(u, v);
+            (d > 0 ? cells.drawn : cells.background) = true;
+            if (d > 0) cell.z = {std::min(cell.z.x, d), std::max(cell.z.y, d)};
+        }
+    cells.transparent = cell;
+    cells.transparent.z = {0, cells.background ? end : cell.z.y};
+    return cells;
+}
+
+// For each tile a point light behind its farthest depth and one before its nearest that come 0.3 % of it in.
+std::vector<Light> edgeLights(const View& view, const Depths& depths) {
+    std::vector<Light> lights;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 7; ++x) {
+            const TileCells cells = cellsOf(view, depths, x, y, 300);
+            if (!cells.drawn) continue;
+            const glm::dvec2 z = cells.opaque.z;
+            for (const bool behind : {false, true}) {
+                const double from = behind ? z.y : z.x, range = 0.05 * from;
+                Light light;
+                light.range = static_cast<float>(range);
+                const double depth = behind ? 0.997 * from + range : 1.003 * from - range;
+                light.position = {glm::dot(cells.opaque.x, glm::dvec2(0.5)) * depth,
+                                  -glm::dot(cells.opaque.y, glm::dvec2(0.5)) * depth, -depth};
+                lights.push_back(light);
+            }
+        }
+    return lights;
+}
+
+struct Count {
+    int felt = 0, missed = 0, apart = 0, kept = 0, far_kept = 0, outside = 0;
+};
+
+// One tile's list against all lights. Far kept: at whose tile not even a ball twice as large as what the
+// light lights would arrive; the sphere's test, a pair of planes after another, may keep what is nearer
+// (light_cull.glsl).
+void hold(Count& count, const std::vector<gpu::uint>& list, const std::vector<Light>& lights,
+          const std::vector<gpu::LightBound>& bounds, const Cell& cell) {
+    const std::set<gpu::uint> listed(list.begin(), list.end());
+    EXPECT_EQ(listed.size(), list.size()) << "a light is listed once";
+    EXPECT_TRUE(std::ranges::is_sorted(list));
+    for (gpu::uint i = 0; i < lights.size(); ++i) {
+        const bool is = listed.contains(i);
+        const Felt felt = feltOf(lights[i]);
+        const double distance = gap(felt, cell);
+        if (distance < 0) continue;
+        if (distance < 1e-12 * felt.range) {
+            ++count.felt;
+            count.missed += !is;
+            continue;
+        }
+        ++count.apart;
+        count.kept += is;
+        Felt ball;
+        ball.apex = glm::dvec3(bounds[i].centre);
+        ball.range = 2 * static_cast<double>(bounds[i].radius);
+        if (glm::distance(ball.apex, nearestInCell(ball.apex, cell)) > ball.range) {
+            ++count.outside;
+            count.far_kept += is;
+        }
+    }
+}
+
+struct Held {
+    Count opaque, transparent;
+    int no_subset = 0, empty_opaque = 0, only_background = 0, part_background = 0;
+};
+
+Held held(double nearer = 1) {
+    Held all;
+    for (const unsigned seed : {31u, 32u, 33u}) {
+        const View view = plainView(width, height);
+        const Depths depths = randomDepths(seed);
+        // Points first, then spots: their order in lists too.
+        std::vector<Light> lights = edgeLights(view, depths);
+        for (const Light& light : randomLights(seed)) lights.push_back(light);
+        const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
+        EXPECT_EQ(gpu.local(), lights.size());
+        const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
+        const Lists lists = listsOf(view, depths, gpu, ListKernel::scatter, nearer);
+        if (nearer == 1) {
+            EXPECT_EQ(lists.lists, listsOf(view, depths, gpu, ListKernel::gather).lists);
+        }
+        EXPECT_EQ(lists.grid.tiles, gpu::uvec2(7, 4));
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 7; ++x) {
+                const auto cell = static_cast<std::size_t>(y * 7 + x);
+                const std::vector<gpu::uint>&opaque = lists.lists.at(cell),
+                      &transparent = lists.lists.at(lists.grid.cells + cell);
+                // Beyond what any light reaches.
+                const TileCells cells = cellsOf(view, depths, x, y, 300);
+                if (cells.drawn)
+                    hold(all.opaque, opaque, lights, bounds, cells.opaque);
+                else
+                    all.empty_opaque += opaque.empty();
+                hold(all.transparent, transparent, lights, bounds, cells.transparent);
+                all.no_subset += !std::ranges::includes(transparent, opaque);
+                all.only_background += !cells.drawn;
+                all.part_background += cells.drawn && cells.background;
+            }
+    }
+    return all;
+}
+
+void print(const char* what, const Count& c) {
+    std::printf("%s: %d lights meet their tile, %d do not, of which %.2f %% were kept\n", what, c.felt,
+                c.apart, 100.0 * c.kept / c.apart);
+}
+
+TEST(TileLists, HoldWhatReachesATileAndLittleElse) {
+    const Held all = held();
+    print("opaques", all.opaque);
+    print("transparents", all.transparent);
+    for (const Count& count : {all.opaque, all.transparent}) {
+        EXPECT_EQ(count.missed, 0);
+        EXPECT_GT(count.felt, 1000);
+        EXPECT_EQ(count.far_kept, 0);
+        EXPECT_GT(count.outside, 1000) << "there are lights that must not be listed";
+        EXPECT_LT(count.kept, count.apart / 20);
+    }
+    EXPECT_GT(all.transparent.felt, 2 * all.opaque.felt) << "what is in front of the opaques alone";
+    EXPECT_EQ(all.no_subset, 0);
+    EXPECT_GT(all.only_background, 3);
+    EXPECT_GT(all.part_background, 10);
+    EXPECT_EQ(all.empty_opaque, all.only_background) << "nothing to light";
+}
+
+// The twin: lists of a picture that is 1 % nearer miss lights of this one.
+TEST(TileLists, DepthsThatAreOnePerCentOffAreCaught) {
+    for (const double nearer : {0.99, 1.01}) {
+        const Held all = held(nearer);
+        EXPECT_GT(all.opaque.missed, 0) << nearer;
+        if (nearer < 1) {
+            EXPECT_GT(all.transparent.missed, 0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych
