@@ -136,14 +136,20 @@ TEST(GltfExtras, OthersMayBeAnything) {
     }
 }
 
+namespace {
+
+// The triangle's node is a light of KHR_lights_punctual.
+Scene lit(const Json& light) {
+    GltfFile f = GltfFile::triangle();
+    f.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    f.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
+    f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    return f.load();
+}
+
+}  // namespace
+
 TEST(GltfExtras, ASunHasAnAngle) {
-    const auto lit = [](const Json& light) {
-        GltfFile f = GltfFile::triangle();
-        f.json["extensionsUsed"] = {"KHR_lights_punctual"};
-        f.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
-        f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
-        return f.load();
-    };
     const auto sun = [](const Json& ours) {
         return Json{{"type", "directional"}, {"intensity", 5}, {"extras", {{"diptych", ours}}}};
     };
@@ -166,6 +172,49 @@ TEST(GltfExtras, ASunHasAnAngle) {
         ASSERT_EQ(scene.lights.size(), 1u) << light;
         EXPECT_EQ(scene.lights[0].angle, 0) << light;
         EXPECT_TRUE(mentions(scene.notes, note)) << light;
+    }
+}
+
+TEST(GltfExtras, LightsHaveMarks) {
+    const std::pair<const char*, Importance> marks[] = {{"auto", Importance::automatic},
+                                                        {"important", Importance::important},
+                                                        {"not_important", Importance::not_important}};
+    for (const auto& [word, mark] : marks) {
+        for (const char* type : {"point", "spot", "directional"}) {
+            Json light{{"type", type}, {"extras", {{"diptych", {{"importance", word}}}}}};
+            if (light["type"] == "spot") light["spot"] = Json::object();
+            const Scene scene = lit(light);
+            EXPECT_TRUE(scene.notes.empty()) << scene.notes.front();
+            ASSERT_EQ(scene.lights.size(), 1u);
+            EXPECT_EQ(scene.lights[0].importance, mark) << type << " " << word;
+            EXPECT_EQ(poseAt(scene, 0).lights.at(0).importance, mark) << "as it is drawn";
+        }
+        const Scene scene = with({{"type", "rect"}, {"importance", word}}).load();
+        EXPECT_TRUE(scene.notes.empty()) << scene.notes.front();
+        EXPECT_EQ(scene.lights.at(0).importance, mark) << "of the scene, " << word;
+    }
+}
+
+TEST(GltfExtras, AMarkThatIsNoneIsLeftOutWithANote) {
+    const std::pair<Json, const char*> faults[] = {
+        {"high", "importance: \"high\" is none of auto, important, not_important: left out"},
+        {"not important", "importance: \"not important\" is none of auto, important, not_important: left out"},
+        {"a\nb", "importance: \"a?b\" is none of auto, important, not_important: left out"},
+        {1, "importance: is not a text: left out"},
+        {nullptr, "importance: is not a text: left out"},
+    };
+    for (const auto& [word, note] : faults) {
+        const Scene sun = lit(
+            {{"type", "directional"}, {"extras", {{"diptych", {{"importance", word}, {"angle", 0.01}}}}}});
+        ASSERT_EQ(sun.lights.size(), 1u) << word;
+        EXPECT_EQ(sun.lights[0].importance, Importance::automatic) << word;
+        EXPECT_EQ(sun.lights[0].angle, 0.01f) << "what is right beside it stays";
+        ASSERT_EQ(sun.notes.size(), 1u) << word;
+        EXPECT_EQ(sun.notes[0].find('\n'), std::string::npos) << sun.notes[0];
+        EXPECT_TRUE(mentions(sun.notes, std::string("light 0: extras: diptych: ") + note)) << sun.notes[0];
+        const Scene hung = with(Json::array({{{"type", "disc"}}, {{"type", "disc"}, {"importance", word}}})).load();
+        EXPECT_EQ(hung.lights.size(), 1u) << "a light of our own is whole or not there";
+        EXPECT_TRUE(mentions(hung.notes, std::string("light 1: ") + note)) << hung.notes.at(0);
     }
 }
 

@@ -104,6 +104,19 @@ TEST(LightsJson, AreaLights) {
         << "a rounded pi is one";
 }
 
+TEST(LightsJson, MarksOfAnyType) {
+    for (const std::string type : {"point", "spot", "directional", "rect", "disc", "tube"}) {
+        const std::string light = "{\"type\": \"" + type + "\"";
+        const auto lights = read(light + "}, " + light + R"(, "importance": "auto"}, )" + light +
+                                 R"(, "importance": "important"}, )" + light + R"(, "importance": "not_important"})");
+        ASSERT_EQ(lights.size(), 4u) << type;
+        EXPECT_EQ(lights[0].importance, Importance::automatic) << type;
+        EXPECT_EQ(lights[1].importance, Importance::automatic) << type;
+        EXPECT_EQ(lights[2].importance, Importance::important) << type;
+        EXPECT_EQ(lights[3].importance, Importance::not_important) << type;
+    }
+}
+
 TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
     const std::pair<const char*, glm::dvec3> cases[] = {
         {R"("axis": [1, 0, 5])", {1, 0, 0}},  // what of it lies along the direction goes
@@ -169,6 +182,15 @@ TEST(LightsJson, ErrorsNameFileLightAndField) {
         {R"({"type": "tube", "axis": [1, 0]})", "axis: is not three numbers"},
         {R"({"type": "directional", "angle": -0.1})", "angle: -0.1 is below 0"},
         {R"({"type": "directional", "angle": 3.15})", "angle: 3.15 is beyond pi"},
+        {R"({"type": "point", "importance": "high"})",
+         "importance: \"high\" is none of auto, important, not_important"},
+        {R"({"type": "rect", "importance": "not important"})", "importance: \"not important\" is none of"},
+        {R"({"type": "spot", "importance": "Important"})", "importance: \"Important\" is none of"},
+        {R"({"type": "point", "importance": ""})", "importance: \"\" is none of"},
+        {R"({"type": "point", "importance": "a\nb"})", "importance: \"a?b\" is none of"},
+        {R"({"type": "point", "importance": true})", "importance: is not"},
+        {R"({"type": "tube", "importance": 2})", "importance: is not"},
+        {R"({"type": "point", "importance": null})", "importance: is not"},
         {R"({"position": [0, 0, 0]})", "type"},
         {R"({"type": "point", "position": [0, 0]})", "position"},
         {R"({"type": "point", "position": [0, 0, "x"]})", "position"},
@@ -189,6 +211,7 @@ TEST(LightsJson, ErrorsNameFileLightAndField) {
             errorOf(std::string("{\"lights\": [{\"type\": \"point\"}, ") + light + "]}");
         EXPECT_NE(error.find(".json: light 1"), error.npos) << error;
         EXPECT_NE(error.find(field), error.npos) << light << ": " << error;
+        EXPECT_EQ(error.find('\n'), error.npos) << "one line: " << error;
     }
     for (const char* text : {"", "{", "[]", "{\"lights\": 3}", "{}"})
         EXPECT_NE(errorOf(text).find(".json"), std::string::npos) << text;

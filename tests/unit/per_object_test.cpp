@@ -1,46 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Lights by object: ranking, fading, marks and harmonics, against what they stand for.
-#include "shared/light/per_object.h"
+// Lights by object: ranking, fading and marks, against what they stand for.
+#include "tests/unit/object_lights_maker.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace diptych {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-Light point(const glm::dvec3& position, float candela, float range = std::numeric_limits<float>::infinity()) {
-    Light light;
-    light.position = position;
-    light.intensity = candela;
-    light.range = range;
-    return light;
-}
-
-Light sun(float lux) {
-    Light light;
-    light.kind = LightKind::directional;
-    light.intensity = lux;
-    return light;
-}
-
-GpuLights gpu(const std::vector<Light>& lights) {
-    return gpuLights(lights, {0, 0, 0});
-}
-
-const ObjectPlace unitBox{{0, 0, 0}, {0.5, 0.5, 0.5}};
-
-double evaluated(const gpu::ObjectIrradiance& e, const glm::dvec3& n) {
-    return double{e.constant.g} + double{e.linear_x.g} * n.x + double{e.linear_y.g} * n.y + double{e.linear_z.g} * n.z +
-           double{e.xx.g} * (n.x * n.x - n.z * n.z) + double{e.yy.g} * (n.y * n.y - n.z * n.z) +
-           2 * (double{e.xy.g} * n.x * n.y + double{e.yz.g} * n.y * n.z + double{e.xz.g} * n.x * n.z);
-}
 
 // ---- brightness --------------------------------------------------------------------------------------
 
@@ -48,15 +18,15 @@ TEST(PerObject, BrightnessIsTheLuminanceOfIrradianceFarAway) {
     Light light = point({0, 0, 200}, 8);
     light.color = {1, 0.5f, 0.25f};
     const double expected = 8 * (0.2126 + 0.7152 / 2 + 0.0722 / 4) / (200.0 * 200.0);
-    EXPECT_NEAR(brightnessAt(gpu({light}), 0, unitBox), expected, 0.01 * expected) << "the box is a point there";
-    EXPECT_NEAR(brightnessAt(gpu({sun(3)}), 0, unitBox), 3, 1e-6);
-    EXPECT_TRUE(std::isfinite(brightnessAt(gpu({point({0, 0, 0}, 8)}), 0, unitBox))) << "inside the box";
+    EXPECT_NEAR(brightnessAt(fromEye({light}), 0, unitBox), expected, 0.01 * expected) << "the box is a point there";
+    EXPECT_NEAR(brightnessAt(fromEye({sun(3)}), 0, unitBox), 3, 1e-6);
+    EXPECT_TRUE(std::isfinite(brightnessAt(fromEye({point({0, 0, 0}, 8)}), 0, unitBox))) << "inside the box";
 }
 
 // A long box is lit where the light is near, not only where its centre is.
 TEST(PerObject, BrightnessIsThatOfTheNearestPlace) {
     const ObjectPlace plank{{0, 0, 0}, {10, 0.1, 0.1}};
-    const GpuLights lights = gpu({point({10, 1, 0}, 1, 2)});
+    const GpuLights lights = fromEye({point({10, 1, 0}, 1, 2)});
     EXPECT_GT(brightnessAt(lights, 0, plank), 0) << "10 m from the centre, beyond its range";
 }
 
@@ -75,7 +45,7 @@ TEST(PerObject, NoLightThatReachesIsDark) {
             light.outer_cone = static_cast<float>(0.01 + 1.5 * std::abs(unit(random)));
             light.inner_cone = light.outer_cone / 2;
         }
-        const GpuLights lights = gpu({light});
+        const GpuLights lights = fromEye({light});
         const bool found = brightnessAt(lights, 0, box) > 0;
         bool reached = false;
         for (int i = 0; i < 50 && !reached; ++i) {
@@ -119,7 +89,7 @@ std::vector<Light> row(std::size_t count) {
 
 TEST(PerObject, TheBrightestArePerPixelTheNextPerVertexTheRestHarmonics) {
     // Each four times fainter than the one before, and farther: no share is broken but the first of the next group's.
-    const std::vector<LightShares> shares = lightShares(gpu(row(12)), unitBox, 3);
+    const std::vector<LightShares> shares = lightShares(fromEye(row(12)), unitBox, 3);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         EXPECT_NEAR(shares[i].pixel + shares[i].vertex + shares[i].harmonics, 1, 1e-15);
         EXPECT_EQ(shares[i].pixel, i < 3 ? 1 : 0) << i;
@@ -135,7 +105,7 @@ TEST(PerObject, WithRoomForAllEachIsWholeAndInOrder) {
     lights.insert(lights.begin(), spot);
     spot.direction = {0, -0.6, -0.8};
     lights[0] = spot;
-    const GpuLights all = gpu(lights);
+    const GpuLights all = fromEye(lights);
     for (const std::uint32_t pixels : {static_cast<std::uint32_t>(all.count()), 1u << 30}) {
         const ObjectLightLists lists = objectLightLists(all, std::span(&unitBox, 1), pixels);
         EXPECT_EQ(lists.features, gpu::OBJECT_LIGHTS_LISTS) << "nothing per vertex, no harmonics";
@@ -162,7 +132,7 @@ TEST(PerObject, NeverMoreThanThereIsRoomFor) {
             lights.push_back(point({9 * unit(random), 9 * unit(random), 9 * unit(random)}, 1));
         for (const std::uint32_t pixels : {0u, 1u, 4u, 8u}) {
             std::size_t perPixel = 0, beyond = 0;
-            for (const LightShares& s : lightShares(gpu(lights), unitBox, pixels)) {
+            for (const LightShares& s : lightShares(fromEye(lights), unitBox, pixels)) {
                 perPixel += s.pixel > 0;
                 beyond += s.pixel == 0 && s.vertex > 0;
                 EXPECT_GE(s.vertex, 0);
@@ -186,7 +156,7 @@ TEST(PerObject, NothingPopsAsALightMoves) {
         for (int i = 0; i < 12; ++i) lights.push_back(point({std::cos(i) * (2 + 0.2 * i), std::sin(i), 2}, 1.0f + 0.2f * static_cast<float>(i), 6));
         Light strongest = sun(0.2f);
         lights.push_back(strongest);
-        const GpuLights all = gpu(lights);
+        const GpuLights all = fromEye(lights);
         const std::vector<LightShares> shares = lightShares(all, unitBox, 3);
         for (std::size_t i = 0; i < before.size(); ++i) {
             const double brightness = brightnessAt(all, i, unitBox);
@@ -207,7 +177,7 @@ TEST(PerObject, MarksOverrideTheRanking) {
     std::vector<Light> lights = row(12);
     lights[0].importance = Importance::not_important;
     lights[11].importance = Importance::important;
-    const std::vector<LightShares> shares = lightShares(gpu(lights), unitBox, 2);
+    const std::vector<LightShares> shares = lightShares(fromEye(lights), unitBox, 2);
     EXPECT_EQ(shares[0].pixel, 0) << "the brightest";
     EXPECT_EQ(shares[0].vertex, 1);
     EXPECT_EQ(shares[11].pixel, 1) << "the faintest";
@@ -215,7 +185,71 @@ TEST(PerObject, MarksOverrideTheRanking) {
     EXPECT_EQ(shares[2].pixel, 1) << "the important one takes nobody's room";
     EXPECT_EQ(shares[3].pixel, 0);
     lights[11].range = 1;
-    EXPECT_EQ(lightShares(gpu(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
+    EXPECT_EQ(lightShares(fromEye(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
+}
+
+// Lights are sorted by kind, and those that give nothing left out: marks go with them.
+TEST(PerObject, MarksStayWithTheirLights) {
+    Light black = point({0, 0, 3}, 0), spot = point({0, 2, 3}, 1000), panel = point({0, 0, 20}, 0.01f), lamp = point({0, 0, 3}, 1000);
+    black.importance = Importance::important;
+    spot.kind = LightKind::spot;
+    spot.direction = {0, -0.6, -0.8};
+    spot.importance = Importance::not_important;
+    panel.kind = LightKind::disc;
+    panel.importance = Importance::important;
+    Light faint = sun(1e-6f);
+    faint.importance = Importance::important;
+    const GpuLights all = fromEye({black, panel, spot, lamp, faint, sun(1)});
+    ASSERT_EQ(all.count(), 5u);
+    EXPECT_EQ(all.importance, (std::vector{Importance::important, Importance::automatic, Importance::automatic,
+                                           Importance::not_important, Importance::important}))
+        << "two suns, the lamp, the spot, the panel";
+    const std::vector<LightShares> shares = lightShares(all, unitBox, 1);
+    EXPECT_EQ(shares[0].pixel, 1) << "a faint sun that is important";
+    EXPECT_EQ(shares[1].pixel, 1) << "the base";
+    EXPECT_EQ(shares[2].pixel, 1) << "the one that there is room for";
+    EXPECT_EQ(shares[3].pixel, 0) << "not important, however bright";
+    EXPECT_EQ(shares[3].vertex, 1);
+    EXPECT_EQ(shares[4].pixel, 1) << "an important panel";
+    // As objects get them, in the order of the lights.
+    const ObjectLightLists lists = objectLightLists(all, std::span(&unitBox, 1), 1);
+    std::vector<gpu::uint> perPixel;
+    for (gpu::uint i = lists.objects[0].begin; i < lists.objects[0].area_end; ++i) perPixel.push_back(lists.entries[i].light);
+    EXPECT_EQ(perPixel, (std::vector<gpu::uint>{0, 1, 2, 4}));
+}
+
+// Whatever is marked, and however many there is room for: important ones are whole wherever they reach, the others
+// never per pixel, and the rest are as if the important ones were not there.
+TEST(PerObject, MarksHoldForAnyLights) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Light> lights, unmarked;
+        for (int i = 0; i < 24; ++i) {
+            Light light = point({9 * unit(random), 9 * unit(random), 9 * unit(random)}, std::exp2(static_cast<float>(6 * unit(random))), 12);
+            light.importance = i % 4 == 0 ? Importance::important : i % 4 == 1 ? Importance::not_important : Importance::automatic;
+            lights.push_back(light);
+            if (light.importance != Importance::important) unmarked.push_back(light);
+        }
+        for (const std::uint32_t pixels : {0u, 1u, 4u, 24u}) {
+            const GpuLights all = fromEye(lights);
+            const std::vector<LightShares> shares = lightShares(all, unitBox, pixels),
+                                           without = lightShares(fromEye(unmarked), unitBox, pixels);
+            for (std::size_t i = 0, other = 0; i < lights.size(); ++i) {
+                const bool reaches = brightnessAt(all, i, unitBox) > 0;
+                if (lights[i].importance == Importance::important) {
+                    EXPECT_EQ(shares[i].pixel, reaches ? 1 : 0);
+                    continue;
+                }
+                if (lights[i].importance == Importance::not_important) {
+                    EXPECT_EQ(shares[i].pixel, 0);
+                }
+                EXPECT_EQ(shares[i].pixel, without[other].pixel);
+                EXPECT_EQ(shares[i].vertex, without[other].vertex);
+                EXPECT_EQ(shares[i].harmonics, without[other++].harmonics);
+            }
+        }
+    }
 }
 
 // A lamp's panel: by rank like any, never per vertex, and in the harmonics as bright as a small light of its intensity.
@@ -226,7 +260,7 @@ TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
     panel.height = 0.3f;
     std::vector<Light> lights = row(3);
     lights.push_back(panel);
-    const GpuLights all = gpu(lights);
+    const GpuLights all = fromEye(lights);
     EXPECT_EQ(lightShares(all, unitBox, 4)[3].pixel, 1);
     const LightShares faint = lightShares(all, unitBox, 1)[3];
     EXPECT_EQ(faint.pixel, 0);
@@ -234,7 +268,7 @@ TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
     EXPECT_EQ(faint.harmonics, 1);
     gpu::ObjectIrradiance of_panel{}, of_point{};
     addHarmonics(of_panel, all, 3, unitBox, 1);
-    addHarmonics(of_point, gpu({point({0, 0, 20}, 5 * 0.2f * 0.3f)}), 0, unitBox, 1);
+    addHarmonics(of_point, fromEye({point({0, 0, 20}, 5 * 0.2f * 0.3f)}), 0, unitBox, 1);
     for (int i = 0; i < 20; ++i) {
         const glm::dvec3 n(std::sin(i), 0, std::cos(i));
         EXPECT_NEAR(evaluated(of_panel, n), evaluated(of_point, n), 1e-9);
@@ -247,88 +281,23 @@ TEST(PerObject, TheBaseIsTheBrightestDirectionalLight) {
     std::vector<Light> lights = row(6);
     lights.push_back(sun(1e-3f));
     lights.push_back(sun(1e-5f));
-    const std::vector<LightShares> shares = lightShares(gpu(lights), unitBox, 0);
+    const std::vector<LightShares> shares = lightShares(fromEye(lights), unitBox, 0);
     EXPECT_EQ(shares[0].pixel, 1) << "directional lights come first";
     EXPECT_EQ(shares[1].pixel, 0);
     for (std::size_t i = 2; i < 8; ++i) EXPECT_EQ(shares[i].pixel, 0);
     lights[6].importance = Importance::not_important;
-    EXPECT_EQ(lightShares(gpu(lights), unitBox, 0)[0].pixel, 0);
+    EXPECT_EQ(lightShares(fromEye(lights), unitBox, 0)[0].pixel, 0);
 }
 
 TEST(PerObject, AnObjectWithALightmapHasNoHarmonics) {
     ObjectPlace baked = unitBox;
     baked.harmonics = false;
     const ObjectPlace places[] = {unitBox, baked};
-    const ObjectLightLists lists = objectLightLists(gpu(row(12)), places, 1);
+    const ObjectLightLists lists = objectLightLists(fromEye(row(12)), places, 1);
     EXPECT_EQ(lists.features, gpu::OBJECT_LIGHTS_LISTS | gpu::OBJECT_LIGHTS_VERTEX | gpu::OBJECT_LIGHTS_SH);
     EXPECT_GT(lists.objects[0].irradiance.constant.g, 0);
     EXPECT_EQ(lists.objects[1].irradiance.constant, glm::vec3(0));
     EXPECT_EQ(lists.objects[1].spot_end - lists.objects[1].begin, lists.objects[0].spot_end - lists.objects[0].begin);
-}
-
-// ---- harmonics ---------------------------------------------------------------------------------------
-
-glm::dvec3 direction(double cosine, double phi) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return {sine * std::cos(phi), sine * std::sin(phi), cosine};
-}
-
-// The nine real harmonics (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks", appendix A2).
-std::array<double, 9> harmonics(const glm::dvec3& n) {
-    const double a = std::sqrt(1 / (4 * pi)), b = std::sqrt(3 / (4 * pi)), c = std::sqrt(15 / (4 * pi));
-    return {a,
-            b * n.y,
-            b * n.z,
-            b * n.x,
-            c * n.x * n.y,
-            c * n.y * n.z,
-            std::sqrt(5 / (16 * pi)) * (3 * n.z * n.z - 1),
-            c * n.x * n.z,
-            c / 2 * (n.x * n.x - n.y * n.y)};
-}
-
-// The clamped cosine around a light, projected on the nine harmonics by quadrature and put together again.
-TEST(PerObject, HarmonicsAreTheProjectionOfTheClampedCosine) {
-    constexpr int rings = 400, sectors = 400;
-    for (const glm::dvec3 to_light : {direction(1, 0), direction(-0.3, 1), direction(0.5, 4)}) {
-        std::array<double, 9> projected{};
-        for (int i = 0; i < rings; ++i)
-            for (int j = 0; j < sectors; ++j) {
-                const glm::dvec3 n = direction(-1 + 2 * (i + 0.5) / rings, 2 * pi * (j + 0.5) / sectors);
-                const double cosine = std::max(glm::dot(n, to_light), 0.0) * 4 * pi / (rings * sectors);
-                for (std::size_t k = 0; k < 9; ++k) projected[k] += cosine * harmonics(n)[k];
-            }
-        gpu::ObjectIrradiance sum{};
-        addHarmonics(sum, {1, 2, 3}, to_light);
-        for (int i = 0; i < 40; ++i) {
-            const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
-            double expected = 0;
-            for (std::size_t k = 0; k < 9; ++k) expected += projected[k] * harmonics(n)[k];
-            EXPECT_NEAR(evaluated(sum, n), 2 * expected, 1e-4);
-            // Three bands of the cosine: off by up to 3/32, straight behind by 1/16 (Ramamoorthi and Hanrahan 2001).
-            EXPECT_NEAR(evaluated(sum, n) / 2, std::max(glm::dot(n, to_light), 0.0), 3.0 / 32 + 1e-6);
-        }
-    }
-}
-
-// From inside the light comes from ever more sides: at the centre from all, and what all of them bring is the mean of
-// the clamped cosine over the sphere, a quarter.
-TEST(PerObject, ALightInTheCentreShinesOnAllSidesAlike) {
-    const double radius2 = 0.75;
-    for (const double distance : {0.0, 1e-9}) {
-        const GpuLights lights = gpu({point({0, 0, distance}, 2)});
-        gpu::ObjectIrradiance sum{};
-        addHarmonics(sum, lights, 0, unitBox, 0.5);
-        for (int i = 0; i < 20; ++i)
-            EXPECT_NEAR(evaluated(sum, direction(std::cos(i), i)), 2 * 0.5 / radius2 / 4, 1e-5);
-    }
-    // And from outside it is a light of the centre's irradiance.
-    const GpuLights far = gpu({point({0, 0, 10}, 2)});
-    gpu::ObjectIrradiance sum{}, same{};
-    addHarmonics(sum, far, 0, unitBox, 1);
-    addHarmonics(same, glm::dvec3(0.02), {0, 0, 1});
-    for (int i = 0; i < 20; ++i)
-        EXPECT_NEAR(evaluated(sum, direction(std::cos(i), i)), evaluated(same, direction(std::cos(i), i)), 1e-8);
 }
 
 }  // namespace
