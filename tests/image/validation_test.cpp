@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // No message of the Khronos validation layers, synchronization validation included, from any scene, path
-// or G-buffer encoding.
+// or G-buffer encoding, nor of any way to choose lights.
 #include "tests/image/scenes.h"
 
 namespace diptych::tests {
@@ -8,17 +8,40 @@ namespace {
 
 class Validation : public testing::TestWithParam<std::string> {};
 
+// All frames of one Renderer: uploads and most pipelines are the same for every one.
 TEST_P(Validation, SaysNothing) {
     Device validated{DeviceOptions{.choice = "", .validate = true}};
     const Scene scene = loadScene(GetParam());
+    std::vector<Settings> all;
     for (const GBufferEncoding encoding :
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full})
-        for (const Switch prepass : {Switch::on, Switch::off}) {
+        for (const Path path : {Path::deferred, Path::forward_plus}) {
             Settings settings = smallPicture(encoding);
             settings.size = {64, 36};
-            settings.prepass = prepass;
-            bothPaths(scene, settings, validated);
+            settings.path = path;
+            settings.prepass = Switch::on;
+            all.push_back(settings);
+            if (path == Path::deferred) continue;
+            settings.prepass = Switch::off;
+            all.push_back(settings);
         }
+    for (const auto& [assign, kernel] : {std::pair{Assignment::tiled, LightKernel::scatter},
+                                         {Assignment::tiled, LightKernel::gather},
+                                         {Assignment::clustered, LightKernel::gather},
+                                         {Assignment::every, LightKernel::automatic},
+                                         {Assignment::per_object, LightKernel::automatic}}) {
+        Settings settings = smallPicture(GBufferEncoding::full);
+        settings.size = {64, 36};
+        settings.path = Path::forward_plus;
+        settings.assign = assign;
+        settings.light_kernel = kernel;
+        all.push_back(settings);
+    }
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    options.through_gbuffer = true;
+    renderAll(validated, scene, all, options);
     EXPECT_EQ(validated.validationMessages(), 0u) << validated.firstValidationMessage();
 }
 
