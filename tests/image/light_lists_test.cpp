@@ -132,11 +132,10 @@ TEST_P(LightPairs, EveryWayIsEvery) {
     constexpr std::size_t counts[] = {1, 255, 256, 257, 1024};
     constexpr Size sizes[] = {{1, 1}, {15, 17}, {160, 90}, {213, 119}};
     const Scene scene = loadScene(GetParam());
-    for (const std::size_t i : {at, at + 2}) {
-        const Scene many = withLights(scene, counts[i % std::size(counts)]);
-        Renderer renderer(device(), many);
-        expectEveryWayEqual(renderer, sizes[at % std::size(sizes)], at % 3 == 0);
-    }
+    // 5 and 4 have no common factor: over the scenes every count meets every size.
+    const Scene many = withLights(scene, counts[at % std::size(counts)]);
+    Renderer renderer(device(), many);
+    expectEveryWayEqual(renderer, sizes[at % std::size(sizes)], at % 3 == 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LightPairs, testing::ValuesIn(builtinScenes()),
