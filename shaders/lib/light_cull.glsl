@@ -6,41 +6,38 @@
 
 #include "shaders/lib/light_grid.glsl"
 
-// What is left of a ball behind a plane through the camera with the normal (a, 0, b) in two of the axes is within
-// the smaller ball around its centre's foot on the plane. `outside`: how far the centre is beyond the plane.
-void cutBall(float outside, vec2 normal, inout vec2 centre, inout float squared) {
-    float d = max(outside, 0.0);
-    centre -= normal * d;
-    squared -= d * d;
+// Which of a cell's two sides along an axis, x = sides * z, `centre` is beyond at depth z; 0: neither.
+float sideBeyond(vec2 sides, float centre, float z) {
+    return centre < sides.x * z ? sides.x : centre > sides.y * z ? sides.y : 0.0;
+}
+float beyondSides(vec2 sides, float centre, float z) {
+    return min(centre - sides.x * z, 0.0) + max(centre - sides.y * z, 0.0);
 }
 
-// The two planes x = sides * z of a cell; what is outside of one is inside of the other.
-void cutBySides(vec2 sides, inout vec2 centre, inout float squared) {
-    vec2 lengths = inversesqrt(1.0 + sides * sides);
-    float before = (sides.x * centre.y - centre.x) * lengths.x;
-    float behind = (centre.x - sides.y * centre.y) * lengths.y;
-    bool left = before > behind;
-    vec2 normal = left ? vec2(-1.0, sides.x) * lengths.x : vec2(1.0, -sides.y) * lengths.y;
-    cutBall(left ? before : behind, normal, centre, squared);
-}
-
-// A ball against a cell, one pair of planes after the other (Persson 2013, "Practical Clustered Shading", does so
-// row by row): exact for a box, for a froxel it may only err towards yes.
-bool ballReaches(vec3 centre, float radius, CellBounds cell) {
-    if (cell.depth.x > cell.depth.y) return false;
-    float squared = radius * radius;
-    float foot = clamp(centre.z, cell.depth.x, cell.depth.y);
-    squared -= (centre.z - foot) * (centre.z - foot);
-    centre.z = foot;
+// The square of the distance from a point to a cell; seldom a little less, never more. At depth z a cell is a rectangle,
+// so the square of the distance to it is f(z) = (z - c.z)^2 + dx(z)^2 + dy(z)^2, convex and quadratic in pieces: a step of
+// Newton's from the centre's depth nearly always finds the least value. Wherever it ends, f lies above the parabola of
+// curvature 2 that touches it there, whose least value is what is returned. `axes`: 1 counts x, y, 0 leaves them out.
+float squaredDistance(vec3 c, CellBounds cell, vec2 axes) {
+    float z = clamp(c.z, cell.depth.x, cell.depth.y);
     if (on(feature_orthographic)) {
-        vec2 beyond = max(max(vec2(cell.x.x, cell.y.x) - centre.xy, centre.xy - vec2(cell.x.y, cell.y.y)), 0.0);
-        return squared >= dot(beyond, beyond);
+        vec2 beyond = vec2(beyondSides(cell.x, c.x, 1.0), beyondSides(cell.y, c.y, 1.0)) * axes;
+        return (z - c.z) * (z - c.z) + dot(beyond, beyond);
     }
-    vec2 yz = centre.yz;
-    cutBySides(cell.y, yz, squared);
-    vec2 xz = vec2(centre.x, yz.y);
-    cutBySides(cell.x, xz, squared);
-    return squared >= 0.0;
+    vec2 first = vec2(sideBeyond(cell.x, c.x, z), sideBeyond(cell.y, c.y, z)) * axes;
+    z = clamp((c.z + dot(first, c.xy)) / (1.0 + dot(first, first)), cell.depth.x, cell.depth.y);
+    vec2 side = vec2(sideBeyond(cell.x, c.x, z), sideBeyond(cell.y, c.y, z)) * axes;
+    vec2 beyond = vec2(beyondSides(cell.x, c.x, z), beyondSides(cell.y, c.y, z)) * axes;
+    float slope = z - c.z - dot(side, beyond);  // half of it
+    float step = clamp(z - slope, cell.depth.x, cell.depth.y) - z;
+    return (z - c.z) * (z - c.z) + dot(beyond, beyond) + (2.0 * slope + step) * step;
+}
+
+// To a row of cells, whatever their x.
+float squaredDistanceToRow(vec3 c, CellBounds cell) { return squaredDistance(c, cell, vec2(0.0, 1.0)); }
+
+bool ballReaches(vec3 centre, float radius, CellBounds cell) {
+    return cell.depth.x <= cell.depth.y && squaredDistance(centre, cell, vec2(1.0)) <= radius * radius;
 }
 
 // A cone against the sphere around a cell (Wronski 2017, "Cull that cone!"): the sphere is outside where it is

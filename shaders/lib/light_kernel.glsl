@@ -9,6 +9,8 @@ layout(set = SET_LISTS, binding = BINDING_BOUNDS, scalar) readonly buffer Bounds
 layout(set = SET_LISTS, binding = BINDING_MASKS, scalar) buffer Masks { uint masks[]; };
 layout(set = SET_LISTS, binding = BINDING_COUNTS, scalar) buffer Counts { LightListCount counts[]; };
 layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec3 tile_depths[]; };
+layout(set = SET_LISTS, binding = BINDING_USED_WORDS, scalar) buffer UsedWords { uint used_words[]; };
+layout(set = SET_LISTS, binding = BINDING_FOUR_BEGINS, scalar) buffer FourBegins { uint four_begins[]; };
 layout(set = SET_LISTS, binding = BINDING_OVERFLOW, scalar) buffer Overflow { uint overflowed_lists; };
 
 layout(set = SET_LISTS, binding = BINDING_HEADS, scalar) writeonly buffer Heads { LightListHead heads[]; };
@@ -18,9 +20,9 @@ layout(set = SET_LISTS, binding = BINDING_LISTED, scalar) writeonly buffer Liste
 // Groups that so many lights of a kind fill; one at least, where the scene has that kind.
 uint groupsOf(uint lights, bool any) { return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u); }
 
-// All of a list's lights, over its segments; `begin` of the first.
+// All of a list's lights, over its segments; `begin`: where the list begins.
 LightListCount countOf(uint list) {
-    LightListCount sum = LightListCount(0u, 0u, 0u, counts[list * grid.segments].begin);
+    LightListCount sum = LightListCount(0u, 0u, 0u, four_begins[list / 4u] + counts[list * grid.segments].begin);
     for (uint i = list * grid.segments; i < (list + 1u) * grid.segments; ++i) {
         sum.all += counts[i].all;
         sum.points += counts[i].points;
@@ -40,7 +42,7 @@ LightListHead headOf(LightListCount count) {
 }
 
 // By words, so that neighbouring threads, which have neighbouring lists, read neighbouring words.
-uint maskWord(uint word, uint list) { return word * grid.lists + list; }
+uint maskWord(uint word, uint list) { return word * grid.list_stride + list; }
 
 // Depths of a cell's list of opaques; tiled: what the picture's depths say.
 vec2 cellDepths(uint tile, uint slice) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rectangle of tiles that a light's ball may reach: what the scatter kernel walks instead of all of them.
+// The tiles that a light's ball may reach, as a rectangle and row by row: what the scatter kernel walks instead of all.
 #ifndef LIGHT_RECT_GLSL
 #define LIGHT_RECT_GLSL
 
@@ -22,17 +22,31 @@ uvec2 tilesCovered(float low, float high, vec2 z, float centre, TileSize size, u
     return uvec2(bounded);
 }
 
+// View depths of what the slab leaves of the ball, m, above 0; of nothing the first is the larger one.
+vec2 depthsOfBall(vec3 ball, float radius, vec2 slab) {
+    return vec2(max(max(slab.x, ball.z - radius), 1e-30), min(slab.y, ball.z + radius));
+}
+
 // Columns [x, y) and rows [z, w) of tiles that a ball (view axes, m) may reach between the view depths `slab`; of none,
 // y <= x or w <= z. By the box around what the slab leaves of the ball: never too small, and exact for no light.
 uvec4 tilesOfBall(vec3 ball, float radius, vec2 slab, TileSize size, uvec2 tiles) {
-    float near = max(max(slab.x, ball.z - radius), 1e-30);
-    float far = min(slab.y, ball.z + radius);
+    vec2 depths = depthsOfBall(ball, radius, slab);
     float beyond = max(max(slab.x - ball.z, ball.z - slab.y), 0.0);
     float cut = sqrt(max(radius * radius - beyond * beyond, 0.0));
-    vec2 z = vec2(near, max(near, far));
+    vec2 z = vec2(depths.x, max(depths.x, depths.y));
     uvec4 found = uvec4(tilesCovered(ball.x - cut, ball.x + cut, z, size.centre.x, size, tiles.x),
                         tilesCovered(ball.y - cut, ball.y + cut, z, size.centre.y, size, tiles.y));
-    return near <= far ? found : uvec4(0u);
+    return depths.x <= depths.y ? found : uvec4(0u);
+}
+
+// Columns [x, y) of one row of tiles that the ball may reach there; of none, y <= x. `squared`: of the distance from its
+// centre to the row within the slab, at most: what is there of the ball is no farther along x than what is left.
+uvec2 columnsOfBall(vec3 ball, float radius, vec2 slab, float squared, TileSize size, uint columns) {
+    vec2 depths = depthsOfBall(ball, radius, slab);
+    float left = radius * radius - squared, cut = sqrt(max(left, 0.0));
+    vec2 z = vec2(depths.x, max(depths.x, depths.y));
+    uvec2 found = tilesCovered(ball.x - cut, ball.x + cut, z, size.centre.x, size, columns);
+    return left >= 0.0 && depths.x <= depths.y ? found : uvec2(0u);
 }
 
 #endif

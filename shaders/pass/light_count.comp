@@ -2,21 +2,62 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A thread a list and segment: how many lights its words hold.
+// A thread four lists, whose masks are a texel: how many lights each of their segments holds, which words hold any, and
+// how many groups they take.
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = 64) in;
 
-void main() {
-    uint list = gl_GlobalInvocationID.x, segment = gl_GlobalInvocationID.y;
-    if (list >= grid.lists) return;
-    LightListCount count = LightListCount(0u, 0u, 0u, 0u);
-    uint end = min((segment + 1u) * SEGMENT_WORDS, grid.words);
-    for (uint word = segment * SEGMENT_WORDS; word < end; ++word) {
-        uint mask = masks[maskWord(word, list)];
-        count.all += bitCount(mask);
-        count.points += bitCount(mask & bitsBelow(word, grid.point_end));
-        count.points_and_spots += bitCount(mask & bitsBelow(word, grid.spot_end));
+layout(set = SET_LISTS, binding = BINDING_MASK_TEXELS) uniform usamplerBuffer mask_texels;
+
+struct FourCounts {
+    uvec4 all, points, points_and_spots;
+};
+
+// Groups of whole lists; those behind the last list are no lists.
+uvec4 groupsOfFour(FourCounts sum, uint four) {
+    uvec4 result = uvec4(0u);
+    for (uint i = 0u; i < 4u; ++i) {
+        uint end = headOf(LightListCount(sum.all[i], sum.points[i], sum.points_and_spots[i], 0u)).end;
+        result[i] = four * 4u + i < grid.lists ? end : 0u;
     }
-    counts[list * grid.segments + segment] = count;
+    return result;
+}
+
+void main() {
+    uint four = gl_GlobalInvocationID.x, row = grid.list_stride / 4u;
+    if (four >= row) return;
+    bool points_alone = !on(feature_spot_lights) && !on(feature_area_lights);
+    FourCounts sum = FourCounts(uvec4(0u), uvec4(0u), uvec4(0u)), before = sum;
+    for (uint first = 0u; first < grid.words; first += 32u) {
+        uvec4 used = uvec4(0u);
+        uint end = min(first + 32u, grid.words);
+        for (uint word = first; word < end; ++word) {
+            uvec4 mask = texelFetch(mask_texels, int(word * row + four));
+            used |= uvec4(notEqual(mask, uvec4(0u))) << (word - first);
+            sum.all += uvec4(bitCount(mask));
+            if (!points_alone) {
+                sum.points += uvec4(bitCount(mask & bitsBelow(word, grid.point_end)));
+                sum.points_and_spots += uvec4(bitCount(mask & bitsBelow(word, grid.spot_end)));
+            }
+        }
+        for (uint i = 0u; i < 4u; ++i) used_words[maskWord(first / 32u, four * 4u + i)] = used[i];
+        if (points_alone) sum.points = sum.points_and_spots = sum.all;
+        // A segment ends here.
+        if (end % SEGMENT_WORDS == 0u || end == grid.words) {
+            for (uint i = 0u; i < 4u; ++i) {
+                uint list = four * 4u + i;
+                if (list < grid.lists)
+                    counts[list * grid.segments + first / SEGMENT_WORDS] =
+                        LightListCount(sum.all[i] - before.all[i], sum.points[i] - before.points[i],
+                                       sum.points_and_spots[i] - before.points_and_spots[i], 0u);
+            }
+            before = sum;
+        }
+    }
+    uvec4 groups = groupsOfFour(sum, four);
+    uvec4 begin = uvec4(0u, groups.x, groups.x + groups.y, groups.x + groups.y + groups.z);
+    for (uint i = 0u; i < 4u; ++i)
+        if (four * 4u + i < grid.lists) counts[(four * 4u + i) * grid.segments].begin = begin[i];
+    four_begins[four] = begin.w + groups.w;
 }

@@ -8,8 +8,10 @@
 
 layout(local_size_x = 64) in;
 
+// The places of a kind's groups behind its lights: at most one group's.
 void fillUp(uint from, uint end) {
-    for (uint i = from; i < end; ++i) indices[i] = grid.null_light;
+    for (uint i = 0u; i < feature_list_width; ++i)
+        if (from + i < end) indices[from + i] = grid.null_light;
 }
 
 void main() {
@@ -26,21 +28,28 @@ void main() {
         listed[list] = fits ? count.all : grid.local_lights;
         if (fits) {
             fillUp(point + count.points, spot);
-            fillUp(spot + count.points_and_spots - count.points, area);
-            fillUp(area + count.all - count.points_and_spots, head.end * grid.width);
+            if (on(feature_spot_lights)) fillUp(spot + count.points_and_spots - count.points, area);
+            if (on(feature_area_lights)) fillUp(area + count.all - count.points_and_spots, head.end * grid.width);
         }
     }
-    for (uint i = list * grid.segments; i < list * grid.segments + segment; ++i) {
+    uint place = list * grid.segments;
+    for (uint i = place; i < place + segment; ++i) {
         point += counts[i].points;
         spot += counts[i].points_and_spots - counts[i].points;
         area += counts[i].all - counts[i].points_and_spots;
     }
-    uint word = segment * SEGMENT_WORDS, end = fits ? min(word + SEGMENT_WORDS, grid.words) : word;
-    uint mask = 0u, next = word;
-    // One loop for words and bits: nested ones would each run a body too many.
-    while (next < end || mask != 0u) {
-        if (mask == 0u) {
-            word = next++;
+    uint left = fits ? counts[place + segment].all : 0u;
+    uint mask = 0u, word = 0u, used = 0u, next = segment * (SEGMENT_WORDS / 32u), first = 0u;
+    // One loop for words and bits, as nested ones would each run a body too many; a light a turn, but for 32 words that
+    // are all empty.
+    while (left > 0u) {
+        if (mask == 0u && used == 0u) {
+            used = used_words[maskWord(next, list)];
+            first = 32u * next++;
+        }
+        if (mask == 0u && used != 0u) {
+            word = first + uint(findLSB(used));
+            used &= used - 1u;
             mask = masks[maskWord(word, list)];
         }
         if (mask != 0u) {
@@ -48,6 +57,7 @@ void main() {
             mask &= mask - 1u;
             uint to = light < grid.point_end ? point++ : light < grid.spot_end ? spot++ : area++;
             indices[to] = grid.first_local + light;
+            --left;
         }
     }
 }

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One workgroup: how many groups each list takes becomes where it begins, after the list of all lights. A thread sums
-// a run of lists, the workgroup the runs (Hillis and Steele 1986, "Data parallel algorithms").
+// One workgroup: how many groups each four lists take becomes where they begin, after the list of all lights. A thread
+// sums a run of them, the workgroup the runs (Hillis and Steele 1986, "Data parallel algorithms").
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = LIST_GROUP) in;
@@ -11,15 +11,11 @@ layout(local_size_x = LIST_GROUP) in;
 shared uint sums[LIST_GROUP];
 
 void main() {
-    uint thread = gl_LocalInvocationIndex;
-    uint run = (grid.lists + LIST_GROUP - 1u) / LIST_GROUP;
-    uint first = min(thread * run, grid.lists), end = min(first + run, grid.lists);
+    uint thread = gl_LocalInvocationIndex, fours = grid.list_stride / 4u;
+    uint run = (fours + LIST_GROUP - 1u) / LIST_GROUP;
+    uint first = min(thread * run, fours), end = min(first + run, fours);
     uint sum = 0u;
-    for (uint list = first; list < end; ++list) {
-        LightListCount count = countOf(list);
-        count.begin = 0u;
-        sum += headOf(count).end;
-    }
+    for (uint i = first; i < end; ++i) sum += four_begins[i];
     sums[thread] = sum;
     barrier();
     for (uint step = 1u; step < LIST_GROUP; step *= 2u) {
@@ -29,10 +25,9 @@ void main() {
         barrier();
     }
     uint begin = grid.all_end + sums[thread] - sum;
-    for (uint list = first; list < end; ++list) {
-        LightListCount count = countOf(list);
-        count.begin = begin;
-        counts[list * grid.segments].begin = begin;
-        begin = headOf(count).end;
+    for (uint i = first; i < end; ++i) {
+        uint groups = four_begins[i];
+        four_begins[i] = begin;
+        begin += groups;
     }
 }

@@ -2,33 +2,47 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A thread a light and slice: it walks the tiles that the light's ball covers there and marks those that it reaches.
+// SCATTER_THREADS threads a light: they share out the rows of tiles that the light's ball covers in each slice, and
+// mark those tiles of a row that it reaches.
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/light_rect.glsl"
 
 layout(local_size_x = 64) in;
 
+// First and one past the last slice that the ball reaches, and one more on either side, as slices overlap by what
+// rounding may move.
+uvec2 slicesOfBall(LightBound bound) {
+    float near = bound.centre.z - bound.radius, far = bound.centre.z + bound.radius;
+    if (far < 0.0) return uvec2(0u);
+    if (feature_light_lists == LISTS_TILED) return uvec2(0u, 1u);
+    return uvec2(max(sliceOf(near), 1u) - 1u, min(sliceOf(far) + 2u, grid.slices));
+}
+
 void main() {
-    uint light = gl_GlobalInvocationID.x, slice = gl_GlobalInvocationID.y;
+    uint light = gl_GlobalInvocationID.x / SCATTER_THREADS, thread = gl_GlobalInvocationID.x % SCATTER_THREADS;
     if (light >= grid.local_lights) return;
     LightBound bound = light_bounds[light];
-    vec2 slab = feature_light_lists == LISTS_TILED ? vec2(0.0, MAX_BOUND_RADIUS) : sliceDepths(slice);
+    bool tiled = feature_light_lists == LISTS_TILED;
+    const vec2 all_depths = vec2(0.0, MAX_BOUND_RADIUS);
     TileSize size = TileSize(grid.centre, grid.pixel, float(1u << grid.tile_shift));
-    uvec4 rect = tilesOfBall(bound.centre, bound.radius, slab, size, grid.tiles);
-    uint end = (max(rect.y, rect.x) - rect.x) * (max(rect.w, rect.z) - rect.z);
+    uvec2 slices = slicesOfBall(bound), rows = tilesOfBall(bound.centre, bound.radius, all_depths, size, grid.tiles).zw;
+    uint height = max(rows.y, rows.x) - rows.x;
     uint word = light / 32u, bit = 1u << (light % 32u);
-    uvec2 tile = rect.xz;
-    for (uint i = 0u; i < end; ++i) {
-        uint number = tile.y * grid.tiles.x + tile.x;
-        vec2 depths = cellDepths(number, slice);
-        bool reached = reaches(bound, cellBounds(tile, depths));
-        if (feature_light_lists == LISTS_TILED) {
-            bool around = reaches(bound, cellBounds(tile, transparentDepths(number)));
-            reached = reached && around;  // what rounder bounds keep for nothing
-            if (around) atomicOr(masks[maskWord(word, grid.cells + number)], bit);
+    for (uint i = thread; i < (slices.y - slices.x) * height; i += SCATTER_THREADS) {
+        uint slice = slices.x + i / height, row = rows.x + i % height;
+        vec2 slab = tiled ? all_depths : sliceDepths(slice);
+        float squared = squaredDistanceToRow(bound.centre, cellBounds(uvec2(0u, row), slab));
+        uvec2 columns = columnsOfBall(bound.centre, bound.radius, slab, squared, size, grid.tiles.x);
+        for (uint column = columns.x; column < columns.y; ++column) {
+            uint number = row * grid.tiles.x + column;
+            uvec2 tile = uvec2(column, row);
+            bool reached = reaches(bound, cellBounds(tile, tiled ? cellDepths(number, slice) : slab));
+            if (tiled) {
+                bool around = reaches(bound, cellBounds(tile, transparentDepths(number)));
+                reached = reached && around;  // what rounder bounds keep for nothing
+                if (around) atomicOr(masks[maskWord(word, grid.cells + number)], bit);
+            }
+            if (reached) atomicOr(masks[maskWord(word, slice * grid.tiles.x * grid.tiles.y + number)], bit);
         }
-        if (reached) atomicOr(masks[maskWord(word, slice * grid.tiles.x * grid.tiles.y + number)], bit);
-        bool row_ends = tile.x + 1u == rect.y;
-        tile = row_ends ? uvec2(rect.x, tile.y + 1u) : uvec2(tile.x + 1u, tile.y);
     }
 }

@@ -28,6 +28,7 @@ struct LightGrid {
     uint slice_shift;      //   most slices - 1: steps that grow with depth and are exact to tell, without a log
     uint cells;            // tiles.x * tiles.y * slices; tiled: of opaque lists, those of transparents follow
     uint lists;            // cells, or twice as many where tiled
+    uint list_stride;      // lists of one row of the masks: a multiple of four
     uint local_lights;
     uint first_local;      // directional lights before them
     uint point_end;        // numbers of points are below it,
@@ -58,7 +59,7 @@ struct LightBound {
 // How many lights of one list's segment there are, and of these the points, and the points and spots.
 struct LightListCount {
     uint all, points, points_and_spots;
-    uint begin;  // of a list's first segment: the group where the list begins
+    uint begin;  // of a list's first segment: groups of the lists before it in its row of four
 };
 
 // A list: groups [begin, end) of the index buffer in the order of the lights, points before point_end, spots
@@ -71,11 +72,12 @@ struct LightListHead {
 CONTRACT_CONST(uint, LIGHT_TILE, 16);             // pixels, of tiled: one of its 256 threads each
 CONTRACT_CONST(uint, SEGMENT_WORDS, 1024);        // 32,768 lights: a loop over them ends before lavapipe's limit
 CONTRACT_CONST(uint, LIST_GROUP, 256);            // threads of a workgroup of the kernels
+CONTRACT_CONST(uint, SCATTER_THREADS, 8);         // share a light's cells out among them
 CONTRACT_CONST(float, MAX_BOUND_RADIUS, 1e15f);   // m; its square stays finite
 
 // SET_LISTS, of the kernels that make lists.
 CONTRACT_CONST(uint, BINDING_BOUNDS, 0);        // buffer LightBound[local_lights]
-CONTRACT_CONST(uint, BINDING_MASKS, 1);         // buffer uint[words][lists]: bit i of word w is light 32 w + i
+CONTRACT_CONST(uint, BINDING_MASKS, 1);         // buffer uint[words][list_stride]: bit i of word w is light 32 w + i
 CONTRACT_CONST(uint, BINDING_COUNTS, 2);        // buffer LightListCount[lists][segments]
 CONTRACT_CONST(uint, BINDING_TILE_DEPTHS, 3);   // buffer vec3[tiles]: least, largest and visible view depth, m
 CONTRACT_CONST(uint, BINDING_OVERFLOW, 4);      // buffer uint: lists that found no room
@@ -83,6 +85,9 @@ CONTRACT_CONST(uint, BINDING_LISTS_DEPTH, 5);   // texture: the picture's depth
 CONTRACT_CONST(uint, BINDING_HEADS, 6);         // buffer LightListHead[lists]
 CONTRACT_CONST(uint, BINDING_INDICES, 7);       // buffer uint[capacity * width]
 CONTRACT_CONST(uint, BINDING_LISTED, 8);        // buffer uint[lists]: lights of each, for channels
+CONTRACT_CONST(uint, BINDING_USED_WORDS, 9);    // buffer uint[words / 32][list_stride]: which words have any bits
+CONTRACT_CONST(uint, BINDING_FOUR_BEGINS, 10);  // buffer uint[list_stride / 4]: groups of four lists, then where they begin
+CONTRACT_CONST(uint, BINDING_MASK_TEXELS, 11);  // the masks again, a row's lists four a texel
 
 CONTRACT_END
 

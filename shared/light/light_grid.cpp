@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace diptych {
 
@@ -15,11 +17,18 @@ namespace {
 // times on either side, 6e-8 of the distance from the camera each time.
 constexpr double rounding = 4e-6;
 
-// Slices in an octave of depth + offset, log2: eight, so that one is a sixteenth to an eighth as deep.
-constexpr unsigned octaveShift = 23 - 3;
-constexpr gpu::uint mostSlices = 96;
-// A light may be listed in every cell of a slice by one thread: far below lavapipe's limit of a loop.
-constexpr std::uint64_t mostCells = 60000;
+// Slices in an octave of depth + offset, log2, the coarsest that is tried: four, so that one is an eighth to
+// a quarter as deep.
+constexpr gpu::uint octaveShift = 23 - 2;
+constexpr gpu::uint mostSlices = 128;
+constexpr gpu::uint finestTile = 3, coarsestTile = 6;  // pixels, log2
+// Eight threads share out the cells of a light that is felt everywhere: far below lavapipe's limit of a loop.
+constexpr std::uint64_t mostCells = 131072;
+static_assert(mostCells / gpu::SCATTER_THREADS < 65535 / 2);
+
+// ns of lavapipe on two threads (README, "Many lights"), which only their ratios matter of: to clear, count
+// and place a list, to mark and write one of its lights, and to evaluate a light at a pixel.
+constexpr double costOfCell = 40, costOfListed = 15, costOfEvaluated = 5;
 
 double middle(std::vector<double> values, double otherwise) {
     if (values.empty()) return otherwise;
@@ -33,25 +42,24 @@ gpu::uint tilesAcross(int pixels, gpu::uint shift) {
 }
 
 struct TypicalLight {
-    double radius = 1;   // m
-    double pixels = 64;  // its radius on the screen
-    double far = 0;      // where the last one ends, m
+    double radius = 1;  // m
+    double depth = 1;   // m
+    double far = 0;     // where the last one ends, m
 };
 
 // Of those in front of the camera that end somewhere.
-TypicalLight typicalLight(const gpu::LightGrid& grid, bool orthographic,
-                          std::span<const gpu::LightBound> bounds) {
-    std::vector<double> radii, pixels;
+TypicalLight typicalLight(std::span<const gpu::LightBound> bounds) {
+    std::vector<double> radii, depths;
     TypicalLight light;
     for (const gpu::LightBound& b : bounds) {
         const double r = static_cast<double>(b.radius), z = static_cast<double>(b.centre.z);
         if (r >= 1e6 || z + r <= 0) continue;
         radii.push_back(r);
-        pixels.push_back(r / (static_cast<double>(grid.pixel) * (orthographic ? 1 : std::max(z, r))));
+        depths.push_back(std::max(z, r));
         light.far = std::max(light.far, z + r);
     }
     light.radius = std::max(middle(std::move(radii), 1), 1e-6);
-    light.pixels = middle(std::move(pixels), 64);
+    light.depth = middle(std::move(depths), 1);
     return light;
 }
 
@@ -65,15 +73,57 @@ void sizeTiles(gpu::LightGrid& grid, const View& view, gpu::uint shift) {
     grid.tiles = {tilesAcross(view.width, shift), tilesAcross(view.height, shift)};
 }
 
-void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::LightBound> bounds) {
-    const TypicalLight typical = typicalLight(grid, view.camera.orthographic, bounds);
-    const auto wanted = std::bit_width(static_cast<unsigned>(std::clamp(typical.pixels / 4, 16.0, 64.0))) - 1;
-    sizeTiles(grid, view, static_cast<gpu::uint>(wanted));
+// Of the typical light's surroundings, m^3: how much room a cell's middle has that the light is felt in the
+// cell. By Steiner's formula for a box and a ball.
+double feltAround(const gpu::LightGrid& grid, bool orthographic, const TypicalLight& light) {
+    const double r = light.radius, depth = light.depth + static_cast<double>(grid.slice_offset);
+    const double side = static_cast<double>(grid.pixel) * (orthographic ? 1 : light.depth) *
+                        static_cast<double>(1u << grid.tile_shift);
+    // Between the depth of the first and of the last slice of an octave.
+    const double deep = 0.75 * depth / static_cast<double>(1u << (23 - std::min(grid.slice_shift, 23u)));
+    return side * side * deep + 2 * (side * side + 2 * side * deep) * r +
+           std::numbers::pi * (2 * side + deep) * r * r + 4 * std::numbers::pi / 3 * r * r * r;
+}
+
+// Of all sizes of tiles and slices those that cost least: what lists cost to make and what pixels evaluate,
+// by how many lights the cells of one grid hold and how the others' differ.
+void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::LightBound> bounds,
+                 std::uint64_t most) {
+    const bool orthographic = view.camera.orthographic;
+    const TypicalLight typical = typicalLight(bounds);
     grid.slice_offset = static_cast<float>(2 * typical.radius);
-    grid.slice_shift = octaveShift;
     const double far = std::min(typical.far, view.camera.far);
-    while (sliceOf(grid, far) >= mostSlices) ++grid.slice_shift;
-    grid.slices = sliceOf(grid, far) + 1;
+    const auto sized = [&](gpu::uint tile, gpu::uint slice) {
+        gpu::LightGrid g = grid;
+        sizeTiles(g, view, tile);
+        g.slice_shift = slice;
+        g.slices = sliceOf(g, far) + 1;
+        return g;
+    };
+    const auto cells = [](const gpu::LightGrid& g) {
+        return std::uint64_t{g.tiles.x} * g.tiles.y * g.slices;
+    };
+    gpu::uint coarsest = octaveShift;
+    while (sized(coarsestTile, coarsest).slices > std::min<std::uint64_t>(mostSlices, most)) ++coarsest;
+    grid = sized(coarsestTile, coarsest);
+    while (cells(grid) > most) grid = sized(grid.tile_shift + 1, coarsest);
+    const gpu::uint largest = grid.tile_shift;
+    const double pixels = static_cast<double>(view.width) * view.height;
+    const double lights = static_cast<double>(listedAtMost(grid, orthographic, bounds)) /
+                          (static_cast<double>(cells(grid)) * feltAround(grid, orthographic, typical));
+    double least = std::numeric_limits<double>::infinity();
+    for (gpu::uint tile = finestTile; tile <= largest; ++tile)
+        for (gpu::uint slice = coarsest + 1; slice-- > 0;) {
+            const gpu::LightGrid g = sized(tile, slice);
+            if (g.slices > mostSlices || cells(g) > most) break;
+            const double listed = lights * feltAround(g, orthographic, typical);
+            const double cost = static_cast<double>(cells(g)) * (costOfCell + listed * costOfListed) +
+                                pixels * listed * costOfEvaluated;
+            if (cost < least) {
+                least = cost;
+                grid = g;
+            }
+        }
 }
 
 }  // namespace
@@ -175,13 +225,14 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
     grid.segments = (grid.words + gpu::SEGMENT_WORDS - 1) / gpu::SEGMENT_WORDS;
     grid.slices = 1;
     if (lists == gpu::LISTS_CLUSTERED)
-        sizeFroxels(grid, view, bounds);
+        sizeFroxels(grid, view, bounds, std::min(mostCells, buffer_bytes / (4 * std::max(grid.words, 1u))));
     else
         sizeTiles(grid, view, std::bit_width(gpu::LIGHT_TILE) - 1);
     const auto count = [&] {
         grid.cells = grid.tiles.x * grid.tiles.y * grid.slices;
         grid.lists = lists == gpu::LISTS_TILED ? 2 * grid.cells : grid.cells;
-        return std::uint64_t{grid.lists};
+        grid.list_stride = (grid.lists + 3) / 4 * 4;
+        return std::uint64_t{grid.list_stride};
     };
     while (count() * grid.words * 4 > buffer_bytes || count() > mostCells)
         sizeTiles(grid, view, grid.tile_shift + 1);

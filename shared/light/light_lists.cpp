@@ -15,9 +15,9 @@ namespace {
 
 constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 // In the order of SET_LISTS's bindings.
-constexpr std::array listTypes{storage, storage, storage,
-                               storage, storage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                               storage, storage, storage};
+constexpr std::array listTypes{
+    storage, storage, storage, storage, storage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    storage, storage, storage, storage, storage, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER};
 
 // No buffer of the lists is larger, whatever the device allows.
 constexpr std::uint64_t mostBytes = std::uint64_t{256} << 20;
@@ -99,7 +99,12 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     bounds_ = makeBuffer<gpu::LightBound>(device, uploader, "light bounds", bounds,
                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     uploader.flush();
-    masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.lists, 4);
+    masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.list_stride, 4,
+                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    masks_view_ = makeTexelView(device, "light masks", masks_, VK_FORMAT_R32G32B32A32_UINT);
+    four_begins_ = buffer("begins of light lists", grid_.list_stride / 4, 4);
+    used_words_ =
+        buffer("used words of light masks", std::uint64_t{(grid_.words + 31) / 32} * grid_.list_stride, 4);
     counts_ =
         buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
     tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec3));
@@ -116,6 +121,9 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     sets_.buffer(0, gpu::BINDING_HEADS, heads_.handle());
     sets_.buffer(0, gpu::BINDING_INDICES, indices_.handle());
     sets_.buffer(0, gpu::BINDING_LISTED, listed_.handle());
+    sets_.buffer(0, gpu::BINDING_USED_WORDS, used_words_.handle());
+    sets_.buffer(0, gpu::BINDING_FOUR_BEGINS, four_begins_.handle());
+    sets_.texels(0, gpu::BINDING_MASK_TEXELS, masks_view_);
 }
 
 void LightLists::specialise(Variant& variant) const {
@@ -134,8 +142,9 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
                            VkDescriptorSet frame_set, ImageRef depth) {
     if (!any()) return;
     Variant own;
-    own.set(gpu::FEATURE_light_lists, choice_.lists);
-    for (const gpu::uint feature : {gpu::FEATURE_orthographic, gpu::FEATURE_spot_lights})
+    specialise(own);
+    for (const gpu::uint feature :
+         {gpu::FEATURE_orthographic, gpu::FEATURE_spot_lights, gpu::FEATURE_area_lights})
         own.set(feature, variant.get(feature));
     const auto kernel = [&](const std::string& name) {
         return pipelines.compute(name, own, layouts_.pipeline());
@@ -161,7 +170,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     }
     const bool scatters = choice_.kernel == ListKernel::scatter;
     const VkPipeline mark = kernel(scatters ? "light_scatter.comp" : "light_gather.comp");
-    const glm::uvec3 marks = scatters ? glm::uvec3(groups(grid_.local_lights), grid_.slices, 1)
+    const glm::uvec3 marks = scatters ? glm::uvec3(groups(grid_.local_lights * gpu::SCATTER_THREADS), 1, 1)
                                       : glm::uvec3(grid_.tiles.x, grid_.tiles.y, grid_.slices);
     const VkPipeline count = kernel("light_count.comp"), scan = kernel("light_scan.comp"),
                      fill = kernel("light_fill.comp");
@@ -174,7 +183,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         bind(commands);
         dispatch(commands, mark, marks);
         computeBarrier(commands);
-        dispatch(commands, count, {groups(grid_.lists), grid_.segments, 1});
+        dispatch(commands, count, {groups(grid_.list_stride / 4), 1, 1});
         computeBarrier(commands);
         dispatch(commands, scan, {1, 1, 1});
         computeBarrier(commands);
@@ -193,8 +202,8 @@ std::uint64_t LightLists::overflowed() const {
 
 std::uint64_t LightLists::bytes() const {
     std::uint64_t sum = 0;
-    for (const GpuBuffer* buffer :
-         {&grid_buffer_, &bounds_, &masks_, &counts_, &tile_depths_, &heads_, &indices_, &listed_})
+    for (const GpuBuffer* buffer : {&grid_buffer_, &bounds_, &masks_, &counts_, &used_words_, &four_begins_,
+                                    &tile_depths_, &heads_, &indices_, &listed_})
         sum += buffer->size();
     return sum;
 }

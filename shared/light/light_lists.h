@@ -69,8 +69,9 @@ private:
     const ListLayouts& layouts_;
     Choice choice_;
     gpu::LightGrid grid_{};
-    GpuBuffer grid_buffer_, bounds_, masks_, counts_, tile_depths_, overflow_, heads_, indices_, listed_;
-    OwnedBufferView heads_view_, indices_view_;
+    GpuBuffer grid_buffer_, bounds_, masks_, used_words_, four_begins_, counts_, tile_depths_, overflow_,
+        heads_, indices_, listed_;
+    OwnedBufferView masks_view_, heads_view_, indices_view_;
     OwnedSampler sampler_;
     DescriptorSets sets_;
 };

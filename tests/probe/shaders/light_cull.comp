@@ -5,7 +5,8 @@
 #include "shaders/lib/light_cull.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// A bound (12), a cell's sides x, y and depths (6) -> whether the ball reaches it, whether the cone does.
+// A bound (12), a cell's sides x, y and depths (6) -> whether the ball reaches it, whether the cone does, whether the
+// ball reaches the cell's row.
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     LightBound bound;
@@ -16,6 +17,7 @@ void main() {
     bound.axis = IN3(18, 8);
     bound.sin_cone = IN(18, 11);
     CellBounds cell = CellBounds(vec2(IN(18, 12), IN(18, 13)), vec2(IN(18, 14), IN(18, 15)), vec2(IN(18, 16), IN(18, 17)));
-    OUT(2, 0) = ballReaches(bound.centre, bound.radius, cell) ? 1.0 : 0.0;
-    OUT(2, 1) = coneReaches(bound, cell) ? 1.0 : 0.0;
+    OUT(3, 0) = ballReaches(bound.centre, bound.radius, cell) ? 1.0 : 0.0;
+    OUT(3, 1) = coneReaches(bound, cell) ? 1.0 : 0.0;
+    OUT(3, 2) = squaredDistanceToRow(bound.centre, cell) <= bound.radius * bound.radius ? 1.0 : 0.0;
 }
