@@ -4,61 +4,81 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
 // The least and the largest view depth in each tile, over all samples of all its pixels, and how far transparents may
-// be seen in it: without end where a sample shows the background. A workgroup a tile.
+// be seen in it: without end where a sample shows the background. A workgroup a tile, a thread four pixels.
 // MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
 
-layout(local_size_x = LIGHT_TILE, local_size_y = LIGHT_TILE) in;
+layout(local_size_x = LIGHT_TILE / 2, local_size_y = LIGHT_TILE / 2) in;
 
 #if MULTISAMPLED
 layout(set = SET_LISTS, binding = BINDING_LISTS_DEPTH) uniform sampler2DMS depth;
-int samples() { return textureSamples(depth); }
 ivec2 size() { return textureSize(depth); }
 #else
 layout(set = SET_LISTS, binding = BINDING_LISTS_DEPTH) uniform sampler2D depth;
-int samples() { return 1; }
 ivec2 size() { return textureSize(depth, 0); }
 #endif
 
-shared uint least, largest, farthest;  // bits of positive floats, which order as they do
+const float NO_DEPTH = 2.0;
+shared uint nearest, deepest, background;  // reversed depths as bits of floats not below 0, which order as they do
+
+void add(float z, inout float near, inout float deep, inout bool open) {
+    near = max(near, z);
+    deep = z > 0.0 ? min(deep, z) : deep;  // 0: nothing was drawn there
+    open = open || z <= 0.0;
+}
 
 void main() {
     if (gl_LocalInvocationIndex == 0u) {
-        least = floatBitsToUint(MAX_BOUND_RADIUS);
-        largest = 0u;
-        farthest = 0u;
+        nearest = 0u;
+        deepest = floatBitsToUint(NO_DEPTH);
+        background = 0u;
     }
     barrier();
-    float low = MAX_BOUND_RADIUS, high = 0.0, end = 0.0;
+    float near = 0.0, deep = NO_DEPTH;
+    bool open = false;
     uint side = 1u << grid.tile_shift;
-    // A tile of more pixels than threads: every LIGHT_TILE-th of them, both ways.
+    // A tile of more pixels than the workgroup has: every LIGHT_TILE-th four of them, both ways.
     uint steps = side / LIGHT_TILE, i = 0u;
     // Not `for`, which runs a body more on lavapipe.
     do {
         uvec2 step = uvec2(i % steps, i / steps);
-        ivec2 p = ivec2(gl_WorkGroupID.xy * side + step * LIGHT_TILE + gl_LocalInvocationID.xy);
-        bool inside = all(lessThan(p, size()));
-        int s = 0;
-        do {
-            float z = inside ? texelFetch(depth, p, s).r : 0.0;
-            float d = viewDepth(z);
-            low = z > 0.0 ? min(low, d) : low;  // 0: nothing was drawn there
-            high = z > 0.0 ? max(high, d) : high;
-            end = inside && z <= 0.0 ? MAX_BOUND_RADIUS : end;
-        } while (++s < samples());
+        ivec2 p = ivec2(gl_WorkGroupID.xy * side + step * LIGHT_TILE + 2u * gl_LocalInvocationID.xy);
+        if (all(lessThan(p, size()))) {
+#if MULTISAMPLED
+            ivec2 last = size() - 1;
+            int s = 0;
+            do {
+                add(texelFetch(depth, p, s).r, near, deep, open);
+                add(texelFetch(depth, min(p + ivec2(1, 0), last), s).r, near, deep, open);
+                add(texelFetch(depth, min(p + ivec2(0, 1), last), s).r, near, deep, open);
+                add(texelFetch(depth, min(p + 1, last), s).r, near, deep, open);
+            } while (++s < textureSamples(depth));
+#else
+            // What lies beyond the picture's edge is its last pixel again.
+            vec4 z = textureGather(depth, vec2(p + 1) / vec2(size()));
+            add(z.x, near, deep, open);
+            add(z.y, near, deep, open);
+            add(z.z, near, deep, open);
+            add(z.w, near, deep, open);
+#endif
+        }
     } while (++i < steps * steps);
     // One atomic a subgroup: its threads' would wait for each other.
-    low = subgroupMin(low);
-    high = subgroupMax(high);
-    end = subgroupMax(end);
+    near = subgroupMax(near);
+    deep = subgroupMin(deep);
+    open = subgroupOr(open ? 1u : 0u) != 0u;
     if (subgroupElect()) {
-        atomicMin(least, floatBitsToUint(max(low, 0.0)));
-        atomicMax(largest, floatBitsToUint(max(high, 0.0)));
-        atomicMax(farthest, floatBitsToUint(max(high, end)));
+        atomicMax(nearest, floatBitsToUint(near));
+        atomicMin(deepest, floatBitsToUint(deep));
+        atomicOr(background, open ? 1u : 0u);
     }
     barrier();
-    if (gl_LocalInvocationIndex == 0u)
+    if (gl_LocalInvocationIndex == 0u) {
+        bool drawn = nearest > 0u;
+        float least = drawn ? max(viewDepth(uintBitsToFloat(nearest)), 0.0) : MAX_BOUND_RADIUS;
+        float largest = drawn ? max(viewDepth(uintBitsToFloat(deepest)), 0.0) : 0.0;
         tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] =
-            vec3(uintBitsToFloat(least), uintBitsToFloat(largest), uintBitsToFloat(farthest));
+            vec3(least, largest, background != 0u ? MAX_BOUND_RADIUS : largest);
+    }
 }

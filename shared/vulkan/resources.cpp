@@ -42,6 +42,7 @@ std::uint32_t bytesPerTexel(VkFormat format) {
 OwnedSampler makeNearestSampler(Device& device) {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.addressModeU = info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler sampler = VK_NULL_HANDLE;
     check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
     return {device.handle(), sampler};

@@ -11,7 +11,7 @@
 
 namespace diptych {
 
-// For texelFetch, which filters nothing.
+// For texelFetch and textureGather, which filter nothing; gathers clamp to the edge.
 OwnedSampler makeNearestSampler(Device& device);
 
 class GpuBuffer {
