@@ -2,6 +2,7 @@
 #include "shared/vulkan/physical_device.h"
 
 #include "shared/contract/features.h"
+#include "shared/contract/light_list.h"
 #include "shared/vulkan/check.h"
 
 #include <fmt/format.h>
@@ -54,6 +55,18 @@ std::string mebibytes(std::uint64_t bytes) {
     return fmt::format("{} MiB", bytes >> 20);
 }
 
+bool reducesSubgroups(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
+    if (properties.apiVersion < VK_API_VERSION_1_1) return false;
+    VkPhysicalDeviceSubgroupProperties subgroup{};
+    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    VkPhysicalDeviceProperties2 all{};
+    all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    all.pNext = &subgroup;
+    vkGetPhysicalDeviceProperties2(device, &all);
+    return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+           (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0;
+}
+
 std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
     Features f;
     if (properties.apiVersion >= VK_API_VERSION_1_3)
@@ -75,6 +88,9 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("maintenance4", f.v13.maintenance4 == VK_TRUE);
     need("scalar block layout", f.v12.scalarBlockLayout == VK_TRUE);
     need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
+    need("workgroups of 256 threads", l.maxComputeWorkGroupInvocations >= gpu::LIST_GROUP,
+         fmt::format("{} at most", l.maxComputeWorkGroupInvocations));
+    need("subgroup arithmetic in compute shaders", reducesSubgroups(device, properties));
     need("colour attachments", l.maxColorAttachments >= gpu::CAPTURE_ATTACHMENTS,
          fmt::format("{}, {} needed", l.maxColorAttachments, gpu::CAPTURE_ATTACHMENTS));
     note("picture size", true, fmt::format("up to {} x {}", l.maxImageDimension2D, l.maxImageDimension2D));
