@@ -178,7 +178,7 @@ struct Count {
 };
 
 // One tile's list against all lights. Far kept: at whose tile not even a ball twice as large as what the
-// light lights would arrive; the sphere's test, a pair of planes after another, may keep what is nearer
+// light lights would arrive; a spot's sphere and cone may each reach what both together do not
 // (light_cull.glsl).
 void hold(Count& count, const std::vector<gpu::uint>& list, const std::vector<Light>& lights,
           const std::vector<gpu::LightBound>& bounds, const Cell& cell) {
