@@ -2,6 +2,7 @@
 // What a surface's vertex shader hands to its fragment shaders. lavapipe sets up every declared input of every triangle
 // (48 bytes and 5 to 10 ns each), whether or not a variant reads it, so the modules that draw scenes are there for
 // several sets; shared/vulkan/pipelines.cpp picks the least that has what the variant reads.
+// At a centroid, so that with several samples a pixel nothing is extrapolated beyond its triangle's edge.
 // INPUTS 0: the normal; 1: and the first texture coordinates; 2: and what a normal map asks for; 3: everything.
 #ifndef INPUTS_GLSL
 #define INPUTS_GLSL
@@ -9,10 +10,10 @@
 #include "shaders/lib/surface.glsl"
 
 #ifdef STAGE_vert
-#define INPUT(at, type, name) layout(location = at) out type name;
+#define INPUT(at, type, name) layout(location = at) centroid out type name;
 #define UNREAD(type, name)
 #else
-#define INPUT(at, type, name) layout(location = at) in type name;
+#define INPUT(at, type, name) layout(location = at) centroid in type name;
 #define UNREAD(type, name) const type name = type(0.0);
 #endif
 
@@ -34,9 +35,9 @@ INPUT(4, vec4, v_color)
 INPUT(5, vec3, v_irradiance)         // of the vertex lights, W/m^2
 INPUT(6, vec3, v_irradiance_behind)  // and on the back of a double-sided material
 #ifdef STAGE_vert
-layout(location = 7) out vec2 v_slot_texcoords[SLOT_COUNT];
+layout(location = 7) centroid out vec2 v_slot_texcoords[SLOT_COUNT];
 #else
-layout(location = 7) in vec2 v_slot_texcoords[SLOT_COUNT];
+layout(location = 7) centroid in vec2 v_slot_texcoords[SLOT_COUNT];
 #endif
 #else
 UNREAD(vec4, v_color)

@@ -19,7 +19,8 @@ uvec2 slicesOfBall(LightBound bound) {
 }
 
 void main() {
-    uint light = gl_GlobalInvocationID.x / SCATTER_THREADS, thread = gl_GlobalInvocationID.x % SCATTER_THREADS;
+    uint number_of_thread = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+    uint light = number_of_thread / SCATTER_THREADS, thread = number_of_thread % SCATTER_THREADS;
     if (light >= grid.local_lights) return;
     LightBound bound = light_bounds[light];
     bool tiled = feature_light_lists == LISTS_TILED;

@@ -49,7 +49,7 @@ struct LightGrid {
 // camera: x right, y down, z forward; m. Widened by more than float32 can round.
 struct LightBound {
     vec3 centre;
-    float radius;      // at most MAX_BOUND_RADIUS
+    float radius;      // at most MAX_BOUND_RADIUS, and then around the camera: everywhere
     vec3 apex;         // of the cone: the light
     float cos_cone;    // half the opening angle; -1: all directions
     vec3 axis;         // unit
@@ -73,7 +73,7 @@ CONTRACT_CONST(uint, LIGHT_TILE, 16);             // pixels, of tiled: one of it
 CONTRACT_CONST(uint, SEGMENT_WORDS, 1024);        // 32,768 lights: a loop over them ends before lavapipe's limit
 CONTRACT_CONST(uint, LIST_GROUP, 256);            // threads of a workgroup of the kernels
 CONTRACT_CONST(uint, SCATTER_THREADS, 8);         // share a light's cells out among them
-CONTRACT_CONST(float, MAX_BOUND_RADIUS, 1e15f);   // m; its square stays finite
+CONTRACT_CONST(float, MAX_BOUND_RADIUS, 4e18f);   // m, over twice as far as anything may be; its square stays finite
 
 // SET_LISTS, of the kernels that make lists.
 CONTRACT_CONST(uint, BINDING_BOUNDS, 0);        // buffer LightBound[local_lights]

@@ -41,25 +41,25 @@ bool flattens(const glm::dmat4& worldFromObject) {
     return !(std::abs(glm::determinant(m)) > longest * longest * longest / 64);
 }
 
-std::array<glm::dvec4, 8> cornersInClip(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
-    std::array<glm::dvec4, 8> corners;
+std::array<glm::dvec4, 8> corners(const glm::dmat4& fromObject, const PrimitiveRange& range) {
+    std::array<glm::dvec4, 8> result;
     for (std::size_t i = 0; i < 8; ++i)
-        corners[i] = clipFromObject * glm::dvec4(i & 1 ? range.bounds_max.x : range.bounds_min.x,
-                                                 i & 2 ? range.bounds_max.y : range.bounds_min.y,
-                                                 i & 4 ? range.bounds_max.z : range.bounds_min.z, 1.0);
-    return corners;
+        result[i] = fromObject * glm::dvec4(i & 1 ? range.bounds_max.x : range.bounds_min.x,
+                                            i & 2 ? range.bounds_max.y : range.bounds_min.y,
+                                            i & 4 ? range.bounds_max.z : range.bounds_min.z, 1.0);
+    return result;
 }
 
 // Whether all corners of the box are beyond one of the clip planes (far excepted where it is at infinity:
 // there z = 0 is reached by nothing). The slack keeps a box that float32 might still touch.
 bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
-    const std::array<glm::dvec4, 8> corners = cornersInClip(clipFromObject, range);
+    const std::array<glm::dvec4, 8> box = corners(clipFromObject, range);
     double scale = 0;
-    for (const glm::dvec4& corner : corners)
+    for (const glm::dvec4& corner : box)
         for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(corner[c]));
     const double slack = 1e-5 * scale;
     const auto allBeyond = [&](auto distance) {
-        return std::all_of(corners.begin(), corners.end(),
+        return std::all_of(box.begin(), box.end(),
                            [&](const glm::dvec4& c) { return distance(c) < -slack; });
     };
     return allBeyond([](const glm::dvec4& c) { return c.w + c.x; }) ||
@@ -72,9 +72,10 @@ bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
 
 // How far its farthest corner is, in steps of 1/16 of an octave of view depth: near things differ by less
 // than far ones, and what is about as far can still be drawn by variant and material.
-int farthest(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
+int farthest(const glm::dmat4& cameraFromObject, const glm::dvec3& forward, const PrimitiveRange& range) {
     double depth = 0;
-    for (const glm::dvec4& corner : cornersInClip(clipFromObject, range)) depth = std::max(depth, corner.w);
+    for (const glm::dvec4& corner : corners(cameraFromObject, range))
+        depth = std::max(depth, glm::dot(forward, glm::dvec3(corner)));
     return depth > 0 ? static_cast<int>(std::floor(16 * std::log2(depth))) : std::numeric_limits<int>::min();
 }
 
@@ -105,7 +106,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         list.draws.push_back(gpuDraw(instance.world_from_object, eye, clipFromWorld));
         item.mirrored = list.draws.back().handedness < 0;
         item.masked = item.variant.get(gpu::FEATURE_alpha_mask) != 0;
-        item.distance = farthest(clipFromWorld * fromCamera, range);
+        item.distance = farthest(fromCamera, -view.backward(), range);
         list.items.push_back(item);
     }
     std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {

@@ -156,6 +156,7 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
             }
         }
         radius += rounding * (radius + glm::length(apex));
+        if (radius >= static_cast<double>(gpu::MAX_BOUND_RADIUS)) centre = glm::dvec3(0);
         bounds.push_back(
             {.centre = gpu::vec3(centre),
              .radius = static_cast<float>(std::min(radius, static_cast<double>(gpu::MAX_BOUND_RADIUS))),

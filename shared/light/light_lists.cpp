@@ -171,7 +171,10 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     }
     const bool scatters = choice_.kernel == ListKernel::scatter;
     const VkPipeline mark = kernel(scatters ? "light_scatter.comp" : "light_gather.comp");
-    const glm::uvec3 marks = scatters ? glm::uvec3(groups(grid_.local_lights * gpu::SCATTER_THREADS), 1, 1)
+    // In rows, as no device need run more than 65,535 workgroups along an axis.
+    constexpr gpu::uint row = 32768;
+    const gpu::uint scattered = groups(grid_.local_lights * gpu::SCATTER_THREADS);
+    const glm::uvec3 marks = scatters ? glm::uvec3(std::min(scattered, row), (scattered + row - 1) / row, 1)
                                       : glm::uvec3(grid_.tiles.x, grid_.tiles.y, grid_.slices);
     const VkPipeline count = kernel("light_count.comp"), scan = kernel("light_scan.comp"),
                      fill = kernel("light_fill.comp");

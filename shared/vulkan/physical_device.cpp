@@ -90,6 +90,10 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
     need("workgroups of 256 threads", l.maxComputeWorkGroupInvocations >= gpu::LIST_GROUP,
          fmt::format("{} at most", l.maxComputeWorkGroupInvocations));
+    need("storage buffers a shader", l.maxPerStageDescriptorStorageBuffers >= 14,
+         fmt::format("{}, 14 needed", l.maxPerStageDescriptorStorageBuffers));
+    need("samplers a shader", l.maxPerStageDescriptorSamplers >= 19,
+         fmt::format("{}, 19 needed", l.maxPerStageDescriptorSamplers));
     need("subgroup arithmetic in compute shaders", reducesSubgroups(device, properties));
     need("colour attachments", l.maxColorAttachments >= gpu::CAPTURE_ATTACHMENTS,
          fmt::format("{}, {} needed", l.maxColorAttachments, gpu::CAPTURE_ATTACHMENTS));

@@ -96,7 +96,8 @@ class LightMatrix : public testing::TestWithParam<std::tuple<const char*, int>> 
 std::vector<Size> sizesOf(const std::string& scene, int count) {
     std::vector<Size> sizes{{1, 1}, {15, 17}};
     if (count <= 257 || (count == 1024 && scene == "spheres")) sizes.push_back({640, 360});
-    if (count == 1 || count == 257) sizes.push_back({1279, 719});
+    if (count == 1 || count == 257 || (count == 1024 && scene == "spheres")) sizes.push_back({1279, 719});
+    if (count == 4096) sizes.push_back({213, 119});
     return sizes;
 }
 
@@ -230,6 +231,19 @@ TEST(LightExtremes, RangesFromAMillimetreToAMillionMetres) {
     lights.push_back(spotAt({0, 3, 0}, {0, -1, 0}, 0.6f, std::numeric_limits<float>::infinity()));
     for (const char* scene : {"builtin:spheres", "builtin:deep", "builtin:far_away", "builtin:ortho"})
         expectEqualUnder(scene, lights);
+}
+
+// As far as a light may be: beyond any ball whose square float32 holds easily.
+TEST(LightExtremes, LightsAsFarAwayAsTheyMayBe) {
+    constexpr float everywhere = std::numeric_limits<float>::infinity();
+    std::vector<Light> lights;
+    for (const double far : {1e14, 1e15, 1e16, 1e17, 1e18}) {
+        const auto intensity = static_cast<float>(far * far);
+        lights.push_back(pointAt({0, far, 0.1 * far}, intensity, everywhere));
+        lights.push_back(spotAt({0.3 * far, far, -far}, {-0.3, -1, 1}, 0.5f, everywhere));
+        lights.push_back(pointAt({-far, 0.5 * far, far}, intensity, static_cast<float>(3 * far)));
+    }
+    for (const char* scene : {"builtin:spheres", "builtin:ortho"}) expectEqualUnder(scene, lights);
 }
 
 TEST(LightExtremes, LightsOfNothingAndThousandsInOnePlace) {

@@ -93,5 +93,16 @@ TEST(Spared, DrawsGoFromNearToFar) {
     EXPECT_EQ(items.back().range.index_count, 6u);
 }
 
+// Where w is 1 everywhere, too.
+TEST(Spared, AnOrthographicCameraSeesNearAndFar) {
+    const Scene scene = loadScene("builtin:ortho");
+    SharedResources shared(device(), scene);
+    const Shot shot(device(), shared, scene, smallFrame(Path::forward_plus));
+    const std::vector<DrawItem>& items = shot.draws.items;
+    ASSERT_GT(items.size(), 1u);
+    EXPECT_TRUE(std::ranges::is_sorted(items, {}, &DrawItem::distance));
+    EXPECT_LT(items.front().distance, items.back().distance);
+}
+
 }  // namespace
 }  // namespace diptych::tests
