@@ -25,5 +25,4 @@ FEATURES(FEATURE_CONSTANT)
 
 bool on(uint feature) { return feature != 0; }
 
-
 #endif

@@ -2,7 +2,8 @@
 // What a surface's vertex shader hands to its fragment shaders. lavapipe sets up every declared input of every triangle
 // (48 bytes and 5 to 10 ns each), whether or not a variant reads it, so the modules that draw scenes are there for
 // several sets; shared/vulkan/pipelines.cpp picks the least that has what the variant reads.
-// At a centroid, so that with several samples a pixel nothing is extrapolated beyond its triangle's edge.
+// At a centroid, so that with several samples a pixel nothing is extrapolated beyond its triangle's edge; but for the
+// position, of which derivatives alone are asked: neighbours' centroids are not a pixel apart.
 // INPUTS 0: the normal; 1: and the first texture coordinates; 2: and what a normal map asks for; 3: everything.
 #ifndef INPUTS_GLSL
 #define INPUTS_GLSL
@@ -11,9 +12,11 @@
 
 #ifdef STAGE_vert
 #define INPUT(at, type, name) layout(location = at) centroid out type name;
+#define DERIVED(at, type, name) layout(location = at) out type name;
 #define UNREAD(type, name)
 #else
 #define INPUT(at, type, name) layout(location = at) centroid in type name;
+#define DERIVED(at, type, name) layout(location = at) in type name;
 #define UNREAD(type, name) const type name = type(0.0);
 #endif
 
@@ -25,7 +28,7 @@ UNREAD(vec2, v_texcoord)
 #endif
 #if INPUTS >= 2
 INPUT(2, vec4, v_tangent)
-INPUT(3, vec3, v_world)  // interpolated: for the triangle's normal alone
+DERIVED(3, vec3, v_world)  // world axes, camera as origin, m: for the triangle's normal alone
 #else
 UNREAD(vec4, v_tangent)
 UNREAD(vec3, v_world)
@@ -46,6 +49,7 @@ UNREAD(vec3, v_irradiance_behind)
 #endif
 
 #undef INPUT
+#undef DERIVED
 #undef UNREAD
 
 #endif

@@ -55,14 +55,20 @@ std::string mebibytes(std::uint64_t bytes) {
     return fmt::format("{} MiB", bytes >> 20);
 }
 
-bool reducesSubgroups(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
-    if (properties.apiVersion < VK_API_VERSION_1_1) return false;
-    VkPhysicalDeviceSubgroupProperties subgroup{};
-    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+// Properties with one more struct, whose sType is set.
+template <class More>
+VkPhysicalDeviceProperties propertiesWith(VkPhysicalDevice device, More& more) {
     VkPhysicalDeviceProperties2 all{};
     all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-    all.pNext = &subgroup;
+    all.pNext = &more;
     vkGetPhysicalDeviceProperties2(device, &all);
+    return all.properties;
+}
+
+bool reducesSubgroups(VkPhysicalDevice device) {
+    VkPhysicalDeviceSubgroupProperties subgroup{};
+    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    propertiesWith(device, subgroup);
     return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
            (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0;
 }
@@ -90,11 +96,13 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
     need("workgroups of 256 threads", l.maxComputeWorkGroupInvocations >= gpu::LIST_GROUP,
          fmt::format("{} at most", l.maxComputeWorkGroupInvocations));
+    // Set layouts name every binding for every stage: SET_FRAME's 4 storage buffers and SET_LISTS' 10; the samplers
+    // of a material (8), the G-buffer and depth (8), the sums carried on (2) and the table of area lights.
     need("storage buffers a shader", l.maxPerStageDescriptorStorageBuffers >= 14,
          fmt::format("{}, 14 needed", l.maxPerStageDescriptorStorageBuffers));
     need("samplers a shader", l.maxPerStageDescriptorSamplers >= 19,
          fmt::format("{}, 19 needed", l.maxPerStageDescriptorSamplers));
-    need("subgroup arithmetic in compute shaders", reducesSubgroups(device, properties));
+    need("subgroup arithmetic in compute shaders", reducesSubgroups(device));
     need("colour attachments", l.maxColorAttachments >= gpu::CAPTURE_ATTACHMENTS,
          fmt::format("{}, {} needed", l.maxColorAttachments, gpu::CAPTURE_ATTACHMENTS));
     note("picture size", true, fmt::format("up to {} x {}", l.maxImageDimension2D, l.maxImageDimension2D));
@@ -160,11 +168,7 @@ std::optional<std::uint32_t> graphicsFamily(VkPhysicalDevice device) {
 DeviceInfo describe(VkPhysicalDevice device, int index) {
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
-    VkPhysicalDeviceProperties2 properties{};
-    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-    properties.pNext = &driver;
-    vkGetPhysicalDeviceProperties2(device, &properties);
-    const VkPhysicalDeviceProperties& p = properties.properties;
+    const VkPhysicalDeviceProperties p = propertiesWith(device, driver);
     DeviceInfo info;
     info.index = index;
     info.name = p.deviceName;
