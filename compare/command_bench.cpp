@@ -61,8 +61,14 @@ int runBench(const Options& options) {
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
-    Bench bench{options.scenes.front(), options.settings, asked, reportDevice(device), options.runs, {},
-                plan.skips,             {}};
+    Bench bench{options.scenes.front(),
+                options.settings,
+                asked,
+                reportDevice(device),
+                options.runs,
+                {},
+                plan.skips,
+                {}};
     const bool prints = !options.json && !options.quiet;
     const auto print = [&](const std::string& text) {
         if (!prints || std::ferror(stdout)) return;
@@ -82,9 +88,9 @@ int runBench(const Options& options) {
         print(benchTable(bench, first));
     }
     if (asked.kernels)
-        bench.kernels = measureKernels(
-            device, std::max(options.runs, fewestKernelRuns),
-            whole.part(static_cast<double>(plan.groups.size()) / groups, 1).about("kernels"));
+        bench.kernels =
+            measureKernels(device, std::max(options.runs, fewestKernelRuns),
+                           whole.part(static_cast<double>(plan.groups.size()) / groups, 1).about("kernels"));
     checkValidation(device);
     const std::string json = writeBench(bench, folder, options.force);
     progress.wipe();

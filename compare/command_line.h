@@ -48,7 +48,7 @@ struct Options {
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
     BenchOptions bench;
-    std::string grid;                  // tradeoff: a file or JSON; empty: what is usual
+    std::string grid;  // tradeoff: a file or JSON; empty: what is usual
 };
 
 // `words` as the shell gives them, without the program's name. Every option of the tool's contract parses;

@@ -172,9 +172,10 @@ void addBench(CLI::App& app, Said& said) {
     app.add_option("--assign", said.bench_assign, "the assignments (all that can be drawn)")
         ->type_name(acceptedValues("assign") + ",...");
     app.add_option("--sizes", said.bench_sizes, "picture sizes (--size)")->type_name("WxH,...");
-    app.add_option("--light-counts", said.light_counts,
-                   "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "
-                   "seeded rig (the scene's own)")
+    app.add_option(
+           "--light-counts", said.light_counts,
+           "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "
+           "seeded rig (the scene's own)")
         ->type_name("N,...");
     app.add_option("--max-ms", said.max_ms,
                    "a frame that takes longer is not repeated, nor tried with more lights (2000)")

@@ -16,9 +16,8 @@ namespace diptych {
 
 int runCommand(const Options& options) {
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
-        {"compare", runCompare},   {"render", runRender}, {"diff", runDiff},
-        {"tradeoff", runTradeoff}, {"bench", runBench},   {"plan", runPlan},
-        {"devices", runDevices}};
+        {"compare", runCompare}, {"render", runRender}, {"diff", runDiff},      {"tradeoff", runTradeoff},
+        {"bench", runBench},     {"plan", runPlan},     {"devices", runDevices}};
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
     throw std::runtime_error(options.command + " is not built yet");

@@ -96,9 +96,9 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
                   const CompareOptions& options = {}, std::vector<std::vector<FeatureMarks>> marks = {});
 
-// The truth as the left panel: frames come three by three, the reference and both paths of one scene and camera;
-// both paths against it, then against each other. `needs`: one entry per frame; `marks` and `materials`, the names
-// of these by id: one per scene and camera.
+// The truth as the left panel: frames come three by three, the reference and both paths of one scene and
+// camera; both paths against it, then against each other. `needs`: one entry per frame; `marks` and
+// `materials`, the names of these by id: one per scene and camera.
 Report makeTruthReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
                        const CompareOptions& options, std::vector<std::vector<FeatureMarks>> marks,
                        const std::vector<std::vector<std::string>>& materials);

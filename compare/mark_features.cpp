@@ -19,7 +19,8 @@ namespace diptych {
 namespace {
 
 constexpr const char* slotNames[gpu::SLOT_COUNT] = {
-    "base colour", "metallic-roughness", "normal", "occlusion", "emission", "specular", "specular colour", "lightmap"};
+    "base colour", "metallic-roughness", "normal",          "occlusion",
+    "emission",    "specular",           "specular colour", "lightmap"};
 
 const Primitive& primitiveOf(const Scene& scene, const Instance& instance) {
     return scene.meshes[static_cast<std::size_t>(instance.mesh)]

@@ -24,7 +24,7 @@ namespace diptych {
     X(double_sided, "double-sided surfaces")   \
     X(mirrored, "mirrored instances")          \
     X(unlit, "unlit materials")                \
-    X(deep_image, "images of over 8 bits")             \
+    X(deep_image, "images of over 8 bits")     \
     X(skin, "skins")                           \
     X(morph, "morph targets")                  \
     X(flat, "flat normals")                    \

@@ -14,13 +14,13 @@
 namespace diptych {
 namespace {
 
-Standing standingOf(const DebugMode& mode, const Image& reference, const Image& test, const Coverage& covered) {
+Standing standingOf(const DebugMode& mode, const Image& reference, const Image& test,
+                    const Coverage& covered) {
     Standing standing;
     standing.stats = channelStats(mode.metric, mode.kind, reference, test, covered);
-    standing.relative_rmse =
-        mode.metric == Metric::relative
-            ? standing.stats.rmse
-            : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
+    standing.relative_rmse = mode.metric == Metric::relative
+                                 ? standing.stats.rmse
+                                 : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
     const Measurement measurement(
         {mode.metric, mode.kind, false, &reference, &test, &covered, &standing.stats});
     standing.flip = measurement({"flip", 0});
@@ -81,7 +81,8 @@ NearerChannel channelOf(const DebugMode& mode, const Frame& truth, const std::ar
         channel.paths[k] = standingOf(mode, reference, image, covered);
         errors[k] = errorImage(mode.metric, mode.kind, reference, image, covered);
     }
-    channel.between = standingOf(mode, paths[0]->channels.at(mode.number), paths[1]->channels.at(mode.number), covered);
+    channel.between =
+        standingOf(mode, paths[0]->channels.at(mode.number), paths[1]->channels.at(mode.number), covered);
     channel.apart = Image(reference.width, reference.height, 1);
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         if (!covered.covered[i]) continue;
@@ -111,7 +112,8 @@ Nearer nearerOf(const std::vector<Frame>& frames, std::size_t truth, std::array<
     Nearer nearer{truth, paths, {}};
     const std::array<const Frame*, 3> all{&frames[truth], &frames[paths[0]], &frames[paths[1]]};
     for (const int mode : litModes) {
-        if (std::ranges::all_of(all, [&](const Frame* f) { return f->channels.contains(mode) && f->isAsked(mode); }))
+        if (std::ranges::all_of(
+                all, [&](const Frame* f) { return f->channels.contains(mode) && f->isAsked(mode); }))
             nearer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));
     }
     return nearer;
@@ -120,23 +122,25 @@ Nearer nearerOf(const std::vector<Frame>& frames, std::size_t truth, std::array<
 std::string nearerLine(const Nearer& nearer, const NearerChannel& channel, const std::vector<Frame>& frames) {
     const std::string& truth = frames[nearer.truth].name;
     if (channel.nearer < 0)
-        return fmt::format("{}: both paths are equally near to the {}, mean errors {:.4g} and {:.4g}", channel.mode->name,
-                           truth, channel.paths[0].stats.mean, channel.paths[1].stats.mean);
+        return fmt::format("{}: both paths are equally near to the {}, mean errors {:.4g} and {:.4g}",
+                           channel.mode->name, truth, channel.paths[0].stats.mean,
+                           channel.paths[1].stats.mean);
     const auto near = static_cast<std::size_t>(channel.nearer), far = 1 - near;
     const auto pixels =
         static_cast<double>(channel.nearer_pixels[0] + channel.nearer_pixels[1] + channel.even_pixels);
     const auto percent = [&](std::uint64_t count) {
         return pixels > 0 ? 100 * static_cast<double>(count) / pixels : 0;
     };
-    const std::string times = std::isfinite(channel.by)              ? fmt::format("{:.4g} times less", channel.by)
+    const std::string times = std::isfinite(channel.by) ? fmt::format("{:.4g} times less", channel.by)
                               : channel.paths[near].stats.mean == 0 ? "none at all"
                                                                     : "which is infinite";
-    return fmt::format("{}: {} is nearer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
-                       "pixels ({} at {:.1f} %, even at {:.1f} %)",
-                       channel.mode->name, frames[nearer.paths[near]].name, truth, channel.paths[near].stats.mean,
-                       channel.paths[far].stats.mean, frames[nearer.paths[far]].name, times,
-                       percent(channel.nearer_pixels[near]), frames[nearer.paths[far]].name,
-                       percent(channel.nearer_pixels[far]), percent(channel.even_pixels));
+    return fmt::format(
+        "{}: {} is nearer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
+        "pixels ({} at {:.1f} %, even at {:.1f} %)",
+        channel.mode->name, frames[nearer.paths[near]].name, truth, channel.paths[near].stats.mean,
+        channel.paths[far].stats.mean, frames[nearer.paths[far]].name, times,
+        percent(channel.nearer_pixels[near]), frames[nearer.paths[far]].name,
+        percent(channel.nearer_pixels[far]), percent(channel.even_pixels));
 }
 
 double nearerTop(const Image& apart) {

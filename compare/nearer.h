@@ -38,8 +38,9 @@ struct NearerChannel {
     Standing between;               // the second against the first
     std::array<std::uint64_t, 2> nearer_pixels{};
     std::uint64_t even_pixels = 0;  // errors that are the same
-    int nearer = -1;  // 0 or 1, by mean error; -1: neither, by less than the truth is known to or a thousandth
-    double by = 1;    // the farther one's mean error over the nearer one's; infinite where that is 0
+    int nearer =
+        -1;         // 0 or 1, by mean error; -1: neither, by less than the truth is known to or a thousandth
+    double by = 1;  // the farther one's mean error over the nearer one's; infinite where that is 0
     std::vector<MaterialStanding> materials;  // those where the two are furthest apart first, at most eight
     // Pixel by pixel, the first's error less the second's: below 0 the first is nearer.
     Image apart;
@@ -48,15 +49,16 @@ struct NearerChannel {
 struct Nearer {
     std::size_t truth = 0;
     std::array<std::size_t, 2> paths{};  // into Report::frames
-    std::vector<NearerChannel> channels;  // lit, lit_diffuse, lit_specular and lit_ambient, where all three have them
+    std::vector<NearerChannel>
+        channels;  // lit, lit_diffuse, lit_specular and lit_ambient, where all three have them
 };
 
 // `names` of materials by id, may be short.
 Nearer nearerOf(const std::vector<Frame>& frames, std::size_t truth, std::array<std::size_t, 2> paths,
                 const Coverage& coverage, const std::vector<std::string>& names);
 
-// "forward_plus is nearer to the reference: mean error 1.2e-06 against 0.0012 (1000 times less), at 87 % of the
-// pixels (deferred at 3 %)"
+// "forward_plus is nearer to the reference: mean error 1.2e-06 against 0.0012 (1000 times less), at 87 % of
+// the pixels (deferred at 3 %)"
 std::string nearerLine(const Nearer& nearer, const NearerChannel& channel, const std::vector<Frame>& frames);
 
 // Blue where the first is nearer, orange where the second is, as bright as they are apart; `top` ends it.

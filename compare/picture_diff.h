@@ -17,7 +17,7 @@ namespace diptych {
 
 struct PictureDiffOptions {
     std::string metric = "flip";        // the figure that decides where no rule does, figureOfMetric()
-    bool metric_given = false;  // then a channel that has no such figure is not judged
+    bool metric_given = false;          // then a channel that has no such figure is not judged
     double tolerance = 0;               // the most that passes; of psnr and ssim the least
     std::optional<double> warn;         // what is beyond it is warned of
     std::optional<double> failing;      // instead: `tolerance` may be exceeded by this share of the pixels

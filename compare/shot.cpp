@@ -159,7 +159,8 @@ Frame describedFrame(const DrawnShot& drawn, const SharedResources& shared, cons
     frame.background = {scene.background.r, scene.background.g, scene.background.b};
     frame.notes = scene.notes;
     for (const std::string& note : shared.materials.notes()) frame.notes.push_back(note);
-    for (std::string& note : leftOut(drawn.shot, scene, settings.path)) frame.notes.push_back(std::move(note));
+    for (std::string& note : leftOut(drawn.shot, scene, settings.path))
+        frame.notes.push_back(std::move(note));
     for (const std::string& note : drawn.shot.notes) frame.notes.push_back(note);
     frame.counters.lights = drawn.shot.lights.count();
     frame.counters.energy_cut =

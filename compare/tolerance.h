@@ -42,8 +42,8 @@ double octahedralBound(unsigned bits);
 // The tolerance of `mode`, a channel of both Frames.
 Tolerance tolerance(const DebugMode& mode, const FramePair& pair);
 
-// Against a reference that sampled: the error at 99.9 % of the pixels beyond what the reference is known to at each.
-// Nothing where it is known, or no lit channel.
+// Against a reference that sampled: the error at 99.9 % of the pixels beyond what the reference is known to
+// at each. Nothing where it is known, or no lit channel.
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair);
 
 // Pixels where deferred is not what forward+ shades from a surface that has been through the G-buffer's

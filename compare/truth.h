@@ -26,10 +26,11 @@ Settings surfaceSettings(const Settings& settings);
 bool isTruth(const Frame& frame);
 
 // `surfaces` is the Frame of surfaceSettings() with reference::surfaceChannels(); nullptr in mode scene.
-Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfaces, const RenderOptions& options);
+Frame drawTruth(const Scene& scene, const Settings& settings, const Frame* surfaces,
+                const RenderOptions& options);
 
-// Where references keep what is done of them until a command ends: beside its output, one file each. They are gone
-// on from when the same command is given again.
+// Where references keep what is done of them until a command ends: beside its output, one file each. They are
+// gone on from when the same command is given again.
 class KeptReferences {
 public:
     // The folders above an output that is one itself are made, as they are for it.

@@ -26,8 +26,8 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
                     .depth = depthFormat,
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                     .depth_write = true};
-    for (const gpu::uint feature :
-         {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_lightmap, gpu::FEATURE_orthographic})
+    for (const gpu::uint feature : {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular,
+                                    gpu::FEATURE_lightmap, gpu::FEATURE_orthographic})
         key.variant.set(feature, inputs.variant.get(feature));
     key.variant.set(gpu::FEATURE_captured, captured);
     inputs.gbuffer.specialise(key.variant);
@@ -82,8 +82,8 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
     Pass& pass = passes.draw("G-buffer").depth(images.depth, Load::clear);
     for (const ImageRef image : images.gbuffer)
         if (image.valid()) pass.color(image, Load::clear);
-    pass.record(recordDraws(
-        inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item, captured); }));
+    pass.record(
+        recordDraws(inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item, captured); }));
 }
 
 LightChunk addEarlier(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
@@ -116,7 +116,8 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
     // The frame's own G-buffer holds no normals of triangles, which no light asks for.
-    if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) != request.modes.end())
+    if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
+        request.modes.end())
         addGBuffer(passes, inputs, frame, true);
     const LightChunk last = addEarlier(passes, inputs, frame);
     for (const CaptureGroup& group : captureGroups(request.modes)) {

@@ -21,8 +21,9 @@ PipelineKey shadeKey(const FrameInputs& inputs, const DrawItem& item, const Ligh
                     .depth_write = !inputs.prepass};
     for (const gpu::uint feature :
          {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular, gpu::FEATURE_directional_lights,
-          gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_area_lights, gpu::FEATURE_light_lists,
-          gpu::FEATURE_list_width, gpu::FEATURE_ambient, gpu::FEATURE_orthographic, gpu::FEATURE_view_source})
+          gpu::FEATURE_point_lights, gpu::FEATURE_spot_lights, gpu::FEATURE_area_lights,
+          gpu::FEATURE_light_lists, gpu::FEATURE_list_width, gpu::FEATURE_ambient, gpu::FEATURE_orthographic,
+          gpu::FEATURE_view_source})
         key.variant.set(feature, inputs.variant.get(feature));
     gpu::uint objects = inputs.variant.get(gpu::FEATURE_object_lights);
     if (item.variant.get(gpu::FEATURE_lightmap_texture) != 0) objects &= ~gpu::OBJECT_LIGHTS_SH;

@@ -46,9 +46,9 @@ struct Bench {
     std::optional<KernelReport> kernels;
 };
 
-// The rows of one group: one frame each to warm up, which also tells those that take over options.max_ms, then
-// `runs` rounds of one frame each, then as many profiled ones, three at least. What is left out goes into bench.skips; earlier rows
-// of `bench` predict what need not be tried.
+// The rows of one group: one frame each to warm up, which also tells those that take over options.max_ms,
+// then `runs` rounds of one frame each, then as many profiled ones, three at least. What is left out goes
+// into bench.skips; earlier rows of `bench` predict what need not be tried.
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress);
 

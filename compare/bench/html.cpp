@@ -55,12 +55,9 @@ std::string rows(const Bench& bench) {
             passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
         out += "<tr>" + numberCell(fmt::format("{}", row.counters.lights)) +
                numberCell(fmt::format("{}x{}", row.settings.size.width, row.settings.size.height)) +
-               cell(std::string(nameOf(row.settings.path))) +
-               cell(std::string(nameOf(row.settings.assign))) +
-               numberCell(msText(row.time.median)) +
-               numberCell(msText(row.time.min)) +
-               numberCell(msText(row.time.max)) +
-               numberCell(fmt::format("{:.3g}", assignMs(row))) +
+               cell(std::string(nameOf(row.settings.path))) + cell(std::string(nameOf(row.settings.assign))) +
+               numberCell(msText(row.time.median)) + numberCell(msText(row.time.min)) +
+               numberCell(msText(row.time.max)) + numberCell(fmt::format("{:.3g}", assignMs(row))) +
                numberCell(fmt::format("{:.1f} %", 100 * assignShare(row))) +
                numberCell(bytes(row.bytes.images + row.bytes.buffers)) + cell(passes) +
                cell(fmt::format("{}", fmt::join(ownNotes(row, common), "; "))) + "</tr>\n";
@@ -80,10 +77,11 @@ std::string kernels(const Bench& bench) {
     if (!bench.kernels) return {};
     const KernelReport& report = *bench.kernels;
     std::string out =
-        fmt::format("<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">{}x{}, the slope between "
-                    "lists of {} and {} of {} lights, {} runs in turn, {} threads</p>\n",
-                    report.size.width, report.size.height, report.short_list, report.long_list,
-                    report.lights, report.runs, report.threads) +
+        fmt::format(
+            "<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">{}x{}, the slope between "
+            "lists of {} and {} of {} lights, {} runs in turn, {} threads</p>\n",
+            report.size.width, report.size.height, report.short_list, report.long_list, report.lights,
+            report.runs, report.threads) +
         head({{"kernel", false}, {"ns", true}, {"over the CPU's", true}, {"goal", true}});
     for (const KernelRow& row : report.rows)
         out += "<tr>" + cell(row.name) + numberCell(fmt::format("{:.3f}", row.ns)) +
@@ -96,11 +94,15 @@ std::string kernels(const Bench& bench) {
 
 std::string how(const Bench& bench) {
     std::string out =
-        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, unsplit, "
-        "from culling to linear lit, lists made anew, the scene already uploaded: the median. Bars and columns "
-        "least and most are those of single frames.</li><li>All modes and sizes of one light count are drawn in "
+        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, "
+        "unsplit, "
+        "from culling to linear lit, lists made anew, the scene already uploaded: the median. Bars and "
+        "columns "
+        "least and most are those of single frames.</li><li>All modes and sizes of one light count are drawn "
+        "in "
         "turn, one frame each and again from the first, so that a device that slows down does so for all "
-        "alike.</li><li>Passes are medians of as many other frames, each pass timed by itself; the share is that "
+        "alike.</li><li>Passes are medians of as many other frames, each pass timed by itself; the share is "
+        "that "
         "of the passes that make light lists, of all passes.</li>";
     for (const std::string& note : commonNotes(bench)) out += "<li>" + markup(note) + "</li>";
     return out + "</ul></div>\n<footer><p><a href=\"bench.json\">bench.json</a>" +

@@ -60,16 +60,11 @@ Json jsonOf(const BenchSkip& skip) {
 Json jsonOf(const KernelReport& kernels) {
     Json rows = Json::array();
     for (const KernelRow& row : kernels.rows)
-        rows.push_back({{"name", row.name},
-                        {"ns", row.ns},
-                        {"ratio", orNull(row.ratio)},
-                        {"goal", orNull(row.goal)}});
-    return {{"size", jsonOf(kernels.size)},
-            {"lists", {kernels.short_list, kernels.long_list}},
-            {"lights", kernels.lights},
-            {"runs", kernels.runs},
-            {"threads", kernels.threads},
-            {"rows", rows},
+        rows.push_back(
+            {{"name", row.name}, {"ns", row.ns}, {"ratio", orNull(row.ratio)}, {"goal", orNull(row.goal)}});
+    return {{"size", jsonOf(kernels.size)}, {"lists", {kernels.short_list, kernels.long_list}},
+            {"lights", kernels.lights},     {"runs", kernels.runs},
+            {"threads", kernels.threads},   {"rows", rows},
             {"notes", kernels.notes}};
 }
 
@@ -79,19 +74,18 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
     Json rows = Json::array(), skips = Json::array();
     for (const BenchRow& row : bench.rows) rows.push_back(jsonOf(row));
     for (const BenchSkip& skip : bench.skips) skips.push_back(jsonOf(skip));
-    const Json json = {{"schema", 1},
-                       {"software", softwareName},
-                       {"device",
-                        {{"name", bench.device.name},
-                         {"driver", bench.device.driver},
-                         {"type", bench.device.type}}},
-                       {"scene", bench.scene},
-                       {"runs", bench.runs},
-                       {"max_ms", bench.options.max_ms},
-                       {"frames", rows},
-                       {"skipped", skips},
-                       {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
-                       {"files", files}};
+    const Json json = {
+        {"schema", 1},
+        {"software", softwareName},
+        {"device",
+         {{"name", bench.device.name}, {"driver", bench.device.driver}, {"type", bench.device.type}}},
+        {"scene", bench.scene},
+        {"runs", bench.runs},
+        {"max_ms", bench.options.max_ms},
+        {"frames", rows},
+        {"skipped", skips},
+        {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
+        {"files", files}};
     return json.dump(2) + "\n";
 }
 

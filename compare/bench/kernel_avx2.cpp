@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One listed point light at one pixel as a CPU does it best: the arithmetic of shaders/lib/brdf.glsl and
-// lights.glsl, function by function, 8 pixels a vector, lights broadcast from memory, sums in registers. A test
-// holds its picture against the shaders'.
+// lights.glsl, function by function, 8 pixels a vector, lights broadcast from memory, sums in registers. A
+// test holds its picture against the shaders'.
 #include "compare/bench/kernel_avx2.h"
 
 #if defined(__AVX2__) && defined(__FMA__)
@@ -74,8 +74,8 @@ Float schlickWeight(Float v_dot_h) {
     return x2 * x2 * x;
 }
 
-void addLight(const Brdf& b, const Vec3& n, const Vec3& v, const Vec3& l, const Vec3& irradiance, Vec3& diffuse,
-              Vec3& specular) {
+void addLight(const Brdf& b, const Vec3& n, const Vec3& v, const Vec3& l, const Vec3& irradiance,
+              Vec3& diffuse, Vec3& specular) {
     const Float n_dot_l = clamped(dot(n, l));
     const Vec3 s{l.x + v.x, l.y + v.y, l.z + v.z};
     const Float s2 = dot(s, s);
@@ -133,8 +133,7 @@ void shadeTileAvx2(const KernelTile& tile) {
                 const float* light = tile.lights + std::size_t{tile.indices[i]} * 8;
                 const Vec3 to_light{light[0] - p.position.x, light[1] - p.position.y,
                                     light[2] - p.position.z};
-                const Float d2 =
-                    larger(dot(to_light, to_light), splat(gpu::MIN_LIGHT_DISTANCE_SQUARED));
+                const Float d2 = larger(dot(to_light, to_light), splat(gpu::MIN_LIGHT_DISTANCE_SQUARED));
                 const Float x = d2 * light[3];
                 const Float window = whereGreater(splat(1), x, 1.0f - x * x, splat(0));
                 const Float inverse = 1.0f / root(d2), strength = window * (inverse * inverse);
@@ -142,8 +141,8 @@ void shadeTileAvx2(const KernelTile& tile) {
                          {light[4] * strength, light[5] * strength, light[6] * strength}, diffuse, specular);
             }
             const Float lit[3] = {diffuse.x + specular.x, diffuse.y + specular.y, diffuse.z + specular.z};
-            float* to = tile.row + static_cast<std::size_t>(row) * tile.stride +
-                        static_cast<std::size_t>(column) * 3;
+            float* to =
+                tile.row + static_cast<std::size_t>(row) * tile.stride + static_cast<std::size_t>(column) * 3;
             for (int lane = 0; lane < 8; ++lane)
                 for (int channel = 0; channel < 3; ++channel) to[lane * 3 + channel] = lit[channel][lane];
         }

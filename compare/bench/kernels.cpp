@@ -30,13 +30,13 @@ void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture
     const std::size_t stride = static_cast<std::size_t>(picture.width) * 3;
     tbb::parallel_for(0, across * workload.tilesDown(), [&](int tile) {
         const int x = tile % across * side, y = tile / across * side;
-        shadeTileAvx2({&workload.lights.front().position.x,
-                       workload.indices.data() + static_cast<std::size_t>(tile) *
-                                                     static_cast<std::size_t>(workload.list_capacity),
-                       listLength, x, y,
-                       picture.data.data() + static_cast<std::size_t>(y) * stride +
-                           static_cast<std::size_t>(x) * 3,
-                       stride});
+        shadeTileAvx2(
+            {&workload.lights.front().position.x,
+             workload.indices.data() +
+                 static_cast<std::size_t>(tile) * static_cast<std::size_t>(workload.list_capacity),
+             listLength, x, y,
+             picture.data.data() + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x) * 3,
+             stride});
     });
 }
 
@@ -56,8 +56,7 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
     KernelReport report{{640, 352}, 16, 48, static_cast<int>(mostKernelLights), runs, 0, {}, {}};
     report.threads =
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    const KernelWorkload workload =
-        makeWorkload(report.size, mostKernelLights, report.long_list, 1);
+    const KernelWorkload workload = makeWorkload(report.size, mostKernelLights, report.long_list, 1);
 
     // A list's length in, milliseconds out.
     std::vector<std::pair<KernelRow, std::function<double(int)>>> kernels;
@@ -77,24 +76,25 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
             continue;
         }
         drawn.push_back(makeDrawnKernel(device, workload, kernel));
-        kernels.emplace_back(
-            KernelRow{kernel.name, 0, {}, kernel.goal}, [&, one = drawn.back().get()](int length) {
-                double ms = 0;
-                const double cpu = cpuMs(report.threads, [&] { ms = one->draw(length); });
-                return device.info().isCpu() ? cpu : ms;
-            });
+        kernels.emplace_back(KernelRow{kernel.name, 0, {}, kernel.goal},
+                             [&, one = drawn.back().get()](int length) {
+                                 double ms = 0;
+                                 const double cpu = cpuMs(report.threads, [&] { ms = one->draw(length); });
+                                 return device.info().isCpu() ? cpu : ms;
+                             });
     }
 
     std::vector<std::pair<double, double>> least(kernels.size(), {1e300, 1e300});
     for (int run = -1; run < runs; ++run)  // the first, in which drivers compile, does not count
         for (std::size_t i = 0; i < kernels.size(); ++i) {
             progress.at(static_cast<double>(run + 1) / (runs + 1), kernels[i].first.name);
-            const double few = kernels[i].second(report.short_list), many = kernels[i].second(report.long_list);
+            const double few = kernels[i].second(report.short_list),
+                         many = kernels[i].second(report.long_list);
             if (run < 0) continue;
             least[i] = {std::min(least[i].first, few), std::min(least[i].second, many)};
         }
-    const double evaluations = static_cast<double>(report.size.width) * report.size.height *
-                               (report.long_list - report.short_list);
+    const double evaluations =
+        static_cast<double>(report.size.width) * report.size.height * (report.long_list - report.short_list);
     for (std::size_t i = 0; i < kernels.size(); ++i) {
         KernelRow row = kernels[i].first;
         row.ns = (least[i].second - least[i].first) * 1e6 / evaluations;

@@ -36,8 +36,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
                                *skip.lights);
     std::vector<std::pair<std::uint32_t, double>> measured;
     for (const BenchRow& row : bench.rows)
-        if (row.asked && isMode(row.settings, settings))
-            measured.emplace_back(*row.asked, row.time.median);
+        if (row.asked && isMode(row.settings, settings)) measured.emplace_back(*row.asked, row.time.median);
     const std::optional<double> predicted = predictedMs(measured, *group.lights);
     if (!predicted || *predicted <= bench.options.max_ms) return {};
     return fmt::format("would take {} ms by what {} and {} lights took; --max-ms {:.6g}", msText(*predicted),
@@ -105,8 +104,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);
     double done = 0;
     const auto step = [&](std::size_t i, const char* what) {
-        progress.at(done++ / steps,
-                    fmt::format("{} {}", modeName(tried[i].path, tried[i].assign), what));
+        progress.at(done++ / steps, fmt::format("{} {}", modeName(tried[i].path, tried[i].assign), what));
     };
     std::vector<std::size_t> timed;  // of `frames`
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -117,8 +115,8 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
             timed.push_back(i);
         else
             bench.skips.push_back(skipOf(tried[i], group,
-                                         fmt::format("its first frame took {} ms; --max-ms {:.6g}", msText(ms),
-                                                     bench.options.max_ms)));
+                                         fmt::format("its first frame took {} ms; --max-ms {:.6g}",
+                                                     msText(ms), bench.options.max_ms)));
     }
     std::vector<std::vector<double>> ms(frames.size());
     for (int run = 0; run < bench.runs; ++run)
@@ -134,8 +132,8 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
         }
     for (const std::size_t i : timed) {
         const Frame& frame = frames.described(i);
-        BenchRow row{tried[i],      group.scene, group.lights, cameraTitle(frame), timeOf(ms[i]), ms[i],
-                     medians(passes[i]), frame.bytes, frame.counters, frame.notes};
+        BenchRow row{tried[i], group.scene,        group.lights, cameraTitle(frame), timeOf(ms[i]),
+                     ms[i],    medians(passes[i]), frame.bytes,  frame.counters,     frame.notes};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
         row.counters.overflowed_lists = frames.overflowedLists(i);
         bench.rows.push_back(std::move(row));

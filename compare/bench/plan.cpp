@@ -103,9 +103,8 @@ std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
         std::uint32_t count = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
         if (error != std::errc() || end != word.data() + word.size() || count > 0x7fffffffu)
-            throw std::runtime_error(
-                fmt::format("--light-counts {}: whole numbers from 0 to 2147483647, separated by commas",
-                            word));
+            throw std::runtime_error(fmt::format(
+                "--light-counts {}: whole numbers from 0 to 2147483647, separated by commas", word));
         counts.push_back(count);
     }
     std::ranges::sort(counts);
@@ -116,8 +115,7 @@ std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
 BenchPlan planBench(const std::string& scene, const Settings& given, const BenchOptions& options) {
     const std::vector<Path> paths =
         options.paths.empty() ? std::vector{Path::deferred, Path::forward_plus} : options.paths;
-    const std::vector<Assignment> assignments =
-        options.assign.empty() ? all<Assignment>() : options.assign;
+    const std::vector<Assignment> assignments = options.assign.empty() ? all<Assignment>() : options.assign;
     const std::vector<Size> sizes = options.sizes.empty() ? std::vector{given.size} : options.sizes;
     std::vector<std::optional<std::uint32_t>> counts(options.light_counts.begin(),
                                                      options.light_counts.end());
@@ -149,8 +147,8 @@ BenchPlan planBench(const std::string& scene, const Settings& given, const Bench
         if (!group.settings.empty()) plan.groups.push_back(std::move(group));
     }
     if (plan.groups.empty())
-        throw std::runtime_error(fmt::format("nothing to time: {}: {}", skipName(plan.skips.front()),
-                                             plan.skips.front().reason));
+        throw std::runtime_error(
+            fmt::format("nothing to time: {}: {}", skipName(plan.skips.front()), plan.skips.front().reason));
     return plan;
 }
 

@@ -45,7 +45,8 @@ std::string markAt(Path path, double x, double y) {
 }
 
 std::string groupOf(const Series& series, const std::string& inside) {
-    return fmt::format("<g class=\"series {} {}\">{}</g>", nameOf(series.path), nameOf(series.assign), inside);
+    return fmt::format("<g class=\"series {} {}\">{}</g>", nameOf(series.path), nameOf(series.assign),
+                       inside);
 }
 
 std::string panelOf(const Bench& bench, const Size& size, double above) {
@@ -73,18 +74,18 @@ std::string panelOf(const Bench& bench, const Size& size, double above) {
             line += fmt::format("{}{} {}", line.empty() ? "M" : "L", at(px), at(py));
             marks += fmt::format(
                 "<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
-                markup(fmt::format("{}, {} lights: {} ms ({} to {})",
-                                   modeName(series.path, series.assign), r->counters.lights, msText(r->time.median),
-                                   msText(r->time.min), msText(r->time.max))),
+                markup(fmt::format("{}, {} lights: {} ms ({} to {})", modeName(series.path, series.assign),
+                                   r->counters.lights, msText(r->time.median), msText(r->time.min),
+                                   msText(r->time.max))),
                 at(px), at(y(r->time.min)), at(y(r->time.max)), markAt(series.path, px, py));
         }
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));
         const double lx = box.right + 14;
-        out += groupOf(series,
-                       fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}<text class=\"tick\" x=\"{}\" "
-                                   "y=\"{}\">{}</text>",
-                                   at(lx), at(row), markAt(series.path, lx + 12, row), at(lx + 30),
-                                   at(row + 4), markup(modeName(series.path, series.assign))));
+        out += groupOf(
+            series, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}<text class=\"tick\" x=\"{}\" "
+                                "y=\"{}\">{}</text>",
+                                at(lx), at(row), markAt(series.path, lx + 12, row), at(lx + 30), at(row + 4),
+                                markup(modeName(series.path, series.assign))));
         row += 19;
     }
     return out;

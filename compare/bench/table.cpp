@@ -21,8 +21,8 @@ std::string benchTable(const Bench& bench, std::size_t first) {
         out += fmt::format(
             "{:>8}  {:>9}  {:<12}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9.3g}  {:>5.1f}%  {}\n",
             row.counters.lights, fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
-            nameOf(row.settings.path), nameOf(row.settings.assign), msText(row.time.median), msText(row.time.min),
-            msText(row.time.max), assignMs(row), 100 * assignShare(row), passes);
+            nameOf(row.settings.path), nameOf(row.settings.assign), msText(row.time.median),
+            msText(row.time.min), msText(row.time.max), assignMs(row), 100 * assignShare(row), passes);
     }
     return out;
 }

@@ -13,7 +13,8 @@ KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapa
     if (size.width % KernelWorkload::tile != 0 || size.height % KernelWorkload::tile != 0 ||
         listCapacity % 4 != 0 || lights > mostKernelLights ||
         static_cast<std::uint32_t>(listCapacity) > lights)
-        throw std::logic_error("makeWorkload: whole tiles, whole groups of four, lists no longer than lights");
+        throw std::logic_error(
+            "makeWorkload: whole tiles, whole groups of four, lists no longer than lights");
     KernelWorkload workload{size, {}, {}, listCapacity};
     std::mt19937 random(seed);
     // In [0, 1) by the generator's bits alone: distributions differ between standard libraries.

@@ -11,8 +11,8 @@
 
 namespace diptych {
 
-// Tiles of 16 x 16 pixels, each with a list of its own, of lights in ascending order; the surface of a pixel is
-// benchSurface() of shaders/lib/bench_lights.glsl.
+// Tiles of 16 x 16 pixels, each with a list of its own, of lights in ascending order; the surface of a pixel
+// is benchSurface() of shaders/lib/bench_lights.glsl.
 struct KernelWorkload {
     Size size;                           // whole tiles
     std::vector<gpu::Light> lights;      // as many as a uniform block of bench_lights.glsl holds, or fewer
@@ -26,8 +26,8 @@ struct KernelWorkload {
 
 inline constexpr std::uint32_t mostKernelLights = 512;  // 16 KiB: the least that a uniform buffer may have
 
-// The same for the same seed, on every machine. `size` in whole tiles; `listCapacity` a multiple of 4, at most
-// `lights`.
+// The same for the same seed, on every machine. `size` in whole tiles; `listCapacity` a multiple of 4, at
+// most `lights`.
 KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapacity, std::uint32_t seed);
 
 }  // namespace diptych

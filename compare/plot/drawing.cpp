@@ -42,10 +42,9 @@ void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Pl
 std::string plotElement(double width, double height, const std::string& title, PlotPlace place,
                         const std::string& inside) {
     const bool file = place == PlotPlace::file;
-    std::string out =
-        fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" {}role=\"{}\" aria-label=\"{}\">",
-                    width, height, file ? "xmlns=\"http://www.w3.org/2000/svg\" " : "",
-                    file ? "img" : "group", markup(title));
+    std::string out = fmt::format(
+        "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" {}role=\"{}\" aria-label=\"{}\">", width, height,
+        file ? "xmlns=\"http://www.w3.org/2000/svg\" " : "", file ? "img" : "group", markup(title));
     if (file)
         out += fmt::format(
             "<title>{}</title><style>{}</style><rect class=\"paper\" width=\"100%\" height=\"100%\"/>",

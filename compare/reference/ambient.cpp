@@ -13,8 +13,9 @@
 namespace diptych::reference {
 namespace {
 
-// Gauss and Legendre's sixteen points on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss Quadrature Rules"; here
-// the roots are found by halving between the extrema of a finer grid, and refined by Newton's method).
+// Gauss and Legendre's sixteen points on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss Quadrature
+// Rules"; here the roots are found by halving between the extrema of a finer grid, and refined by Newton's
+// method).
 struct Rule {
     static constexpr int points = 16;
     std::array<double, points> at, weight;
@@ -53,7 +54,8 @@ Rule makeRule() {
 template <class F>
 void eachPoint(double from, double to, const F& f) {
     static const Rule rule = makeRule();
-    for (std::size_t i = 0; i < Rule::points; ++i) f(from + (to - from) * rule.at[i], (to - from) * rule.weight[i]);
+    for (std::size_t i = 0; i < Rule::points; ++i)
+        f(from + (to - from) * rule.at[i], (to - from) * rule.weight[i]);
 }
 
 // The viewer in the plane y = 0, the normal +Z.
@@ -74,8 +76,9 @@ public:
         return sum;
     }
 
-    // Over half vectors, by the tangent of their angle from the normal: up to where part of a ring begins to mirror
-    // light from below the horizon, from there to the lobe's width, and on to where all of a ring does.
+    // Over half vectors, by the tangent of their angle from the normal: up to where part of a ring begins to
+    // mirror light from below the horizon, from there to the lobe's width, and on to where all of a ring
+    // does.
     glm::dvec3 specular() const {
         const double view = std::acos(std::min(brdf_.toViewer().z, 1.0)), right = std::numbers::pi / 2;
         const double whole = std::tan((right - view) / 2), none = std::tan((right + view) / 2);

@@ -34,7 +34,8 @@ glm::dvec3 shiningSide(const Emitter& light, const glm::dvec3& centre) {
     return light.two_sided && side < 0 ? -light.direction : glm::dvec3(0);
 }
 
-void addRect(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3& centre, const glm::dvec3& n) {
+void addRect(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3& centre,
+             const glm::dvec3& n) {
     const glm::dvec3 normal = shiningSide(light, centre);
     if (normal == glm::dvec3(0)) return;
     const glm::dvec3 x = light.axis * light.width;
@@ -58,25 +59,27 @@ void addDisc(std::vector<Patch>& patches, const glm::dvec3& centre, const glm::d
     if (from < 1) patches.push_back(Patch::disc(centre, x, glm::cross(normal, x), normal, radius, from));
 }
 
-void addTube(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3& centre, const glm::dvec3& n) {
+void addTube(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3& centre,
+             const glm::dvec3& n) {
     const glm::dvec3 axis = light.axis;
     const double radius = light.radius, length = light.length;
     const double along = -glm::dot(centre, axis);  // of the origin, from the centre
     for (const double end : {-1.0, 1.0})
-        if (end * along > length / 2) addDisc(patches, centre + axis * (end * length / 2), axis * end, radius, n);
+        if (end * along > length / 2)
+            addDisc(patches, centre + axis * (end * length / 2), axis * end, radius, n);
     const glm::dvec3 towards = -centre - axis * along;  // from the axis to the origin
     const double distance = glm::length(towards);
     if (!(distance > radius)) return;
     // Of the side the origin sees what lies within acos(radius / distance) of it.
     const glm::dvec3 x = towards / distance;
     const double half = std::acos(radius / distance);
-    patches.push_back(
-        Patch::cylinder(centre, axis, x, glm::cross(axis, x), radius, length, -half, half, n));
+    patches.push_back(Patch::cylinder(centre, axis, x, glm::cross(axis, x), radius, length, -half, half, n));
 }
 
 }  // namespace
 
-Patch Patch::triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& normal) {
+Patch Patch::triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                      const glm::dvec3& normal) {
     Patch patch;
     patch.shape_ = Shape::triangle;
     patch.origin_ = a;
@@ -94,8 +97,8 @@ Patch Patch::parallelogram(const glm::dvec3& corner, const glm::dvec3& x, const 
     return patch;
 }
 
-Patch Patch::disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& normal,
-                  double radius, double from) {
+Patch Patch::disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y,
+                  const glm::dvec3& normal, double radius, double from) {
     Patch patch;
     patch.shape_ = Shape::disc;
     patch.origin_ = centre;
@@ -108,8 +111,9 @@ Patch Patch::disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec
     return patch;
 }
 
-Patch Patch::cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const glm::dvec3& x, const glm::dvec3& y,
-                      double radius, double length, double from, double to, const glm::dvec3& n) {
+Patch Patch::cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const glm::dvec3& x,
+                      const glm::dvec3& y, double radius, double length, double from, double to,
+                      const glm::dvec3& n) {
     Patch patch = disc(centre, x, y, axis, radius, 0);
     patch.shape_ = Shape::cylinder;
     patch.length_ = length;
@@ -142,7 +146,8 @@ Patch::Point Patch::at(double u, double v) const {
     if (rise > 0) low = std::max(low, -height / rise);
     if (rise < 0) high = std::min(high, -height / rise);
     if (!(high > low) || (rise == 0 && height <= 0)) return {origin_, out, 0};
-    return {origin_ + out * radius_ + normal_ * (low + (high - low) * v), out, radius_ * (b_ - a_) * (high - low)};
+    return {origin_ + out * radius_ + normal_ * (low + (high - low) * v), out,
+            radius_ * (b_ - a_) * (high - low)};
 }
 
 Emitter emitterOf(const Light& light, const glm::dvec3& origin) {

@@ -20,12 +20,13 @@ public:
     };
     Point at(double u, double v) const;
 
-    static Patch triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& normal);
+    static Patch triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                          const glm::dvec3& normal);
     static Patch parallelogram(const glm::dvec3& corner, const glm::dvec3& x, const glm::dvec3& y,
                                const glm::dvec3& normal);
     // A disc, or what lies beyond a chord of it: from `from` to 1 radius along `x` from the centre.
-    static Patch disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& normal,
-                      double radius, double from);
+    static Patch disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y,
+                      const glm::dvec3& normal, double radius, double from);
     // A cylinder's side between two angles around `axis`, where n.p > 0.
     static Patch cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const glm::dvec3& x,
                           const glm::dvec3& y, double radius, double length, double from, double to,
@@ -38,8 +39,8 @@ private:
     double a_ = 0, b_ = 0, radius_ = 0, length_ = 0;
 };
 
-// A rectangle, disc or tube, or the disc that a directional light with an angle is: seen from everywhere at the
-// same place, a metre away.
+// A rectangle, disc or tube, or the disc that a directional light with an angle is: seen from everywhere at
+// the same place, a metre away.
 struct Emitter {
     LightKind shape = LightKind::rect;  // rect, disc or tube
     bool far = false;                   // a sun: `centre` is relative to whatever it lights
@@ -52,8 +53,8 @@ struct Emitter {
 // `origin` becomes the origin. A sun's illuminance on what faces it is E = pi L sin^2(angle / 2).
 Emitter emitterOf(const Light& light, const glm::dvec3& origin);
 
-// What of it shines on a surface with the normal `n` at the origin; `centre` is the emitter's, from there. Empty
-// where nothing does.
+// What of it shines on a surface with the normal `n` at the origin; `centre` is the emitter's, from there.
+// Empty where nothing does.
 std::vector<Patch> visiblePatches(const Emitter& emitter, const glm::dvec3& centre, const glm::dvec3& n);
 
 }  // namespace diptych::reference

@@ -38,13 +38,15 @@ Checkpoint::Checkpoint(std::filesystem::path file, std::uint64_t key, std::size_
     long whole = 0;
     if (std::FILE* stream = std::fopen(file_.c_str(), "rb")) {
         Head there{};
-        if (std::fread(&there, sizeof there, 1, stream) == 1 && std::memcmp(&there, &head, sizeof head) == 0) {
+        if (std::fread(&there, sizeof there, 1, stream) == 1 &&
+            std::memcmp(&there, &head, sizeof head) == 0) {
             whole = sizeof head;
             Record record{0, std::vector<float>(floats)};
             std::uint64_t sum = 0;
             while (std::fread(&record.number, sizeof record.number, 1, stream) == 1 &&
                    std::fread(record.values.data(), sizeof(float), floats, stream) == floats &&
-                   std::fread(&sum, sizeof sum, 1, stream) == 1 && sum == sumOf(record.number, record.values)) {
+                   std::fread(&sum, sizeof sum, 1, stream) == 1 &&
+                   sum == sumOf(record.number, record.values)) {
                 earlier_.push_back(record);
                 whole = std::ftell(stream);
             }

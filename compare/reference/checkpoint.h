@@ -11,8 +11,8 @@
 
 namespace diptych::reference {
 
-// Records of floats, numbered, each with a checksum: however the program ends, what is whole in the file counts. From
-// any thread.
+// Records of floats, numbered, each with a checksum: however the program ends, what is whole in the file
+// counts. From any thread.
 class Checkpoint {
 public:
     // Nothing is kept where `file` is empty. What it holds of another key or size is overwritten. Throws
@@ -28,7 +28,8 @@ public:
     };
     std::vector<Record> takeEarlier() { return std::move(earlier_); }
 
-    void keep(std::uint64_t number, std::span<const float> values);  // fewer than `floats` are filled up with 0
+    void keep(std::uint64_t number,
+              std::span<const float> values);  // fewer than `floats` are filled up with 0
 
 private:
     std::filesystem::path file_;

@@ -24,10 +24,12 @@ struct Found {
 };
 Found find(const double* cumulative, std::size_t count, double u) {
     const double target = u * cumulative[count - 1];
-    const double* entry = std::min(std::upper_bound(cumulative, cumulative + count, target), cumulative + count - 1);
+    const double* entry =
+        std::min(std::upper_bound(cumulative, cumulative + count, target), cumulative + count - 1);
     const double before = entry == cumulative ? 0 : entry[-1];
     const double width = *entry - before;
-    return {static_cast<std::size_t>(entry - cumulative), width > 0 ? std::clamp((target - before) / width, 0.0, 1.0) : 0.5};
+    return {static_cast<std::size_t>(entry - cumulative),
+            width > 0 ? std::clamp((target - before) / width, 0.0, 1.0) : 0.5};
 }
 
 // Some 11 degrees a side.
@@ -35,8 +37,8 @@ constexpr int mostAcross = 32, mostDown = 16;
 
 }  // namespace
 
-// The weight of a pixel is the mean of what bilinear interpolation shows within it: nowhere where there is light it
-// is 0.
+// The weight of a pixel is the mean of what bilinear interpolation shows within it: nowhere where there is
+// light it is 0.
 EnvironmentLight::EnvironmentLight(const Environment& environment, double factor)
     : image_(environment.radiance),
       factor_(factor),
@@ -66,9 +68,10 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, double factor
             block.middle = directionOf(x + block.width / 2.0, y + block.height / 2.0);
             for (const double across : {0.0, 0.5, 1.0})
                 for (const double down : {0.0, 0.5, 1.0})
-                    block.reach = std::max(block.reach, glm::length(directionOf(x + across * block.width,
-                                                                                y + down * block.height) -
-                                                                    block.middle));
+                    block.reach =
+                        std::max(block.reach,
+                                 glm::length(directionOf(x + across * block.width, y + down * block.height) -
+                                             block.middle));
             double sum = 0;
             for (int row = 0; row < block.height; ++row) {
                 double along = 0;
@@ -115,12 +118,14 @@ glm::dvec3 EnvironmentLight::radiance(const glm::dvec3& d) const {
 EnvironmentLight::Pixel EnvironmentLight::pixelOf(const glm::dvec3& d) const {
     const double x = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * image_.width;
     const double y = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi * image_.height;
-    return {std::clamp(static_cast<int>(x), 0, image_.width - 1), std::clamp(static_cast<int>(y), 0, image_.height - 1)};
+    return {std::clamp(static_cast<int>(x), 0, image_.width - 1),
+            std::clamp(static_cast<int>(y), 0, image_.height - 1)};
 }
 
 // The block whose first pixel is the last at or before it.
 std::size_t EnvironmentLight::blockOf(Pixel pixel) const {
-    const int i = ((pixel.x + 1) * across_ - 1) / image_.width, j = ((pixel.y + 1) * down_ - 1) / image_.height;
+    const int i = ((pixel.x + 1) * across_ - 1) / image_.width,
+              j = ((pixel.y + 1) * down_ - 1) / image_.height;
     return at(j) * at(across_) + at(i);
 }
 
@@ -139,10 +144,12 @@ glm::dvec3 EnvironmentLight::Sampler::operator()(const glm::dvec2& u) const {
     const Found column =
         find(block.columns.data() + row.index * at(block.width), at(block.width), chosen.within);
     // Within a row by solid angle, which is even in the cosine.
-    const double y = block.y + static_cast<double>(row.index), x = block.x + static_cast<double>(column.index) + column.within;
-    const double top = std::cos(pi * y / light_.image_.height), bottom = std::cos(pi * (y + 1) / light_.image_.height);
-    return light_.directionOf(x, std::acos(std::clamp(top + (bottom - top) * row.within, -1.0, 1.0)) / pi *
-                                     light_.image_.height);
+    const double y = block.y + static_cast<double>(row.index),
+                 x = block.x + static_cast<double>(column.index) + column.within;
+    const double top = std::cos(pi * y / light_.image_.height),
+                 bottom = std::cos(pi * (y + 1) / light_.image_.height);
+    return light_.directionOf(
+        x, std::acos(std::clamp(top + (bottom - top) * row.within, -1.0, 1.0)) / pi * light_.image_.height);
 }
 
 double EnvironmentLight::Sampler::density(const glm::dvec3& direction) const {
@@ -151,8 +158,8 @@ double EnvironmentLight::Sampler::density(const glm::dvec3& direction) const {
     const double share = cumulative_[index] - (index > 0 ? cumulative_[index - 1] : 0);
     const double all = light_.blocks_[index].rows.back();
     if (!(share > 0)) return 0;
-    return share / cumulative_.back() * light_.weight_[at(pixel.y) * at(light_.image_.width) + at(pixel.x)] / all /
-           light_.solid_[at(pixel.y)];
+    return share / cumulative_.back() * light_.weight_[at(pixel.y) * at(light_.image_.width) + at(pixel.x)] /
+           all / light_.solid_[at(pixel.y)];
 }
 
 }  // namespace diptych::reference

@@ -20,12 +20,13 @@ public:
     bool black() const { return !(brightness_ > 0) || factor_ == 0; }
     glm::dvec3 radiance(const glm::dvec3& direction) const;  // W/(sr m^2); direction unit
 
-    // Draws directions by brightness times what a surface makes of it: by a weight for each block of the picture.
-    // (After Clarberg et al. 2005, "Wavelet Importance Sampling", which multiplies to the last pixel.)
+    // Draws directions by brightness times what a surface makes of it: by a weight for each block of the
+    // picture. (After Clarberg et al. 2005, "Wavelet Importance Sampling", which multiplies to the last
+    // pixel.)
     class Sampler {
     public:
-        // Of light from no further than `reach` (of unit vectors) about a direction, 0 or more; above 0 wherever some
-        // of that light counts.
+        // Of light from no further than `reach` (of unit vectors) about a direction, 0 or more; above 0
+        // wherever some of that light counts.
         using Weight = std::function<double(const glm::dvec3& middle, double reach)>;
         Sampler(const EnvironmentLight& light, const Weight& weight);
 

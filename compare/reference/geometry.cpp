@@ -36,8 +36,8 @@ struct Asking {
     Hit hit;  // the last that counted
 };
 
-// Embree's candidate, in double; one that does not count is passed by. Embree has the nearest in single precision:
-// what it accepted last is the nearest.
+// Embree's candidate, in double; one that does not count is passed by. Embree has the nearest in single
+// precision: what it accepted last is the nearest.
 void filter(const RTCFilterFunctionNArguments* arguments) {
     auto& asking = *reinterpret_cast<Asking*>(arguments->context);
     const TriangleId id{RTCHitN_geomID(arguments->hit, 1, 0), RTCHitN_primID(arguments->hit, 1, 0)};
@@ -66,7 +66,8 @@ RTCRay single(const Ray& ray) {
     r.dir_z = static_cast<float>(ray.direction.z);
     // A little more at both ends: the filter knows them in double.
     r.tnear = static_cast<float>(ray.from > 0 ? ray.from * (1 - 1e-5) : 0);
-    r.tfar = std::isinf(ray.to) ? std::numeric_limits<float>::infinity() : static_cast<float>(ray.to * (1 + 1e-5));
+    r.tfar =
+        std::isinf(ray.to) ? std::numeric_limits<float>::infinity() : static_cast<float>(ray.to * (1 + 1e-5));
     r.mask = ~0u;
     return r;
 }
@@ -88,21 +89,24 @@ Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, 
         const TriangleId first{static_cast<std::uint32_t>(i), 0};
         const Primitive& p = primitive(first);
         if (p.indices.empty()) return;
-        if (deforming && pose.instances[i].deformed()) posed_[i] = posedVertices(scene, pose, pose.instances[i]);
+        if (deforming && pose.instances[i].deformed())
+            posed_[i] = posedVertices(scene, pose, pose.instances[i]);
         const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), p.positions.size()));
         auto* indices = static_cast<std::uint32_t*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                                    p.indices.size() / 3));
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(std::uint32_t), p.indices.size() / 3));
         if (vertices && indices) {
             for (std::size_t v = 0; v < p.positions.size(); ++v) {
                 const glm::dvec3 world =
-                    posed(first) ? posed_[i].positions[v]
-                                 : glm::dvec3(pose.instances[i].world_from_object * glm::dvec4(p.positions[v], 1));
+                    posed(first)
+                        ? posed_[i].positions[v]
+                        : glm::dvec3(pose.instances[i].world_from_object * glm::dvec4(p.positions[v], 1));
                 for (int c = 0; c < 3; ++c) *vertices++ = static_cast<float>(world[c] - eye[c]);
             }
-            std::copy(p.indices.begin(), p.indices.end() - static_cast<std::ptrdiff_t>(p.indices.size() % 3), indices);
+            std::copy(p.indices.begin(), p.indices.end() - static_cast<std::ptrdiff_t>(p.indices.size() % 3),
+                      indices);
             rtcCommitGeometry(geometry);
             rtcAttachGeometryByID(embree_->scene, geometry, static_cast<unsigned>(i));
         }
@@ -120,7 +124,8 @@ const Instance& Geometry::instance(const TriangleId& id) const {
 
 const Primitive& Geometry::primitive(const TriangleId& id) const {
     const Instance& of = instance(id);
-    return scene_.meshes[static_cast<std::size_t>(of.mesh)].primitives[static_cast<std::size_t>(of.primitive)];
+    return scene_.meshes[static_cast<std::size_t>(of.mesh)]
+        .primitives[static_cast<std::size_t>(of.primitive)];
 }
 
 std::array<std::uint32_t, 3> Geometry::vertices(const TriangleId& id) const {
@@ -136,7 +141,8 @@ std::array<glm::dvec3, 3> Geometry::corners(const TriangleId& id) const {
     const Primitive& p = primitive(id);
     const glm::dmat4& world = instance(id).world_from_object;
     std::array<glm::dvec3, 3> result;
-    for (std::size_t i = 0; i < 3; ++i) result[i] = glm::dvec3(world * glm::dvec4(p.positions[v[i]], 1)) - eye_;
+    for (std::size_t i = 0; i < 3; ++i)
+        result[i] = glm::dvec3(world * glm::dvec4(p.positions[v[i]], 1)) - eye_;
     return result;
 }
 

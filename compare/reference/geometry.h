@@ -25,7 +25,7 @@ struct TriangleId {
 // A place on a triangle. Positions are relative to the camera.
 struct Hit {
     TriangleId id;
-    double t = 0;  // along the ray, in lengths of its direction
+    double t = 0;               // along the ray, in lengths of its direction
     glm::dvec2 barycentric{0};  // of the second and third corner
     glm::dvec3 position{0};
     glm::dvec3 geometric_normal{0};  // unit, to the front
@@ -54,12 +54,13 @@ public:
 
     const Instance& instance(const TriangleId& id) const;
     const Primitive& primitive(const TriangleId& id) const;
-    std::array<std::uint32_t, 3> vertices(const TriangleId& id) const;   // into its primitive
+    std::array<std::uint32_t, 3> vertices(const TriangleId& id) const;  // into its primitive
     std::array<glm::dvec3, 3> corners(const TriangleId& id) const;      // from the camera
     // Its instance's vertices, in the world; nullptr where world_from_object moves all of them alike.
     const PosedVertices* posed(const TriangleId& id) const;
     // Where the plane of the triangle is met; nothing where the ray runs along it.
-    std::optional<Hit> onPlane(const TriangleId& id, const glm::dvec3& origin, const glm::dvec3& direction) const;
+    std::optional<Hit> onPlane(const TriangleId& id, const glm::dvec3& origin,
+                               const glm::dvec3& direction) const;
 
 private:
     struct Embree;

@@ -8,12 +8,13 @@
 
 namespace diptych::reference {
 
-// A hash of what decides a picture (FNV-1a of 64 bits; Fowler, Noll and Vo 1991): what is kept of another one is not gone on
-// from.
+// A hash of what decides a picture (FNV-1a of 64 bits; Fowler, Noll and Vo 1991): what is kept of another one
+// is not gone on from.
 class Key {
 public:
     void add(std::span<const std::byte> bytes) {
-        for (const std::byte byte : bytes) value_ = (value_ ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+        for (const std::byte byte : bytes)
+            value_ = (value_ ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
     }
     template <class T>
     void add(const T& value) {

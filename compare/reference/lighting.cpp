@@ -25,9 +25,10 @@ Reflected through(const Brdf& brdf, const Patch::Point& point) {
     return brdf(to_light) * (std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / square);
 }
 
-// A cell is split as long as the mirror image of the viewer could hide in it: as it is wider than the lobe there. A
-// turn of the light by an angle turns the half vector by that over 2 v.h. And as long as it is wide itself: of a
-// light that reaches far away, what is near is a small part of the cell and most of what arrives.
+// A cell is split as long as the mirror image of the viewer could hide in it: as it is wider than the lobe
+// there. A turn of the light by an angle turns the half vector by that over 2 v.h. And as long as it is wide
+// itself: of a light that reaches far away, what is near is a small part of the cell and most of what
+// arrives.
 Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     const auto direction = [&](double u, double v) { return glm::normalize(patch.at(u, v).place); };
     const double u = (cell.u0 + cell.u1) / 2, v = (cell.v0 + cell.v1) / 2;
@@ -45,7 +46,8 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     if (!(length > 1e-9)) return split(radius > 0.1);
     const glm::dvec3 half = sum / length;
     const double turn = radius / (2 * std::max(glm::dot(brdf.toViewer(), half), 0.05));
-    const double apart = glm::length(glm::cross(brdf.normal(), half));  // sine of the angle from the lobe's middle
+    const double apart =
+        glm::length(glm::cross(brdf.normal(), half));  // sine of the angle from the lobe's middle
     return split(turn > std::max(brdf.alpha(), apart - turn));
 }
 
@@ -57,15 +59,16 @@ struct Leaves {
     std::vector<Leaf> leaves;
 };
 
-// The visible part of an integral that is known without shadows: in each leaf of it places, spread evenly. Of the
-// two unbiased ways to use one, f V and F - f (1 - V), the one is exact in full shade and the other in full light;
-// a pilot tells which is nearer to hand.
+// The visible part of an integral that is known without shadows: in each leaf of it places, spread evenly. Of
+// the two unbiased ways to use one, f V and F - f (1 - V), the one is exact in full shade and the other in
+// full light; a pilot tells which is nearer to hand.
 class Shaded {
 public:
     Shaded(const Brdf& brdf, const std::vector<Leaves>& leaves, bool far, const Open& open)
         : brdf_(brdf), leaves_(leaves), far_(far), open_(open) {}
 
-    // One place in each leaf, number `index` of a sequence that `seed` turns; `seen` counts those in the light.
+    // One place in each leaf, number `index` of a sequence that `seed` turns; `seen` counts those in the
+    // light.
     Reflected estimate(std::uint64_t seed, std::uint64_t index, bool mostly_open, std::size_t& seen) const {
         Reflected sum;
         std::uint64_t number = 0;
@@ -75,7 +78,8 @@ public:
                 const double u = turn();
                 const glm::dvec2 at = evenly(index, {u, turn()});
                 const Cell& c = leaf.cell;
-                const Patch::Point point = part.patch->at(c.u0 + (c.u1 - c.u0) * at.x, c.v0 + (c.v1 - c.v0) * at.y);
+                const Patch::Point point =
+                    part.patch->at(c.u0 + (c.u1 - c.u0) * at.x, c.v0 + (c.v1 - c.v0) * at.y);
                 const double distance = glm::length(point.place);
                 const bool lit = distance > 0 && open_(point.place / distance, far_ ? infinity : distance);
                 seen += lit;
@@ -106,15 +110,16 @@ private:
     const Open& open_;
 };
 
-// Eight independent sequences, twice as long each time, until their means agree: estimate(round, index). `whole`:
-// what the confidence is relative to, where the mean is smaller. `piece`: the most that one sample of an estimate
-// stands for; what is hidden between N places that all say the same is with a confidence of 95 % less than 3 / N of
-// it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything All Right?").
+// Eight independent sequences, twice as long each time, until their means agree: estimate(round, index).
+// `whole`: what the confidence is relative to, where the mean is smaller. `piece`: the most that one sample
+// of an estimate stands for; what is hidden between N places that all say the same is with a confidence of 95
+// % less than 3 / N of it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything All Right?").
 template <class Estimate>
 Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first, double whole,
                        double piece) {
     constexpr std::size_t count = 8;
-    // To end where the rounds happen to agree is to trust them too early: of Student's 95 % 92 hold, with this 95.
+    // To end where the rounds happen to agree is to trust them too early: of Student's 95 % 92 hold, with
+    // this 95.
     constexpr double caution = 1.2;
     std::array<Reflected, count> sums;
     std::uint64_t done = 0;
@@ -127,7 +132,8 @@ Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint6
         done = next;
         const double size = rounds.mean().size(), width = caution * rounds.halfWidth();
         const double unseen = 3 * piece / static_cast<double>(done * count);
-        if (std::max(width, unseen) <= samplingError * std::max(whole, size) || done * count * samples >= mostSamples)
+        if (std::max(width, unseen) <= samplingError * std::max(whole, size) ||
+            done * count * samples >= mostSamples)
             return {rounds.mean(), size > 0 ? std::max(width, unseen) : width, {}};
     }
 }
@@ -182,7 +188,8 @@ Shading Lighting::operator()(const Surface& surface, const Open& open, std::uint
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position);
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
-        if (reflected.size() > 0 && (!open || open(light.to_light, light.distance))) sum.reflected += reflected;
+        if (reflected.size() > 0 && (!open || open(light.to_light, light.distance)))
+            sum.reflected += reflected;
         // What is not a number must show.
         if (std::isnan(reflected.size())) sum.reflected += reflected;
     }
@@ -197,8 +204,8 @@ Shading Lighting::operator()(const Surface& surface, const Open& open, std::uint
     return sum;
 }
 
-Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf, const Open& open,
-                              std::uint64_t seed) const {
+Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
+                              const Open& open, std::uint64_t seed) const {
     const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - place;
     const double window = rangeWindow(glm::length(centre), emitter.range);
     if (!(window > 0)) return {};
@@ -232,9 +239,9 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     return {visible.reflected * radiance, (visible.uncertainty + whole.error) * brightest, {}};
 }
 
-// Two ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally Combining
-// Sampling Techniques for Monte Carlo Rendering"): what is bright and reflected, by blocks of the picture, and what
-// the specular lobe, which may be narrower than a block, mirrors.
+// Two ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally
+// Combining Sampling Techniques for Monte Carlo Rendering"): what is bright and reflected, by blocks of the
+// picture, and what the specular lobe, which may be narrower than a block, mirrors.
 Shading Lighting::fromEnvironment(const Brdf& brdf, const Open& open, std::uint64_t seed) const {
     const LobeSampler lobes(brdf);
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {

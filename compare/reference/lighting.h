@@ -18,12 +18,12 @@
 
 namespace diptych::reference {
 
-// What integrals without shadows are taken to, relative to themselves: the change by the last halving of their cells,
-// which is a thousand times the error where the integrand is smooth.
+// What integrals without shadows are taken to, relative to themselves: the change by the last halving of
+// their cells, which is a thousand times the error where the integrand is smooth.
 inline constexpr double quadratureError = 2e-6;
-// What sampling goes on to, relative to what is sampled: half the 95 % confidence interval. And where it ends all
-// the same: the pixel's uncertainty says so. Of a light that no sample sees no uncertainty is claimed: less than
-// samplingError of it may come through a hole between them.
+// What sampling goes on to, relative to what is sampled: half the 95 % confidence interval. And where it ends
+// all the same: the pixel's uncertainty says so. Of a light that no sample sees no uncertainty is claimed:
+// less than samplingError of it may come through a hole between them.
 inline constexpr double samplingError = 0.01;
 inline constexpr std::uint32_t mostSamples = 65536;
 
@@ -31,9 +31,9 @@ inline constexpr std::uint32_t mostSamples = 65536;
 using Open = std::function<bool(const glm::dvec3& to_light, double distance)>;
 
 struct Shading {
-    Reflected reflected;      // of lights and environment, W/(sr m^2), towards the viewer
-    double uncertainty = 0;   // of its largest component, 95 % confidence, W/(sr m^2)
-    glm::dvec3 ambient{0};    // reflected of ambient light; emission is in neither
+    Reflected reflected;     // of lights and environment, W/(sr m^2), towards the viewer
+    double uncertainty = 0;  // of its largest component, 95 % confidence, W/(sr m^2)
+    glm::dvec3 ambient{0};   // reflected of ambient light; emission is in neither
 
     glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
     Shading& operator+=(const Shading& other) {
@@ -49,8 +49,8 @@ struct Shading {
 
 class Lighting {
 public:
-    // World lights and `environment`, which outlives this; `eye` becomes the origin; `ambient` radiance comes from
-    // everywhere.
+    // World lights and `environment`, which outlives this; `eye` becomes the origin; `ambient` radiance comes
+    // from everywhere.
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0));
 

@@ -29,8 +29,8 @@ const Material& Materials::material(const Hit& hit) const {
     return scene_.materials[static_cast<std::size_t>(geometry_.primitive(hit.id).material)];
 }
 
-// The rays of the neighbours meet the triangle's plane (Igehy 1999, "Tracing Ray Differentials"); to first order
-// t changes by -n.(o' + t d') / n.d.
+// The rays of the neighbours meet the triangle's plane (Igehy 1999, "Tracing Ray Differentials"); to first
+// order t changes by -n.(o' + t d') / n.d.
 Footprint Materials::footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const {
     const Primitive& primitive = geometry_.primitive(hit.id);
     const std::vector<glm::vec2>& set = primitive.texcoords[slot.texcoord == 1 ? 1 : 0];
@@ -60,7 +60,8 @@ Footprint Materials::footprint(const Hit& hit, const TextureSlot& slot, const Pi
 
 glm::dvec4 Materials::lookUp(const Hit& hit, const TextureSlot& slot, bool srgb, const PixelRay* ray) const {
     if (slot.texture < 0) return glm::dvec4(1);
-    return textures_(scene_.textures[static_cast<std::size_t>(slot.texture)], srgb, footprint(hit, slot, ray));
+    return textures_(scene_.textures[static_cast<std::size_t>(slot.texture)], srgb,
+                     footprint(hit, slot, ray));
 }
 
 glm::dvec4 Materials::baseColor(const Hit& hit, const PixelRay* ray) const {
@@ -91,8 +92,8 @@ double Materials::opacity(const Hit& hit, const PixelRay& ray) const {
     return std::clamp(baseColor(hit, &ray).a, 0.0, 1.0);
 }
 
-// glTF 2.0, 3.7.2.1 and 3.9.3: normals move by the inverse transpose, tangents with the surface; a bitangent is
-// w cross(normal, tangent). Both are mixed as they are, as MikkTSpace asks. A back face is turned round.
+// glTF 2.0, 3.7.2.1 and 3.9.3: normals move by the inverse transpose, tangents with the surface; a bitangent
+// is w cross(normal, tangent). Both are mixed as they are, as MikkTSpace asks. A back face is turned round.
 glm::dvec3 Materials::shadingNormal(const Hit& hit, const PixelRay& ray) const {
     const Primitive& primitive = geometry_.primitive(hit.id);
     const glm::dmat3 world(geometry_.instance(hit.id).world_from_object);
@@ -151,7 +152,8 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     // Irradiance over pi.
     if (m.lightmap_texture.texture >= 0)
         s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
-    // KHR_materials_ior: 0 stands for an infinite one. KHR_materials_specular: colour from rgb, strength from a.
+    // KHR_materials_ior: 0 stands for an infinite one. KHR_materials_specular: colour from rgb, strength from
+    // a.
     const double ior = m.ior, r = (1 - ior) / (1 + ior);
     const glm::dvec3 tint =
         glm::dvec3(m.specular_color) * glm::dvec3(lookUp(hit, m.specular_color_texture, true, &ray));

@@ -8,8 +8,8 @@
 
 namespace diptych::reference {
 
-// A ray of a picture and those of the next pixel to the right and below: origins from the camera, directions a metre
-// of depth long.
+// A ray of a picture and those of the next pixel to the right and below: origins from the camera, directions
+// a metre of depth long.
 struct PixelRay {
     glm::dvec3 origin{0}, direction{0};
     glm::dvec3 origin_dx{0}, direction_dx{0}, origin_dy{0}, direction_dy{0};  // differences

@@ -11,11 +11,12 @@
 
 namespace diptych::reference {
 
-// The rays of a picture, from the camera's axes: pixels are square, (0, 0) is the left upper corner of the first.
-// Directions reach one metre deep.
+// The rays of a picture, from the camera's axes: pixels are square, (0, 0) is the left upper corner of the
+// first. Directions reach one metre deep.
 class PixelRays {
 public:
-    explicit PixelRays(const View& view) : backward_(view.backward()), orthographic_(view.camera.orthographic) {
+    explicit PixelRays(const View& view)
+        : backward_(view.backward()), orthographic_(view.camera.orthographic) {
         const double half = orthographic_ ? view.camera.ymag : std::tan(view.camera.yfov / 2);
         x_ = view.right() * (2 * half / view.height);
         y_ = view.up() * (-2 * half / view.height);

@@ -21,7 +21,8 @@ Incident incident(const Light& light, const glm::dvec3& light_position, const gl
     const glm::dvec3 path = light_position - place;
     const double distance = glm::length(path);
     if (!(distance > 0)) return {};
-    Incident result{path / distance, power / (distance * distance) * rangeWindow(distance, light.range), distance};
+    Incident result{path / distance, power / (distance * distance) * rangeWindow(distance, light.range),
+                    distance};
     if (light.kind == LightKind::spot) {
         const double outer = std::cos(double{light.outer_cone}), inner = std::cos(double{light.inner_cone});
         // 0.001 is KHR_lights_punctual's own: a cone with a hard edge keeps a finite slope.

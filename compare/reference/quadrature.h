@@ -30,11 +30,12 @@ struct Integral {
     double error = 0;  // what is not known of value.size(): differences that the limits left standing
 };
 
-// The tensor product of Gauss and Legendre's five points: exact for polynomials up to degree 9 in each parameter.
+// The tensor product of Gauss and Legendre's five points: exact for polynomials up to degree 9 in each
+// parameter.
 template <class Integrand>
 Reflected gauss(const Integrand& f, const Cell& cell) {
-    constexpr std::array<double, 5> node{-0.906179845938663993, -0.538469310105683091, 0, 0.538469310105683091,
-                                         0.906179845938663993};
+    constexpr std::array<double, 5> node{-0.906179845938663993, -0.538469310105683091, 0,
+                                         0.538469310105683091, 0.906179845938663993};
     constexpr std::array<double, 5> weight{0.236926885056189088, 0.478628670499366468, 0.568888888888888889,
                                            0.478628670499366468, 0.236926885056189088};
     const double u = (cell.u0 + cell.u1) / 2, du = (cell.u1 - cell.u0) / 2;
@@ -46,12 +47,13 @@ Reflected gauss(const Integrand& f, const Cell& cell) {
     return sum * (du * dv);
 }
 
-// A cell that must be split before it is asked, and which way: a lobe that no point of a cell meets would not be
-// missed by it.
+// A cell that must be split before it is asked, and which way: a lobe that no point of a cell meets would not
+// be missed by it.
 enum class Split { none, u, v };
 
-// Splits a cell into quarters until these together say what it says alone, to within `relative` of the whole's size
-// and half of that at every level below; `mustSplit(cell)` is a Split. `leaves`, where given, receives the cells at the end and their integrals.
+// Splits a cell into quarters until these together say what it says alone, to within `relative` of the
+// whole's size and half of that at every level below; `mustSplit(cell)` is a Split. `leaves`, where given,
+// receives the cells at the end and their integrals.
 struct Leaf {
     Cell cell;
     Reflected value;

@@ -3,9 +3,9 @@
 
 #include "compare/reference/checkpoint.h"
 #include "compare/reference/geometry.h"
-#include "compare/reference/picture_key.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/material.h"
+#include "compare/reference/picture_key.h"
 #include "compare/reference/pixel_rays.h"
 #include "compare/reference/sampling.h"
 #include "shared/contract/debug_mode.h"
@@ -43,29 +43,48 @@ struct Pixel {
 glm::dvec3 channelValue(int mode, const Pixel& pixel) {
     // Light is the mean over a pixel, even where its centre misses everything.
     switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_lit: return pixel.lit;
-        case gpu::DEBUG_lit_diffuse: return pixel.shading.reflected.diffuse;
-        case gpu::DEBUG_lit_specular: return pixel.shading.reflected.specular;
-        case gpu::DEBUG_lit_ambient: return pixel.shading.ambient;
-        default: break;
+        case gpu::DEBUG_lit:
+            return pixel.lit;
+        case gpu::DEBUG_lit_diffuse:
+            return pixel.shading.reflected.diffuse;
+        case gpu::DEBUG_lit_specular:
+            return pixel.shading.reflected.specular;
+        case gpu::DEBUG_lit_ambient:
+            return pixel.shading.ambient;
+        default:
+            break;
     }
     if (!pixel.surface) return glm::dvec3(mode == static_cast<int>(gpu::DEBUG_material_id) ? -1 : 0);
     const Surface& s = *pixel.surface;
     switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_albedo: return s.albedo;
-        case gpu::DEBUG_normals: return s.normal;
-        case gpu::DEBUG_metallic: return glm::dvec3(s.metallic);
-        case gpu::DEBUG_roughness: return glm::dvec3(s.roughness);
-        case gpu::DEBUG_emission: return s.emission;
-        case gpu::DEBUG_occlusion: return glm::dvec3(s.occlusion);
-        case gpu::DEBUG_specular: return specularColor(s);
-        case gpu::DEBUG_material_id: return glm::dvec3(s.material);
-        case gpu::DEBUG_texcoords: return glm::dvec3(s.texcoord, 0);
-        case gpu::DEBUG_depth: return glm::dvec3(pixel.depth);
-        case gpu::DEBUG_position: return s.position;
-        case gpu::DEBUG_geometric_normal: return s.geometric_normal;
-        case gpu::DEBUG_dielectric_f90: return glm::dvec3(s.dielectric_f90);
-        case gpu::DEBUG_lightmap: return s.lightmap;
+        case gpu::DEBUG_albedo:
+            return s.albedo;
+        case gpu::DEBUG_normals:
+            return s.normal;
+        case gpu::DEBUG_metallic:
+            return glm::dvec3(s.metallic);
+        case gpu::DEBUG_roughness:
+            return glm::dvec3(s.roughness);
+        case gpu::DEBUG_emission:
+            return s.emission;
+        case gpu::DEBUG_occlusion:
+            return glm::dvec3(s.occlusion);
+        case gpu::DEBUG_specular:
+            return specularColor(s);
+        case gpu::DEBUG_material_id:
+            return glm::dvec3(s.material);
+        case gpu::DEBUG_texcoords:
+            return glm::dvec3(s.texcoord, 0);
+        case gpu::DEBUG_depth:
+            return glm::dvec3(pixel.depth);
+        case gpu::DEBUG_position:
+            return s.position;
+        case gpu::DEBUG_geometric_normal:
+            return s.geometric_normal;
+        case gpu::DEBUG_dielectric_f90:
+            return glm::dvec3(s.dielectric_f90);
+        case gpu::DEBUG_lightmap:
+            return s.lightmap;
     }
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
 }
@@ -93,10 +112,12 @@ public:
         s.lightmap = value(gpu::DEBUG_lightmap, pixel);
         s.dielectric_f90 = value(gpu::DEBUG_dielectric_f90, pixel).x;
         s.material = static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
-        // The channel is the mix with the metal; a whole metal has no dielectric to find again, and needs none.
+        // The channel is the mix with the metal; a whole metal has no dielectric to find again, and needs
+        // none.
         if (s.metallic < 1)
-            s.dielectric_f0 = glm::max(
-                (value(gpu::DEBUG_specular, pixel) - s.albedo * s.metallic) / (1 - s.metallic), glm::dvec3(0));
+            s.dielectric_f0 =
+                glm::max((value(gpu::DEBUG_specular, pixel) - s.albedo * s.metallic) / (1 - s.metallic),
+                         glm::dvec3(0));
         return s;
     }
 
@@ -126,17 +147,18 @@ public:
                     request.environment_factor, eye_, request.ambient) {}
 
     Pixel paint(int x, int y) const {
-        const std::uint64_t seed = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(request_.view.width) +
-                                   static_cast<std::uint64_t>(x);
+        const std::uint64_t seed =
+            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(request_.view.width) +
+            static_cast<std::uint64_t>(x);
         return request_.mode == ReferenceMode::surface ? paintCaptured(x, y, seed) : paintScene(x, y, seed);
     }
 
 private:
-    // How far from a place a shadow begins, relative to its distance from the camera: well above what double loses,
-    // well below what is modelled. A captured place was a float32 depth.
+    // How far from a place a shadow begins, relative to its distance from the camera: well above what double
+    // loses, well below what is modelled. A captured place was a float32 depth.
     static constexpr double exactOffset = 1e-9, capturedOffset = 1e-5;
-    // And how far before a light it ends, relative to the way: a lamp that lies on a ceiling is not in it, though the
-    // ceiling's float32 vertices may round to below it.
+    // And how far before a light it ends, relative to the way: a lamp that lies on a ceiling is not in it,
+    // though the ceiling's float32 vertices may round to below it.
     static constexpr double lightOffset = 1e-5;
 
     // Light that comes from behind the triangle does not reach it, whatever the shading normal says.
@@ -152,7 +174,8 @@ private:
     }
 
     Ray cameraRay(const PixelRay& pixel, double from) const {
-        return {pixel.origin, pixel.direction, std::max(from, request_.view.camera.near), request_.view.camera.far};
+        return {pixel.origin, pixel.direction, std::max(from, request_.view.camera.near),
+                request_.view.camera.far};
     }
 
     std::optional<Hit> nearest(const PixelRay& ray, double from, const TriangleId& without = {}) const {
@@ -193,8 +216,8 @@ private:
         return pixel;
     }
 
-    // What the ray meets, front to back: what blends lets the rest through (Porter and Duff 1984, "Compositing
-    // Digital Images": over). Channels but the lit ones are of the first.
+    // What the ray meets, front to back: what blends lets the rest through (Porter and Duff 1984,
+    // "Compositing Digital Images": over). Channels but the lit ones are of the first.
     Pixel alongRay(const PixelRay& ray, std::uint64_t seed) const {
         Pixel pixel;
         double through = 1, from = 0;
@@ -283,7 +306,8 @@ public:
             }
         // Scattered over the picture, so that what is done tells how long the rest will take.
         std::vector<std::uint64_t> order;
-        std::uint64_t step = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(0.618 * static_cast<double>(tiles)));
+        std::uint64_t step =
+            std::max<std::uint64_t>(1, static_cast<std::uint64_t>(0.618 * static_cast<double>(tiles)));
         while (std::gcd(step, tiles) != 1) ++step;
         for (std::uint64_t i = 0, tile = 0; i < tiles; ++i, tile = (tile + step) % tiles)
             if (!there[tile]) order.push_back(tile);

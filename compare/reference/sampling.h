@@ -10,9 +10,9 @@
 
 namespace diptych::reference {
 
-// Numbers in [0, 1) that are the same for the same seed: every pixel, light and round has its own, so that a picture
-// does not depend on the number of threads or on where it was taken up again. (Steele, Lea and Flood 2014, "Fast
-// Splittable Pseudorandom Number Generators": SplitMix64.)
+// Numbers in [0, 1) that are the same for the same seed: every pixel, light and round has its own, so that a
+// picture does not depend on the number of threads or on where it was taken up again. (Steele, Lea and Flood
+// 2014, "Fast Splittable Pseudorandom Number Generators": SplitMix64.)
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

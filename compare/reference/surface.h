@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the reference shades, and what comes of it: double precision, world axes with the camera as origin, metres,
-// linear Rec.709.
+// What the reference shades, and what comes of it: double precision, world axes with the camera as origin,
+// metres, linear Rec.709.
 #pragma once
 
 #include <glm/common.hpp>

@@ -69,10 +69,12 @@ Pyramid::Pyramid(const TextureImage& image, bool srgb) : image_(image), srgb_(sr
                            static_cast<std::size_t>(level.height));
         // Texel x of this level covers from x w / W to (x + 1) w / W of the one below.
         const auto shares = [](int i, int from, int to) {
-            const double begin = static_cast<double>(i) * from / to, end = static_cast<double>(i + 1) * from / to;
+            const double begin = static_cast<double>(i) * from / to,
+                         end = static_cast<double>(i + 1) * from / to;
             std::vector<std::pair<int, double>> taps;
             for (int k = static_cast<int>(begin); k < std::min<double>(std::ceil(end - 1e-9), from); ++k)
-                taps.emplace_back(k, (std::min<double>(k + 1, end) - std::max<double>(k, begin)) / (end - begin));
+                taps.emplace_back(
+                    k, (std::min<double>(k + 1, end) - std::max<double>(k, begin)) / (end - begin));
             return taps;
         };
         std::vector<std::vector<std::pair<int, double>>> columns;
@@ -99,8 +101,8 @@ int Pyramid::height(int level) const {
 }
 
 glm::dvec4 Pyramid::texel(int level, int x, int y) const {
-    const std::size_t at =
-        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width(level)) + static_cast<std::size_t>(x));
+    const std::size_t at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width(level)) +
+                                static_cast<std::size_t>(x));
     glm::dvec4 result;
     if (level > 0) {
         const std::vector<float>& rgba = levels_[static_cast<std::size_t>(level) - 1].rgba;
@@ -135,8 +137,8 @@ glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footpri
     const Sampler& sampler = texture.sampler;
     if (!(longest > 1))
         return sampler.magnify_linear ? bilinear(levels, 0, sampler, uv) : nearestTexel(levels, sampler, uv);
-    // As many places along each side as make squares of them, eight at least; one seen at a grazing angle is long and
-    // narrow, and must not be blurred across.
+    // As many places along each side as make squares of them, eight at least; one seen at a grazing angle is
+    // long and narrow, and must not be blurred across.
     constexpr double least = 8, most = 64;
     const double across = std::abs(x.x * y.y - x.y * y.x) / longest;
     const double share = std::max(across / least, longest / most);  // texels of level 0
@@ -149,7 +151,8 @@ glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footpri
     glm::dvec4 sum(0);
     for (int j = 0; j < along_y; ++j)
         for (int i = 0; i < along_x; ++i) {
-            const glm::dvec2 at = bounded(uv + dx * ((i + 0.5) / along_x - 0.5) + dy * ((j + 0.5) / along_y - 0.5));
+            const glm::dvec2 at =
+                bounded(uv + dx * ((i + 0.5) / along_x - 0.5) + dy * ((j + 0.5) / along_y - 0.5));
             if (level == 0 && !sampler.minify_linear)
                 sum += nearestTexel(levels, sampler, at);
             else

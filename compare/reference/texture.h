@@ -20,8 +20,8 @@ struct Footprint {
     glm::dvec2 uv{0}, dx{0}, dy{0};
 };
 
-// Averages of 2^k x 2^k texels, linear, in float32; level 0 is the image itself. An image of odd size keeps its
-// last texels: each texel of a level covers the same share of the picture.
+// Averages of 2^k x 2^k texels, linear, in float32; level 0 is the image itself. An image of odd size keeps
+// its last texels: each texel of a level covers the same share of the picture.
 class Pyramid {
 public:
     Pyramid(const TextureImage& image, bool srgb);
@@ -48,8 +48,9 @@ public:
     explicit Textures(const Scene& scene) : scene_(scene) {}
 
     // The mean over the parallelogram of the footprint: where it is smaller than a texel, what the sampler's
-    // magnification says; else the box filter, an area mean of 8 x 8 places and up to 64 along its longer side, each looked up bilinearly in the level
-    // whose texels are as large as a place's share. sRGB colours are decoded first. RGBA, 0 to 1.
+    // magnification says; else the box filter, an area mean of 8 x 8 places and up to 64 along its longer
+    // side, each looked up bilinearly in the level whose texels are as large as a place's share. sRGB colours
+    // are decoded first. RGBA, 0 to 1.
     glm::dvec4 operator()(const Texture& texture, bool srgb, const Footprint& footprint) const;
 
 private:

@@ -151,7 +151,8 @@ std::string used(const ChannelDiff& channel) {
         return fmt::format("<span class=\"soft\">explained by the encoding, {} pixels left over</span>",
                            *channel.unexplained_pixels);
     if (!channel.rule.empty()) return fmt::format("<span class=\"soft\">{}</span>", markup(channel.rule));
-    const double error = channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
+    const double error =
+        channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
     const double share = channel.tolerance.max > 0 ? std::min(error / channel.tolerance.max, 1.0) : 1.0;
     return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
                        nameOf(channel.verdict), 100 * share);
@@ -231,7 +232,8 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
     std::string body = header(report) + saidFirst(report) + failures(report, layout) +
                        warnings(report, layout) + notes(report) + marksLinks(report, layout) +
-                       nearerSection(report, layout) + indexTable(report, layout) + legend + "<div id=\"sections\">\n";
+                       nearerSection(report, layout) + indexTable(report, layout) + legend +
+                       "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         body += section(report, layout, layout.order[at]);
     body += "</div>\n" + laterSections(report, layout);

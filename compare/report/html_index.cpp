@@ -16,7 +16,8 @@ double used(const ChannelDiff& channel) {
     if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0)
         return std::numeric_limits<double>::infinity();
-    const double error = channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
+    const double error =
+        channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
     if (error == 0) return 0;
     return channel.tolerance.max > 0 ? error / channel.tolerance.max
                                      : std::numeric_limits<double>::infinity();

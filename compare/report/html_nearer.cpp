@@ -36,24 +36,29 @@ std::string figures(const Report& report, const Nearer& nearer) {
         out += row("relative RMSE", channel, [](const Standing& s) { return s.relative_rmse; });
         out += row("FLIP", channel, [](const Standing& s) { return s.flip.value_or(0); });
     }
-    return out + fmt::format("</table></div><p class=\"soft\">Each path's from the {}; the nearer one's in bold. Between "
-                             "them: of {} from {}.</p>\n",
-                             truth, name(1), name(0));
+    return out +
+           fmt::format(
+               "</table></div><p class=\"soft\">Each path's from the {}; the nearer one's in bold. Between "
+               "them: of {} from {}.</p>\n",
+               truth, name(1), name(0));
 }
 
 std::string materials(const Report& report, const Nearer& nearer, const NearerChannel& channel) {
     if (channel.materials.empty() || channel.nearer < 0) return {};
     const auto name = [&](std::size_t k) { return markup(report.frames[nearer.paths[k]].name); };
     std::string out = fmt::format(
-        "<div class=\"scroll\"><table><tr><th>{} by material</th><th class=\"n\">pixels</th><th class=\"n\">{}</th>"
+        "<div class=\"scroll\"><table><tr><th>{} by material</th><th class=\"n\">pixels</th><th "
+        "class=\"n\">{}</th>"
         "<th class=\"n\">{}</th></tr>",
         channel.mode->name, name(0), name(1));
     for (const MaterialStanding& m : channel.materials)
-        out += fmt::format("<tr><td class=\"wide\">{} <span class=\"soft\">{}</span></td><td class=\"n\">{}</td>{}{}</tr>",
-                           m.id, markup(m.name), m.pixels, cell(number(m.mean[0]), m.mean[0] < m.mean[1]),
-                           cell(number(m.mean[1]), m.mean[1] < m.mean[0]));
-    return out + "</table></div><p class=\"soft\">Mean errors; the materials first where the paths stand furthest "
-                 "apart from each other.</p>\n";
+        out += fmt::format(
+            "<tr><td class=\"wide\">{} <span class=\"soft\">{}</span></td><td class=\"n\">{}</td>{}{}</tr>",
+            m.id, markup(m.name), m.pixels, cell(number(m.mean[0]), m.mean[0] < m.mean[1]),
+            cell(number(m.mean[1]), m.mean[1] < m.mean[0]));
+    return out +
+           "</table></div><p class=\"soft\">Mean errors; the materials first where the paths stand furthest "
+           "apart from each other.</p>\n";
 }
 
 std::string picture(const Report& report, const ReportLayout& layout, const Nearer& nearer, std::size_t index,
@@ -61,9 +66,12 @@ std::string picture(const Report& report, const ReportLayout& layout, const Near
     const std::string& file = layout.nearer[index][channel];
     if (file.empty()) return {};
     return fmt::format(
-        "<figure><img class=\"whole\" loading=\"lazy\" src=\"{}\" alt=\"which path is nearer, pixel by pixel\">"
-        "<figcaption><span><i class=\"swatch first\"></i>{} nearer</span><span><i class=\"swatch second\"></i>{} "
-        "nearer</span><span>{}: as bright as their errors are apart, full at {}</span></figcaption></figure>\n",
+        "<figure><img class=\"whole\" loading=\"lazy\" src=\"{}\" alt=\"which path is nearer, pixel by "
+        "pixel\">"
+        "<figcaption><span><i class=\"swatch first\"></i>{} nearer</span><span><i class=\"swatch "
+        "second\"></i>{} "
+        "nearer</span><span>{}: as bright as their errors are apart, full at "
+        "{}</span></figcaption></figure>\n",
         layout.source(file), markup(report.frames[nearer.paths[0]].name),
         markup(report.frames[nearer.paths[1]].name), nearer.channels[channel].mode->name,
         number(nearerTop(nearer.channels[channel].apart)));

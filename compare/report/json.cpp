@@ -92,18 +92,22 @@ Json jsonOf(const Report& report, const Nearer& nearer) {
     for (const NearerChannel& channel : nearer.channels) {
         Json materials = Json::array();
         for (const MaterialStanding& m : channel.materials)
-            materials.push_back({{"id", m.id},
-                                 {"name", m.name},
-                                 {"pixels", m.pixels},
-                                 {"mean", {{name(0), finiteOrNull(m.mean[0])}, {name(1), finiteOrNull(m.mean[1])}}}});
+            materials.push_back(
+                {{"id", m.id},
+                 {"name", m.name},
+                 {"pixels", m.pixels},
+                 {"mean", {{name(0), finiteOrNull(m.mean[0])}, {name(1), finiteOrNull(m.mean[1])}}}});
         channels.push_back(
             {{"name", channel.mode->name},
-             {"nearer", channel.nearer < 0 ? Json(nullptr) : Json(name(static_cast<std::size_t>(channel.nearer)))},
+             {"nearer",
+              channel.nearer < 0 ? Json(nullptr) : Json(name(static_cast<std::size_t>(channel.nearer)))},
              {"by", finiteOrNull(channel.by)},
              {"error", {{name(0), jsonOf(channel.paths[0])}, {name(1), jsonOf(channel.paths[1])}}},
              {"between", jsonOf(channel.between)},
              {"nearer_pixels",
-              {{name(0), channel.nearer_pixels[0]}, {name(1), channel.nearer_pixels[1]}, {"even", channel.even_pixels}}},
+              {{name(0), channel.nearer_pixels[0]},
+               {name(1), channel.nearer_pixels[1]},
+               {"even", channel.even_pixels}}},
              {"materials", materials}});
     }
     return {{"scene", truth.scene}, {"camera", jsonOf(truth.camera)}, {"channels", channels}};

@@ -109,7 +109,8 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool si
         }
         for (const std::size_t frame : {comparison.baseline, comparison.test})
             if (report.frames[frame].origin.file.empty())
-                layout.exr[frame] = (report.nearer.size() == 1 ? "" : prefix) + report.frames[frame].name + ".exr";
+                layout.exr[frame] =
+                    (report.nearer.size() == 1 ? "" : prefix) + report.frames[frame].name + ".exr";
         const auto lit = left.channels.find(gpu::DEBUG_lit);
         const Exposure exposure =
             exposureFor(choice, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);

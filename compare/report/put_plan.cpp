@@ -106,12 +106,13 @@ PutPlan readPlan(const fs::path& file) {
     return {namesIn(json, "files"), namesIn(json, "earlier")};
 }
 
-// Everything new is in place. The plan goes after what it speaks of, so that a kill in between leaves what can be
-// carried out again.
+// Everything new is in place. The plan goes after what it speaks of, so that a kill in between leaves what
+// can be carried out again.
 void removeBegun(const fs::path& begun) {
     std::error_code ignored;
     std::vector<fs::path> folders;  // what was replaced, and those that files were moved out of
-    for (fs::directory_iterator entry(begun, ignored), end; !ignored && entry != end; entry.increment(ignored))
+    for (fs::directory_iterator entry(begun, ignored), end; !ignored && entry != end;
+         entry.increment(ignored))
         if (entry->is_directory(ignored)) folders.push_back(entry->path());
     for (const fs::path& folder : folders) fs::remove_all(folder, ignored);
     fs::remove(begun / planName, ignored);

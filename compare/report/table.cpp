@@ -91,7 +91,8 @@ std::string reportTable(const Report& report) {
         if (report.nearer.size() > 1)
             out += fmt::format("{}, {}:\n", report.frames[nearer.truth].scene,
                                cameraTitle(report.frames[nearer.truth]));
-        for (const NearerChannel& channel : nearer.channels) out += nearerLine(nearer, channel, report.frames) + "\n";
+        for (const NearerChannel& channel : nearer.channels)
+            out += nearerLine(nearer, channel, report.frames) + "\n";
     }
     return out + verdictLine(report) + "\n";
 }

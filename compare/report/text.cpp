@@ -82,7 +82,8 @@ std::string cameraTitle(const Frame& frame) {
 }
 
 bool hasSeveralPairs(const Report& report) {
-    return !report.nearer.empty() || std::ranges::any_of(report.frames, [](const Frame& f) { return !f.origin.file.empty(); });
+    return !report.nearer.empty() ||
+           std::ranges::any_of(report.frames, [](const Frame& f) { return !f.origin.file.empty(); });
 }
 
 std::string pairTitle(const Report& report, const Comparison& comparison) {

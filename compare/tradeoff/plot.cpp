@@ -76,9 +76,10 @@ private:
     std::string axes() const {
         const double foot = height - bottom;
         Drawing drawing;
-        drawing.axes({left, top, width - right, foot}, time_.ticks(), [this](double ms) { return x(ms); },
-                     "time of a frame, ms", error_.ticks(), [this](double error) { return y(error); },
-                     std::string(errorFigures[figure_].title));
+        drawing.axes(
+            {left, top, width - right, foot}, time_.ticks(), [this](double ms) { return x(ms); },
+            "time of a frame, ms", error_.ticks(), [this](double error) { return y(error); },
+            std::string(errorFigures[figure_].title));
         if (zeros_) {
             drawing.line("gap", left, foot - lane, width - right, foot - lane);
             drawing.text("tick end", left - 8, y(0) + 4, "0");

@@ -46,7 +46,8 @@ std::vector<Path> pathsOf(const Tradeoff& tradeoff);  // that have rows, in the 
 std::optional<Spread> driftOf(const Tradeoff& tradeoff);
 
 // Commands for a shell: the row measured again by itself; its picture; its errors beside those of the other
-// path, channel by channel: empty where its own reference would be another, for its size, or no other path knows it.
+// path, channel by channel: empty where its own reference would be another, for its size, or no other path
+// knows it.
 std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);

@@ -6,20 +6,21 @@
 
 CONTRACT_BEGIN
 
-// What a rectangle, disc or tube has beside its Light, whose position is its centre, whose intensity is its radiance
-// in W/(sr m^2), the same from everywhere and into every direction, and whose range is from the centre. Area lights
-// come last in the order of lights: rectangles, discs, tubes; the i-th area light's is the i-th here.
+// What a rectangle, disc or tube has beside its Light, whose position is its centre, whose intensity is its
+// radiance in W/(sr m^2), the same from everywhere and into every direction, and whose range is from the
+// centre. Area lights come last in the order of lights: rectangles, discs, tubes; the i-th area light's is
+// the i-th here.
 struct AreaLight {
-    vec3 x;          // m; from the centre: rectangle: to the middle of a side; disc: to the rim; tube: to an end
-    float radius;    // m; disc, tube
-    vec3 y;          // rectangle, disc: the other half axis, cross(x, y) along direction
-    float extent;    // m; radius of the sphere around it
-    vec3 direction;  // unit; rectangle, disc: in which it shines; tube: along x
+    vec3 x;  // m; from the centre: rectangle: to the middle of a side; disc: to the rim; tube: to an end
+    float radius;     // m; disc, tube
+    vec3 y;           // rectangle, disc: the other half axis, cross(x, y) along direction
+    float extent;     // m; radius of the sphere around it
+    vec3 direction;   // unit; rectangle, disc: in which it shines; tube: along x
     float two_sided;  // 1: rectangle, disc: to both sides
 };
 
-// FEATURE_area_lights: the shapes that the scene has, and AREA_POINTS where each is evaluated by a representative
-// point; else by linearly transformed cosines.
+// FEATURE_area_lights: the shapes that the scene has, and AREA_POINTS where each is evaluated by a
+// representative point; else by linearly transformed cosines.
 CONTRACT_CONST(uint, AREA_RECTS, 1);
 CONTRACT_CONST(uint, AREA_DISCS, 2);
 CONTRACT_CONST(uint, AREA_TUBES, 4);

@@ -27,12 +27,12 @@ CONTRACT_CONST(uint, BINDING_OBJECT_LIST, 10);  // buffer ObjectLight[]
 CONTRACT_CONST(uint, BINDING_OBJECTS, 11);      // buffer ObjectLights[draws]
 CONTRACT_CONST(uint, BINDING_VIEW_TEXELS, 12);  // texels of PackedView
 
-CONTRACT_CONST(uint, BINDING_MATERIAL, 8);   // of SET_MATERIAL: uniform Material, after the slots
+CONTRACT_CONST(uint, BINDING_MATERIAL, 8);  // of SET_MATERIAL: uniform Material, after the slots
 
 CONTRACT_CONST(uint, BINDING_CARRIED_DIFFUSE, 0);  // of SET_CARRIED
 CONTRACT_CONST(uint, BINDING_CARRIED_SPECULAR, 1);
 
-CONTRACT_CONST(uint, BINDING_DEPTH, 7);      // of SET_GBUFFER
+CONTRACT_CONST(uint, BINDING_DEPTH, 7);  // of SET_GBUFFER
 
 CONTRACT_END
 

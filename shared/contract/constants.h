@@ -24,8 +24,8 @@ CONTRACT_CONST(float, MIN_LIGHT_DISTANCE_SQUARED, 1e-20f);
 // F0 of a dielectric with the default index of refraction 1.5: ((1.5 - 1) / (1.5 + 1))^2.
 CONTRACT_CONST(float, DEFAULT_DIELECTRIC_F0, 0.04f);
 
-// Texture coordinates are kept within this, before and after their transform: from 2^24 on they have no fraction
-// left to choose a texel by, and infinite ones give texels that are not numbers.
+// Texture coordinates are kept within this, before and after their transform: from 2^24 on they have no
+// fraction left to choose a texel by, and infinite ones give texels that are not numbers.
 CONTRACT_CONST(float, MAX_TEXCOORD, 1e9f);
 
 // Mesa lavapipe ends all loops of one shader invocation, silently, after 65,535 iterations together.

@@ -14,6 +14,7 @@
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
 //   made by both (and the reference), forward_only where the G-buffer does not carry it, or by the two paths
 //   alone (paths_only): how they work, of which the reference knows nothing
+// clang-format off
 #define DEBUG_MODES(X)                                                                                    \
     X(0,  lit,              3, relative, color,  both,         "radiance, W/(sr m^2)")                    \
     X(1,  albedo,           3, absolute, color,  both,         "base colour, linear Rec.709")             \
@@ -35,6 +36,7 @@
     X(42, lit_ambient,      3, relative, color,  both,         "reflected ambient light, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, both,         "F90 of the dielectric layer, 0 to 1") \
     X(51, lightmap,         3, relative, color,  both,         "irradiance of the lightmap over pi, W/(sr m^2)")
+// clang-format on
 
 CONTRACT_BEGIN
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, maker, shows) \

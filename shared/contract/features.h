@@ -8,6 +8,7 @@
 #include "types.h"
 
 // id  name  what it switches; 0 is off
+// clang-format off
 #define FEATURES(X)                                                                                   \
     X(0,  base_color_texture)         /* material slots with a texture */                             \
     X(1,  metallic_roughness_texture)                                                                 \
@@ -52,6 +53,7 @@
     X(40, gbuffer_wide_lightmap)      /* beyond the packed format's range: float32 */                 \
     X(41, view_source)                /* VIEW_*: where a fragment shader has the view from */             \
     X(42, captured)                   /* for channels, which may ask for more than shading does */
+// clang-format on
 
 CONTRACT_BEGIN
 #define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);

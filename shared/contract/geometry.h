@@ -15,8 +15,8 @@ struct VertexAttributes {
     vec4 color;  // linear Rec.709, alpha
 };
 
-// One draw of one primitive: attributes of its instance, at the locations after a vertex's. lavapipe fetches those once
-// for all vertices, and what is in a buffer for each of them.
+// One draw of one primitive: attributes of its instance, at the locations after a vertex's. lavapipe fetches
+// those once for all vertices, and what is in a buffer for each of them.
 struct Draw {
     mat4 clip_from_object;     // the product in double, rounded once
     mat4x3 world_from_object;  // world axes, camera as origin, m: subtracted in double
@@ -26,8 +26,8 @@ struct Draw {
 
 // Push constants of a draw.
 struct DrawConstants {
-    uint draw;      // into the draws
-    uint material;  // its number: the channel material_id
+    uint draw;         // into the draws
+    uint material;     // its number: the channel material_id
     uint light_first;  // with FEATURE_light_chunk: positions of each list that this draw walks, from here
     uint light_end;    // to below here
 };

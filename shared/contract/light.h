@@ -8,13 +8,13 @@ CONTRACT_BEGIN
 
 // A light as the shaders see it: KHR_lights_punctual, with everything that does not depend on the pixel
 // worked out. The buffer holds directional lights first, then points, spots and area lights, each kind in the
-// scene's order, and last a null light that gives nothing, with which lists are padded; every sum over lights runs
-// in that order, whatever chose the lights. Shaders read it as a texel buffer of four floats.
+// scene's order, and last a null light that gives nothing, with which lists are padded; every sum over lights
+// runs in that order, whatever chose the lights. Shaders read it as a texel buffer of four floats.
 struct Light {
-    vec3 position;              // from the camera, world axes, m; directional: unit, to the light
+    vec3 position;                // from the camera, world axes, m; directional: unit, to the light
     float inverse_range_squared;  // 1/m^2: d^2 times it is below 1 where light arrives; 0 without a range
-    vec3 intensity;             // W/sr (candela); directional: W/m^2 (lux)
-    float range;                // m; infinity where the light has none
+    vec3 intensity;               // W/sr (candela); directional: W/m^2 (lux)
+    float range;                  // m; infinity where the light has none
 };
 
 // What a spot has beside its Light; the i-th spot's is the i-th.

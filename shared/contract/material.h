@@ -22,26 +22,26 @@ struct TextureTransform {
     vec3 v;
 };
 
-// A lightmap holds, times its intensity, the irradiance that reaches the surface from all sides over pi: the radiance
-// of light from everywhere that would bring as much, W/(sr m^2). The base reflects it as it does such light; the
-// specular lobe, which would need its directions, does not.
+// A lightmap holds, times its intensity, the irradiance that reaches the surface from all sides over pi: the
+// radiance of light from everywhere that would bring as much, W/(sr m^2). The base reflects it as it does
+// such light; the specular lobe, which would need its directions, does not.
 //
 // KHR_materials_unlit has an exact physical equivalent: a surface that reflects nothing and emits its base
 // colour. So an unlit surface has that colour, factor x texture x COLOR_0, in the channel `emission` and 0 in
 // `albedo` and `specular`, and no lighting code knows of it. Its normal, metallic (0), roughness (1) and
 // occlusion (1) are never from textures. Alpha mode, cutoff and double-sidedness count as ever.
 struct Material {
-    vec4 base_color;          // linear Rec.709, alpha
-    vec3 emission;            // W/(sr m^2): emissiveFactor x emissiveStrength
+    vec4 base_color;  // linear Rec.709, alpha
+    vec3 emission;    // W/(sr m^2): emissiveFactor x emissiveStrength
     float metallic;
-    vec3 dielectric_f0;       // ((1 - ior) / (1 + ior))^2 x specularColorFactor, before specular and clamp
-    float roughness;          // perceptual
-    float specular;           // KHR_materials_specular's specularFactor, the dielectric F90
+    vec3 dielectric_f0;  // ((1 - ior) / (1 + ior))^2 x specularColorFactor, before specular and clamp
+    float roughness;     // perceptual
+    float specular;      // KHR_materials_specular's specularFactor, the dielectric F90
     float normal_scale;
     float occlusion_strength;
     float alpha_cutoff;
     float lightmap_intensity;
-    uint second_texcoord;     // bit SLOT_*: that slot reads the second UV set
+    uint second_texcoord;  // bit SLOT_*: that slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
 };
 

@@ -21,16 +21,17 @@ struct ObjectLight {
 // What of irradiance varies with the normal as spherical harmonics up to L2 do, W/m^2, by colour:
 //   E(n) = constant + linear_x n.x + linear_y n.y + linear_z n.z + xx (n.x^2 - n.z^2) + yy (n.y^2 - n.z^2)
 //          + 2 (xy n.x n.y + yz n.y n.z + xz n.x n.z)
-// (Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps", equation 12, whose
-// matrix of a unit n loses one row to its trace.)
+// (Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps", equation 12,
+// whose matrix of a unit n loses one row to its trace.)
 struct ObjectIrradiance {
     vec3 constant;
     vec3 linear_x, linear_y, linear_z;
     vec3 xx, yy, xy, yz, xz;
 };
 
-// A draw's lights: entries [begin, local_begin) are directional, up to point_end points, up to spot_end spots, up
-// to area_end area lights, each in the order of the lights; then those of the vertices, of which none is an area light.
+// A draw's lights: entries [begin, local_begin) are directional, up to point_end points, up to spot_end
+// spots, up to area_end area lights, each in the order of the lights; then those of the vertices, of which
+// none is an area light.
 struct ObjectLights {
     uint begin, local_begin, point_end, spot_end, area_end;
     uint vertex_directional_end, vertex_point_end, vertex_end;

@@ -29,8 +29,8 @@ gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye, cons
     const glm::dmat3 linear(worldFromObject);
     glm::dmat4 fromCamera = worldFromObject;
     fromCamera[3] -= glm::dvec4(eye, 0.0);
-    return {glm::mat4(clipFromWorld * fromCamera), glm::mat4x3(fromCamera), glm::mat3(normalFromObject(linear)),
-            glm::determinant(linear) < 0 ? -1.0f : 1.0f};
+    return {glm::mat4(clipFromWorld * fromCamera), glm::mat4x3(fromCamera),
+            glm::mat3(normalFromObject(linear)), glm::determinant(linear) < 0 ? -1.0f : 1.0f};
 }
 
 // A sum of normals with positive weights that does not vanish in the object does not in the world either,
@@ -59,8 +59,7 @@ bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
         for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(corner[c]));
     const double slack = 1e-5 * scale;
     const auto allBeyond = [&](auto distance) {
-        return std::all_of(box.begin(), box.end(),
-                           [&](const glm::dvec4& c) { return distance(c) < -slack; });
+        return std::all_of(box.begin(), box.end(), [&](const glm::dvec4& c) { return distance(c) < -slack; });
     };
     return allBeyond([](const glm::dvec4& c) { return c.w + c.x; }) ||
            allBeyond([](const glm::dvec4& c) { return c.w - c.x; }) ||

@@ -27,9 +27,9 @@ struct DrawList {
 };
 
 // Opaque before masked, then from near to far by the farthest corner of the bounding box, then by variant and
-// material, then in the scene's order: what encloses others, a room, a ground, comes after them, and most of what is
-// hidden fails its depth test before it is shaded. An instance is left out only where its bounding box is wholly beyond
-// one plane of the view.
+// material, then in the scene's order: what encloses others, a room, a ground, comes after them, and most of
+// what is hidden fails its depth test before it is shaded. An instance is left out only where its bounding
+// box is wholly beyond one plane of the view.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view);
 

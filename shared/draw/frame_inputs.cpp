@@ -20,9 +20,8 @@ constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                            texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 // In the order of BINDING_* of SET_FRAME.
 constexpr std::array frameTypes{
-    uniform, uniform, texels,  texels,  texels,  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    texels,  texels,  storage, storage, storage, storage,
-    texels};
+    uniform, uniform, texels,  texels,  texels, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, texels, texels,
+    storage, storage, storage, storage, texels};
 
 constexpr std::array carriedTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
@@ -90,9 +89,8 @@ NothingCarried::NothingCarried(Device& device, Uploader& uploader, const Layouts
         sets_.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
-FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts,
-                           const View& view, const DrawList& draws, const GpuLights& lights,
-                           const LightLists::Choice& choice,
+FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
+                           const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
                            std::optional<std::uint32_t> objectPixelLights)
     : lists_(device, uploader, layouts.lists, choice, view, lights),
       objects_(device, uploader, draws, lights, objectPixelLights),
@@ -112,8 +110,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     packed_view_ = makeBuffer<gpu::PackedView>(device, uploader, "packed view", std::span(&packed, 1),
                                                VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     packed_view_texels_ = makeTexelView(device, "packed view", packed_view_, VK_FORMAT_R32G32B32A32_UINT);
-    draws_ =
-        makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    draws_ = makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,
                                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     spot_cones_ = makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones,

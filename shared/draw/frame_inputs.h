@@ -49,16 +49,16 @@ private:
 class FrameBuffers {
 public:
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
-                 const DrawList& draws, const GpuLights& lights,
-                 const LightLists::Choice& choice, std::optional<std::uint32_t> objectPixelLights = {});
+                 const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
+                 std::optional<std::uint32_t> objectPixelLights = {});
     VkDescriptorSet set() const { return sets_[0]; }
     VkBuffer draws() const { return draws_.handle(); }
     VkDescriptorSet carriedNothing() const { return carried_nothing_.set(); }
     LightLists& lists() { return lists_; }
     const ObjectLightBuffers& objects() const { return objects_; }
     std::uint64_t bytes() const {
-        return view_.size() + packed_view_.size() + draws_.size() + lights_.size() + spot_cones_.size() + area_lights_.size() +
-               ltc_.bytes() + albedo_.size() + lists_.bytes() + objects_.bytes();
+        return view_.size() + packed_view_.size() + draws_.size() + lights_.size() + spot_cones_.size() +
+               area_lights_.size() + ltc_.bytes() + albedo_.size() + lists_.bytes() + objects_.bytes();
     }
 
 private:

@@ -14,7 +14,7 @@ struct PrimitiveRange {
     std::int32_t vertex_offset = 0;
     std::uint32_t material = 0;
     bool vertex_color = false;
-    bool vanishing_normals = false;  // somewhere in a triangle the interpolated normal may be zero
+    bool vanishing_normals = false;           // somewhere in a triangle the interpolated normal may be zero
     glm::dvec3 bounds_min{0}, bounds_max{0};  // object
 };
 

@@ -18,7 +18,7 @@ public:
     ObjectLightBuffers(Device& device, Uploader& uploader, const DrawList& draws, const GpuLights& lights,
                        std::optional<std::uint32_t> pixels);
 
-    void bind(DescriptorSets& sets) const;  // BINDING_OBJECT_LIST, BINDING_OBJECTS
+    void bind(DescriptorSets& sets) const;                // BINDING_OBJECT_LIST, BINDING_OBJECTS
     std::uint32_t features() const { return features_; }  // FEATURE_object_lights
     std::uint32_t longest() const { return longest_; }    // local lights per pixel of one draw
     std::uint64_t bytes() const { return entries_.size() + objects_.size(); }

@@ -58,7 +58,10 @@ double lambda(double alpha, double cosine) {
 class Lobe {
 public:
     Lobe(double n_dot_v, double alpha)
-        : mu_(n_dot_v), sine_(std::sqrt(1 - n_dot_v * n_dot_v)), alpha_(alpha), lambda_v_(lambda(alpha, n_dot_v)) {}
+        : mu_(n_dot_v),
+          sine_(std::sqrt(1 - n_dot_v * n_dot_v)),
+          alpha_(alpha),
+          lambda_v_(lambda(alpha, n_dot_v)) {}
 
     double density(double t) const {
         const double a2 = alpha_ * alpha_, sum = a2 + t * t;
@@ -103,8 +106,9 @@ double viewAt(double x, double alpha) {
 
 }  // namespace
 
-// Three pieces of T: up to where the first light of a ring sets all of it is above the horizon; from there on up to
-// the lobe's width; and, by 1 / T, to where the last one sets. Each is smooth, with its quick end drawn out.
+// Three pieces of T: up to where the first light of a ring sets all of it is above the horizon; from there on
+// up to the lobe's width; and, by 1 / T, to where the last one sets. Each is smooth, with its quick end drawn
+// out.
 glm::dvec2 specularAlbedo(double n_dot_v, double alpha) {
     const Lobe lobe(n_dot_v, alpha);
     const double view = std::acos(std::min(n_dot_v, 1.0)), quarter = std::numbers::pi / 2;
@@ -131,8 +135,10 @@ double meanSchlickWeight(double n_dot_v) {
     for (std::size_t i = 0; i < points; ++i)
         for (std::size_t j = 0; j < points; ++j) {
             const double n_dot_l = std::sqrt(rule.at[i]), across = std::sqrt(1 - rule.at[i]);
-            const double v_dot_l = n_dot_v * n_dot_l + sine * across * std::cos(std::numbers::pi * rule.at[j]);
-            sum += rule.weight[i] * rule.weight[j] * schlickWeight(std::sqrt(std::max(0.0, (1 + v_dot_l) / 2)));
+            const double v_dot_l =
+                n_dot_v * n_dot_l + sine * across * std::cos(std::numbers::pi * rule.at[j]);
+            sum +=
+                rule.weight[i] * rule.weight[j] * schlickWeight(std::sqrt(std::max(0.0, (1 + v_dot_l) / 2)));
         }
     return sum;
 }
@@ -143,7 +149,8 @@ const std::vector<glm::vec2>& directionalAlbedoTable() {
         const double least = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
         std::vector<glm::vec2> made(width * (height + 1));
         tbb::parallel_for(std::size_t{0}, height + 1, [&](std::size_t row) {
-            const double y = least + (1 - least) * static_cast<double>(row) / (height - 1), alpha = y * y * y * y;
+            const double y = least + (1 - least) * static_cast<double>(row) / (height - 1),
+                         alpha = y * y * y * y;
             for (std::size_t i = 0; i < width; ++i) {
                 const double x = static_cast<double>(i) / (width - 1);
                 made[row * width + i] = row < height ? glm::vec2(specularAlbedo(viewAt(x, alpha), alpha))

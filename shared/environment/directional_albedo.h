@@ -9,9 +9,9 @@
 
 namespace diptych {
 
-// The integral of D V n.l over the hemisphere of light, split by Schlick's weight w = (1 - v.h)^5: x is that of
-// 1 - w, what F0 is multiplied by; y that of w, F90's factor. `n_dot_v` in (0, 1], `alpha` in (0, 1]. Within 5e-6
-// of the sum.
+// The integral of D V n.l over the hemisphere of light, split by Schlick's weight w = (1 - v.h)^5: x is that
+// of 1 - w, what F0 is multiplied by; y that of w, F90's factor. `n_dot_v` in (0, 1], `alpha` in (0, 1].
+// Within 5e-6 of the sum.
 glm::dvec2 specularAlbedo(double n_dot_v, double alpha);
 
 // The mean of w over the cosine-weighted hemisphere, within 4e-6: a base under a layer of F0 and F90 gets

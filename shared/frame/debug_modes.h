@@ -31,9 +31,9 @@ struct DebugMode {
     Shown shown = Shown::usual;
 };
 
-std::span<const DebugMode> debugModes();                      // in ascending number
+std::span<const DebugMode> debugModes();                        // in ascending number
 const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr where there is none
-const DebugMode& debugMode(int number);                       // throws std::out_of_range
+const DebugMode& debugMode(int number);                         // throws std::out_of_range
 std::string_view nameOf(Metric metric);
 
 // Channels of light: those that follow from the surface and what shines on it.

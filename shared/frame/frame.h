@@ -35,7 +35,8 @@ struct FrameCounters {
     std::uint64_t overflowed_lists = 0;
     std::uint64_t lights = 0;               // every light, the sun too
     std::uint64_t unreproduced_pixels = 0;  // where the capture's lit is not the timed pipeline's
-    double energy_cut = 0;  // share of the flux of lights without a range that settings.light_cutoff takes away
+    double energy_cut =
+        0;  // share of the flux of lights without a range that settings.light_cutoff takes away
 };
 
 // What two runs of one path differ by: nothing on a CPU device, or it is a race.

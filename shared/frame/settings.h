@@ -38,14 +38,14 @@ struct Settings {
     Switch prepass = Switch::automatic;
     GBufferEncoding gbuffer = GBufferEncoding::standard;
     Size size;
-    std::string camera;              // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
-    double time = 0.0;               // s
-    std::string env = "none";        // file of a lat-long environment
+    std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
+    double time = 0.0;   // s
+    std::string env = "none";  // file of a lat-long environment
     float ibl_intensity = 1.0f;
-    Rgb ambient;                     // W/(sr m^2)
-    std::string lights;              // "" none, "point:64,spot:16", or a file's name
+    Rgb ambient;         // W/(sr m^2)
+    std::string lights;  // "" none, "point:64,spot:16", or a file's name
     std::uint32_t seed = 0;
-    float light_cutoff = 0.0f;       // W/(sr m^2)
+    float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
     AreaLights area_lights = AreaLights::ltc;
     Shadows shadows = Shadows::off;
@@ -63,7 +63,8 @@ struct Settings {
     bool operator==(const Settings&) const = default;
 
     // Calls visit(Field, member) for every member, in the order above. `self` may be const.
-    template <class Self, class Visit> static void fields(Self& self, Visit&& visit);
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit);
 
     // Why this combination has no meaning or is not built yet, naming the option and its value;
     // nothing where it can be rendered.
@@ -72,18 +73,20 @@ struct Settings {
 
 // How a setting is called on the command line ("--" + option, in JSON with _ for -) and what it does.
 // What a sweep of speed against accuracy tries of it: nothing (a scene's content, which the truth depends on,
-// is no such choice), "all" values of an enumeration or switch, or these words for set(), separated by commas;
-// of a size, parts of the given one.
+// is no such choice), "all" values of an enumeration or switch, or these words for set(), separated by
+// commas; of a size, parts of the given one.
 struct Field {
     std::string_view option;
     std::string_view help;
     std::string_view sweep = {};
 };
 
-template <class Self, class Visit> void Settings::fields(Self& s, Visit&& visit) {
+template <class Self, class Visit>
+void Settings::fields(Self& s, Visit&& visit) {
     visit(Field{"path", "deferred, forward_plus or reference", "all"}, s.path);
     visit(Field{"assign", "how lights are chosen for a pixel", "all"}, s.assign);
-    visit(Field{"light-kernel", "how lists are filled: by a thread a light, or a workgroup a cell", "scatter,gather"},
+    visit(Field{"light-kernel", "how lists are filled: by a thread a light, or a workgroup a cell",
+                "scatter,gather"},
           s.light_kernel);
     visit(Field{"prepass", "depth pre-pass of the forward+ path", "on,off"}, s.prepass);
     visit(Field{"gbuffer", "encoding of the deferred path's G-buffer", "all"}, s.gbuffer);
@@ -95,9 +98,11 @@ template <class Self, class Visit> void Settings::fields(Self& s, Visit&& visit)
     visit(Field{"ambient", "constant ambient radiance R,G,B"}, s.ambient);
     visit(Field{"lights", "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights"}, s.lights);
     visit(Field{"seed", "seed of the light rig"}, s.seed);
-    visit(Field{"light-cutoff", "luminance of a white surface where a light without a range ends; 0: nowhere", "0,1e-4,1e-3,1e-2"},
+    visit(Field{"light-cutoff", "luminance of a white surface where a light without a range ends; 0: nowhere",
+                "0,1e-4,1e-3,1e-2"},
           s.light_cutoff);
-    visit(Field{"pixel-lights", "lights shaded per pixel with --assign per_object", "0,1,2,4,8"}, s.pixel_lights);
+    visit(Field{"pixel-lights", "lights shaded per pixel with --assign per_object", "0,1,2,4,8"},
+          s.pixel_lights);
     visit(Field{"area-lights", "how area lights are evaluated", "all"}, s.area_lights);
     visit(Field{"shadows", "shadow technique", "all"}, s.shadows);
     visit(Field{"shadow-lights", "local lights that cast shadows", "0,1,4"}, s.shadow_lights);
@@ -141,26 +146,37 @@ std::string_view unreadBecause(Path path, std::string_view option);
 Settings readSettings(const Settings& settings);
 
 // The values of an enumeration by name, in order: "automatic" is written auto.
-template <class E> const std::vector<std::pair<E, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<Path, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<Assignment, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<LightKernel, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<Switch, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<GBufferEncoding, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<AreaLights, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<Shadows, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<EvsmPrecision, std::string_view>>& enumNames();
-template <> const std::vector<std::pair<ReferenceMode, std::string_view>>& enumNames();
+template <class E>
+const std::vector<std::pair<E, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<Path, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<Assignment, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<LightKernel, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<Switch, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<GBufferEncoding, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<AreaLights, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<Shadows, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<EvsmPrecision, std::string_view>>& enumNames();
+template <>
+const std::vector<std::pair<ReferenceMode, std::string_view>>& enumNames();
 
-template <class E> std::string_view nameOf(E value) {
+template <class E>
+std::string_view nameOf(E value) {
     for (const auto& [candidate, name] : enumNames<E>())
         if (candidate == value) return name;
     return "?";
 }
 
 // Every setting by its option's name (- written _), as JSON text; and the way back: a key that is absent
-// keeps the value of `base`, an unknown key or a value of the wrong kind throws std::runtime_error. The object
-// may stand alone or in { "settings": ... }.
+// keeps the value of `base`, an unknown key or a value of the wrong kind throws std::runtime_error. The
+// object may stand alone or in { "settings": ... }.
 std::string toJson(const Settings& settings, int indent = 2);
 Settings settingsFromJson(const std::string& text, const Settings& base = {});
 

@@ -94,12 +94,13 @@ std::optional<std::string> Settings::problem() const {
             return fmt::format("--ambient {}: components are finite and at least 0",
                                valueOf(*this, "ambient"));
     if (assign == Assignment::per_object && path == Path::deferred)
-        return "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object a pixel "
+        return "--assign per_object has no meaning with --path deferred: its G-buffer does not say which "
+               "object a pixel "
                "is of; use --path forward_plus";
     if (pixel_lights < 0) return fmt::format("--pixel-lights {}: is at least 0", pixel_lights);
     if (assign != Assignment::per_object && pixel_lights != Settings().pixel_lights)
-        return fmt::format("--pixel-lights {} has no meaning without --assign per_object; use {}", pixel_lights,
-                           Settings().pixel_lights);
+        return fmt::format("--pixel-lights {} has no meaning without --assign per_object; use {}",
+                           pixel_lights, Settings().pixel_lights);
     if (assign == Assignment::tiled && path == Path::forward_plus && prepass == Switch::off)
         return "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; "
                "use "

@@ -22,9 +22,10 @@ Image readHdr(const std::filesystem::path& file);
 Image readHdr(std::span<const std::byte> bytes, const std::string& name,
               std::uint64_t most = limits::imageBytes());
 
-// An RGB image, run-length coded; what comes back is within 0.4 % of each pixel's largest component. Returns how
-// many pixels RGBE cannot hold: negative and NaN components are written as 0, those above 1.7e38 as that, pixels
-// below 2.9e-39 as black. Written beside `file` and renamed. Throws std::runtime_error naming the file.
+// An RGB image, run-length coded; what comes back is within 0.4 % of each pixel's largest component. Returns
+// how many pixels RGBE cannot hold: negative and NaN components are written as 0, those above 1.7e38 as that,
+// pixels below 2.9e-39 as black. Written beside `file` and renamed. Throws std::runtime_error naming the
+// file.
 std::size_t writeHdr(const std::filesystem::path& file, const Image& image);
 
 }  // namespace diptych

@@ -31,8 +31,12 @@ gpu::SpotCone spotCone(const Light& light) {
 
 gpu::AreaLight areaLight(const Light& light) {
     const glm::dvec3 up = glm::cross(light.direction, light.axis);
-    gpu::AreaLight g{.x = {}, .radius = light.radius, .y = {}, .extent = light.radius,
-                     .direction = glm::vec3(light.direction), .two_sided = light.two_sided ? 1.0f : 0.0f};
+    gpu::AreaLight g{.x = {},
+                     .radius = light.radius,
+                     .y = {},
+                     .extent = light.radius,
+                     .direction = glm::vec3(light.direction),
+                     .two_sided = light.two_sided ? 1.0f : 0.0f};
     if (light.kind == LightKind::rect) {
         g.x = glm::vec3(light.axis * (double{light.width} / 2));
         g.y = glm::vec3(up * (double{light.height} / 2));
@@ -84,7 +88,8 @@ GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye) {
     take(LightKind::tube, result.tube);
     result.lights.push_back({.position = {}, .inverse_range_squared = 1, .intensity = {}, .range = 0});
     result.spot_cones.push_back({{0, 0, 1}, 0, 0, {}});
-    result.area_lights.push_back({.x = {}, .radius = 0, .y = {}, .extent = 1, .direction = {0, 0, 1}, .two_sided = 0});
+    result.area_lights.push_back(
+        {.x = {}, .radius = 0, .y = {}, .extent = 1, .direction = {0, 0, 1}, .two_sided = 0});
     return result;
 }
 

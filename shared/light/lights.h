@@ -13,8 +13,8 @@ namespace diptych {
 // Lights as the shaders read them, by kind and each kind in the order given: every sum over lights in every
 // path runs in this order.
 struct GpuLights {
-    std::vector<gpu::Light> lights;           // directional, point, spot, rect, disc, tube, and the null light
-    std::vector<gpu::SpotCone> spot_cones;    // and the null light's
+    std::vector<gpu::Light> lights;         // directional, point, spot, rect, disc, tube, and the null light
+    std::vector<gpu::SpotCone> spot_cones;  // and the null light's
     std::vector<gpu::AreaLight> area_lights;  // and the null light's
     std::vector<Importance> importance;       // of all but the null light
     glm::vec3 ambient{0};                     // W/(sr m^2), from everywhere

@@ -30,7 +30,8 @@ LtcTable readTable() {
         const auto found = std::ranges::find(file.layers, layer.name, &PictureLayer::name);
         if (found == file.layers.end() || found->image.data.size() != table.cells.size())
             throw std::runtime_error("ltc.exr: not the table that fit_ltc writes; run fit_ltc");
-        for (std::size_t i = 0; i < table.cells.size(); ++i) table.cells[i].*layer.member = found->image.data[i];
+        for (std::size_t i = 0; i < table.cells.size(); ++i)
+            table.cells[i].*layer.member = found->image.data[i];
     }
     return table;
 }

@@ -15,8 +15,9 @@ struct LtcCell {
     float in_plane = 1, across = 1, unsheared = 0;
     float magnitude = 1;  // directional albedo of the lobe where F = 1
     float fresnel = 0;    // the same with Schlick's weight (1 - v.h)^5 in place of F
-    // The distance of the fit: the integral of |lobe / magnitude - cosine transformed| over all directions, 0 to 2.
-    // No light's reflection is off by more than half of it, relative to what a light all around would give.
+    // The distance of the fit: the integral of |lobe / magnitude - cosine transformed| over all directions, 0
+    // to 2. No light's reflection is off by more than half of it, relative to what a light all around would
+    // give.
     float error = 0;
 };
 

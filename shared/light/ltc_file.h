@@ -10,8 +10,8 @@ struct LtcLayer {
     const char* name;
     float LtcCell::*member;
 };
-inline constexpr LtcLayer ltcLayers[] = {{"in_plane", &LtcCell::in_plane},   {"across", &LtcCell::across},
-                                         {"unsheared", &LtcCell::unsheared}, {"magnitude", &LtcCell::magnitude},
-                                         {"fresnel", &LtcCell::fresnel},     {"error", &LtcCell::error}};
+inline constexpr LtcLayer ltcLayers[] = {
+    {"in_plane", &LtcCell::in_plane},   {"across", &LtcCell::across},   {"unsheared", &LtcCell::unsheared},
+    {"magnitude", &LtcCell::magnitude}, {"fresnel", &LtcCell::fresnel}, {"error", &LtcCell::error}};
 
 }  // namespace diptych

@@ -9,8 +9,8 @@ namespace diptych {
 class LtcImage {
 public:
     LtcImage() = default;
-    // `needed`: some light is shaded with it; else one texel stands in, for a binding must hold an image. Uploaded
-    // when `uploader` is flushed.
+    // `needed`: some light is shaded with it; else one texel stands in, for a binding must hold an image.
+    // Uploaded when `uploader` is flushed.
     LtcImage(Device& device, Uploader& uploader, bool needed);
 
     VkImageView view() const { return image_.view(); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shared/light/per_object.h"
 
+#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +41,8 @@ const gpu::AreaLight* areaOf(const GpuLights& lights, std::size_t i) {
     return i >= first ? &lights.area_lights[i - first] : nullptr;
 }
 
-// An area light from afar: the area that it shows, m^2, by which its radiance becomes intensity: the most of all
-// directions, and into the unit direction `to_place` from its centre.
+// An area light from afar: the area that it shows, m^2, by which its radiance becomes intensity: the most of
+// all directions, and into the unit direction `to_place` from its centre.
 struct Shown {
     double most, there;
 };
@@ -68,7 +68,8 @@ double nearestCosine(const glm::dvec3& axis, const glm::dvec3& to_centre, double
     return std::cos(std::max(0.0, off - std::asin(radius / distance)));
 }
 
-// Shaders compare in float32, of positions that are float32 relative to the camera: a box is taken a little larger.
+// Shaders compare in float32, of positions that are float32 relative to the camera: a box is taken a little
+// larger.
 ObjectPlace widened(ObjectPlace object) {
     constexpr double relative = 1e-5;
     object.half += relative * (glm::abs(object.centre) + object.half);
@@ -105,7 +106,8 @@ double fade(double brightness, double threshold) {
     return x * x * (3 - 2 * x);
 }
 
-std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace& object, std::uint32_t pixels) {
+std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace& object,
+                                     std::uint32_t pixels) {
     const std::size_t count = lights.count();
     std::vector<double> brightness(count);
     for (std::size_t i = 0; i < count; ++i) brightness[i] = brightnessAt(lights, i, object);
@@ -125,8 +127,9 @@ std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace&
     }
     const double noPixel = ranked(byRank, pixels), noBase = ranked(suns, 1);
     // Who is left when the pixels have theirs.
-    std::vector<double> others(byRank.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(pixels, byRank.size())),
-                               byRank.end());
+    std::vector<double> others(
+        byRank.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(pixels, byRank.size())),
+        byRank.end());
     for (std::size_t i = 0; i < count; ++i)
         if (importance(i) == Importance::not_important) others.push_back(brightness[i]);
     const double noVertex = ranked(others, vertexLights);
@@ -161,8 +164,8 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dv
     sum.xz += glm::vec3(square * (l.x * l.z));
 }
 
-void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i, const ObjectPlace& object,
-                  double share) {
+void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i,
+                  const ObjectPlace& object, double share) {
     const gpu::Light& light = lights.lights[i];
     const glm::dvec3 intensity = glm::dvec3(light.intensity) * share;
     if (i < lights.directional) return addHarmonics(sum, intensity, glm::dvec3(light.position));
@@ -173,7 +176,8 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size
     const double soft = std::max(distance, area ? std::max(radius, double{area->extent}) : radius);
     double shone = window(light, distance) / (soft * soft);
     if (area) shone *= shownArea(lights, i, -l).there;
-    if (const gpu::SpotCone* cone = coneOf(lights, i)) shone *= coneAt(*cone, -glm::dot(l, glm::dvec3(cone->direction)));
+    if (const gpu::SpotCone* cone = coneOf(lights, i))
+        shone *= coneAt(*cone, -glm::dot(l, glm::dvec3(cone->direction)));
     if (shone > 0) addHarmonics(sum, intensity * shone, l, distance / soft);
 }
 
@@ -213,8 +217,9 @@ ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const Objec
         gpu::ObjectLights& head = own.head;
         const auto begin = static_cast<gpu::uint>(result.entries.size());
         result.longest = std::max(result.longest, head.area_end - head.local_begin);
-        for (gpu::uint* end : {&head.begin, &head.local_begin, &head.point_end, &head.spot_end, &head.area_end,
-                               &head.vertex_directional_end, &head.vertex_point_end, &head.vertex_end})
+        for (gpu::uint* end :
+             {&head.begin, &head.local_begin, &head.point_end, &head.spot_end, &head.area_end,
+              &head.vertex_directional_end, &head.vertex_point_end, &head.vertex_end})
             *end += begin;
         result.objects.push_back(head);
         result.entries.insert(result.entries.end(), own.entries.begin(), own.entries.end());

@@ -41,8 +41,7 @@ GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs)
     if (full || needs.emission)  // full keeps the material id beside the emission
         f[gpu::GBUFFER_EMISSION] = layout.wide_emission ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (needs.dielectric_specular) f[gpu::GBUFFER_SPECULAR] = word;
-    if (needs.lightmap)
-        f[gpu::GBUFFER_LIGHTMAP] = layout.wide_lightmap ? VK_FORMAT_R32G32B32A32_UINT : word;
+    if (needs.lightmap) f[gpu::GBUFFER_LIGHTMAP] = layout.wide_lightmap ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (layout.wide_material_id) f[gpu::GBUFFER_IDS] = VK_FORMAT_R32_UINT;
     return layout;
 }

@@ -30,9 +30,9 @@ constexpr std::array<VkDescriptorType, gpu::SLOT_COUNT + 1> setTypes = [] {
 
 // The feature that reads each slot.
 constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{
-    gpu::FEATURE_base_color_texture,    gpu::FEATURE_metallic_roughness_texture,
-    gpu::FEATURE_normal_texture,        gpu::FEATURE_occlusion_texture,
-    gpu::FEATURE_emissive_texture,      gpu::FEATURE_specular_texture,
+    gpu::FEATURE_base_color_texture,     gpu::FEATURE_metallic_roughness_texture,
+    gpu::FEATURE_normal_texture,         gpu::FEATURE_occlusion_texture,
+    gpu::FEATURE_emissive_texture,       gpu::FEATURE_specular_texture,
     gpu::FEATURE_specular_color_texture, gpu::FEATURE_lightmap_texture};
 
 Variant variantOf(const Material& material) {
@@ -104,8 +104,7 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
             if (readsSlot(material, slot))
                 imageUse(material.*materialSlots[slot].texture, materialSlots[slot].srgb);
     }
-    buffer_ =
-        makeBuffer<std::byte>(device, uploader, "materials", data, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    buffer_ = makeBuffer<std::byte>(device, uploader, "materials", data, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 
     images_.push_back(uploadTexture(
         device, uploader, MipChain(TextureImage{"white", 1, 1, {255, 255, 255, 255}}, false, Texels::linear8),
@@ -154,9 +153,10 @@ void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& sce
                                tbb::make_filter<std::size_t, Made>(tbb::filter_mode::parallel, make) &
                                tbb::make_filter<Made, void>(inOrder, upload));
     if (reduced)
-        notes_.push_back(fmt::format(
-            "{} texture{} of over 8 bits a component: sampled as half floats (11 bits), {} filters nothing wider",
-            reduced, reduced == 1 ? "" : "s", device.info().name));
+        notes_.push_back(
+            fmt::format("{} texture{} of over 8 bits a component: sampled as half floats (11 bits), {} "
+                        "filters nothing wider",
+                        reduced, reduced == 1 ? "" : "s", device.info().name));
 }
 
 std::uint64_t Materials::imageBytes() const {

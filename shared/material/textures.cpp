@@ -34,8 +34,9 @@ TextureFormat textureFormat(const Device& device, const TextureImage& image, boo
 GpuImage uploadTexture(Device& device, Uploader& uploader, const MipChain& chain, VkFormat format) {
     const auto most = static_cast<int>(device.limits().maxImageDimension2D);
     if (chain.width() > most || chain.height() > most)
-        throw std::runtime_error(fmt::format("image {}: {} x {} pixels; {} takes up to {} a side", chain.name(),
-                                             chain.width(), chain.height(), device.info().name, most));
+        throw std::runtime_error(fmt::format("image {}: {} x {} pixels; {} takes up to {} a side",
+                                             chain.name(), chain.width(), chain.height(), device.info().name,
+                                             most));
     GpuImage image(device,
                    {chain.name(), format, static_cast<std::uint32_t>(chain.width()),
                     static_cast<std::uint32_t>(chain.height()), static_cast<std::uint32_t>(chain.count()),

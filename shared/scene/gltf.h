@@ -14,7 +14,8 @@ namespace diptych {
 // std::runtime_error: "FILE: OBJECT INDEX: what is wrong".
 Scene loadGltf(const std::string& file, const std::string& scene = "", const LoadProgress& progress = {});
 
-// The same from memory, called `name`; its buffers and images are inside it, or in `folder` where there is one.
+// The same from memory, called `name`; its buffers and images are inside it, or in `folder` where there is
+// one.
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
                 const std::filesystem::path& folder = {});
 

@@ -31,8 +31,8 @@ const Json* memberOf(const Json& object, const char* key) {
 }
 
 // What "extras" of `owner` hold of ours; what is not `known` is noted.
-const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known, const std::string& who,
-                      Notes& notes) {
+const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known,
+                      const std::string& who, Notes& notes) {
     const Json* extras = memberOf(owner, "extras");
     const Json* own = extras ? memberOf(*extras, ours) : nullptr;
     if (!own) return nullptr;

@@ -178,7 +178,8 @@ private:
     void readLightmap(Material& m) {
         if (!lightmap_) return;
         scene_.notes.insert(scene_.notes.end(), lightmap_->notes.begin(), lightmap_->notes.end());
-        m.lightmap_texture = slot("extras: diptych: lightmap", lightmap_->texture, lightmap_->texcoord, nullptr);
+        m.lightmap_texture =
+            slot("extras: diptych: lightmap", lightmap_->texture, lightmap_->texcoord, nullptr);
         m.lightmap_intensity = static_cast<float>(lightmap_->intensity);
     }
 
@@ -272,7 +273,9 @@ void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, S
     left.moveTo(scene.notes);
     noteMaterials(
         model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
-        "with alphaMode BLEND: drawn opaque by the paths, which do not blend yet; the reference blends in mode scene", scene);
+        "with alphaMode BLEND: drawn opaque by the paths, which do not blend yet; the reference blends in "
+        "mode scene",
+        scene);
 
     const bool needsDefault =
         std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {
@@ -287,8 +290,10 @@ std::vector<bool> lightmapsAlone(const Scene& scene) {
     std::vector<bool> alone(scene.images.size(), true);
     for (const Material& m : scene.materials)
         for (std::size_t i = 0; i < materialSlots.size(); ++i)
-            if (const int texture = (m.*materialSlots[i].texture).texture; texture >= 0 && i != gpu::SLOT_lightmap)
-                alone[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] = false;
+            if (const int texture = (m.*materialSlots[i].texture).texture;
+                texture >= 0 && i != gpu::SLOT_lightmap)
+                alone[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] =
+                    false;
     return alone;
 }
 

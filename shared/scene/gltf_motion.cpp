@@ -158,8 +158,8 @@ public:
         for (std::size_t a = 0; a < model_.animations.size(); ++a) animation(a);
         limitNotes(scene_.notes, before, "animations");
         if (scene_.animations.size() > 1)
-            scene_.notes.push_back(fmt::format("{} animations: all play at once, later ones win",
-                                               scene_.animations.size()));
+            scene_.notes.push_back(
+                fmt::format("{} animations: all play at once, later ones win", scene_.animations.size()));
     }
 
 private:

@@ -82,8 +82,8 @@ TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::str
                             std::vector<std::string>& notes) {
     const PictureFile picture = readPicture(std::as_bytes(bytes), who, {}, most);
     if (picture.width > limits::texture_side || picture.height > limits::texture_side)
-        fail(who, fmt::format("is {} x {} pixels: from 1 to {} a side are read", picture.width, picture.height,
-                              limits::texture_side));
+        fail(who, fmt::format("is {} x {} pixels: from 1 to {} a side are read", picture.width,
+                              picture.height, limits::texture_side));
     constexpr std::size_t bytesPerPixel = 4 * sizeof(float);
     const Image light = named(who, [&] { return radianceOf(picture, who, notes); });
     if (light.pixels() > most / bytesPerPixel)
@@ -131,8 +131,9 @@ const char* otherImageOf(const tinygltf::Texture& texture) {
     return nullptr;
 }
 
-void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf, const std::vector<bool>& lightmaps,
-                std::vector<TextureImage>& images, std::vector<std::string>& notes, Tally& tally) {
+void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+                const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
+                std::vector<std::string>& notes, Tally& tally) {
     struct Encoded {
         std::string file, who;
         std::span<const unsigned char> bytes;

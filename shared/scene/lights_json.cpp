@@ -70,7 +70,7 @@ LightKind kindOf(const JsonFields& fields) {
 
 void checkKeys(const JsonFields& fields, LightKind kind) {
     std::vector<std::string_view> known{"type",  "name",      "position", "direction",
-                                        "color", "intensity", "range", "importance"};
+                                        "color", "intensity", "range",    "importance"};
     for (const OwnKey& own : ownKeys) {
         known.push_back(own.key);
         if (std::ranges::count(own.kinds, kind) > 0 || !fields.find(own.key)) continue;
@@ -135,9 +135,10 @@ std::vector<Light> readDocument(const Json& document) {
 }  // namespace
 
 Importance importanceOf(const JsonFields& fields) {
-    constexpr std::pair<Importance, std::string_view> words[] = {{Importance::automatic, "auto"},
-                                                                 {Importance::important, "important"},
-                                                                 {Importance::not_important, "not_important"}};
+    constexpr std::pair<Importance, std::string_view> words[] = {
+        {Importance::automatic, "auto"},
+        {Importance::important, "important"},
+        {Importance::not_important, "not_important"}};
     const std::string word = fields.text("importance", "auto");
     for (const auto& [importance, name] : words)
         if (word == name) return importance;

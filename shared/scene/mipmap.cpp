@@ -205,8 +205,9 @@ MipChain::MipChain(const TextureImage& image, bool srgb, Texels texels)
     : name_(image.name), texels_(texels), width_(image.width), height_(image.height), levels_(1) {
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
     const bool deep = image.deep(), floats = !image.rgba32.empty();
-    if (deep == (texels == Texels::srgb8 || texels == Texels::linear8) || (floats && texels == Texels::linear16) ||
-        image.components() != 4 * width * height || width * height == 0)
+    if (deep == (texels == Texels::srgb8 || texels == Texels::linear8) ||
+        (floats && texels == Texels::linear16) || image.components() != 4 * width * height ||
+        width * height == 0)
         throw std::logic_error("MipChain: " + name_ + " has not the texels that are asked for");
 
     const auto rowsOfTop = [&](const auto& use) {

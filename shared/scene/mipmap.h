@@ -23,8 +23,8 @@ std::size_t bytesPerTexel(Texels texels);
 // floats as float32 is the image's own memory, which must outlive the chain.
 class MipChain {
 public:
-    // An image of 8 bits becomes srgb8 or linear8, one of 16 bits one of the other three, one of floats float32 or
-    // float16, which ends at 65504.
+    // An image of 8 bits becomes srgb8 or linear8, one of 16 bits one of the other three, one of floats
+    // float32 or float16, which ends at 65504.
     MipChain(const TextureImage& image, bool srgb, Texels texels);
 
     const std::string& name() const { return name_; }

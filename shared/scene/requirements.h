@@ -26,9 +26,9 @@ struct Requirements {
     std::uint32_t textures = 0;   // that the used materials read
     std::uint32_t directional_lights = 0, point_lights = 0, spot_lights = 0;
     std::uint32_t rect_lights = 0, disc_lights = 0, tube_lights = 0;
-    std::uint32_t sun_discs = 0;                           // directional lights with an angle
-    std::string environment;                               // its name; empty: none
-    std::uint32_t skinned = 0, morphed = 0;                // nodes whose vertices that moves
+    std::uint32_t sun_discs = 0;             // directional lights with an angle
+    std::string environment;                 // its name; empty: none
+    std::uint32_t skinned = 0, morphed = 0;  // nodes whose vertices that moves
     std::uint32_t animations = 0;
     std::uint64_t draws = 0, triangles = 0, vertices = 0;  // as instanced
 

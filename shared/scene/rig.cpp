@@ -37,9 +37,10 @@ struct Box {
 };
 
 [[noreturn]] void fail(const std::string& lights, const std::string& fault) {
-    throw std::runtime_error(fmt::format(
-        "--lights {}: {}; it takes KIND:N[,KIND:N...] with KIND point, spot or area, or the name of a JSON file",
-        lights, fault));
+    throw std::runtime_error(
+        fmt::format("--lights {}: {}; it takes KIND:N[,KIND:N...] with KIND point, spot or area, or the name "
+                    "of a JSON file",
+                    lights, fault));
 }
 
 Order parseOrder(const std::string& lights, std::string_view item) {
@@ -108,7 +109,8 @@ glm::dvec3 downwards(double u, double v) {
 
 // A point's light becomes a surface of the size of `range`, as bright from the direction of most.
 void spreadOut(Light& light, double range, double shape, const std::array<double, 3>& u) {
-    light.axis = glm::normalize(glm::cross(light.direction, glm::dvec3(std::cos(TAU * u[0]), 0, std::sin(TAU * u[0]))));
+    light.axis = glm::normalize(
+        glm::cross(light.direction, glm::dvec3(std::cos(TAU * u[0]), 0, std::sin(TAU * u[0]))));
     double area = 0;
     if (shape < 1) {
         light.kind = LightKind::rect;

@@ -36,9 +36,10 @@ double u01(std::uint32_t i);
 //   spots    down, tilted by 35 degrees * sqrt(u(i, 1)) towards the azimuth 2 pi u(i, 2);
 //            outer cone 20 to 40 degrees by u(i, 3), inner cone 0.7 of it
 //   area     rectangles, discs and tubes, a third each by u(i, 3), a point's range, down as spots, the axis
-//            across that, turned by u(i, 4). Of the range: rectangles 0.2 to 0.5 wide, by u(i, 5), and 0.25 to 1 of that high,
-//            by u(i, 6); discs 0.1 to 0.25 in radius; tubes 0.3 to 0.7 long and 0.01 to 0.05 of that in radius. Their
-//            nits are the candela over the area that is seen from the front: as bright as the others from afar
+//            across that, turned by u(i, 4). Of the range: rectangles 0.2 to 0.5 wide, by u(i, 5), and 0.25
+//            to 1 of that high, by u(i, 6); discs 0.1 to 0.25 in radius; tubes 0.3 to 0.7 long and 0.01 to
+//            0.05 of that in radius. Their nits are the candela over the area that is seen from the front: as
+//            bright as the others from afar
 //
 // Throws std::runtime_error: one line naming --lights or the file, the fault and what is accepted. N has no
 // limit but memory and, for all kinds together, 2^31.

@@ -33,8 +33,8 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
-// Level 0, RGBA, row 0 on top: 8 or 16 bits a component, which the slot that reads it takes for sRGB or linear, or
-// linear floats, finite and at least 0.
+// Level 0, RGBA, row 0 on top: 8 or 16 bits a component, which the slot that reads it takes for sRGB or
+// linear, or linear floats, finite and at least 0.
 struct TextureImage {
     std::string name;
     int width = 0, height = 0;
@@ -123,14 +123,14 @@ constexpr bool isArea(LightKind kind) {
 }
 
 // KHR_lights_punctual, and surfaces that shine: a rectangle and a disc, from one side or both, and a closed
-// cylinder, the tube. Every point of these sends the same radiance into every direction (Lambert); they throw no
-// shadow and are not seen themselves. Shines along -Z of its node, +X of the node is its axis; without a node
-// everything is world.
+// cylinder, the tube. Every point of these sends the same radiance into every direction (Lambert); they throw
+// no shadow and are not seen themselves. Shines along -Z of its node, +X of the node is its axis; without a
+// node everything is world.
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    glm::vec3 color{1, 1, 1};                              // linear Rec.709
-    float intensity = 1;                                   // directional: lux; point, spot: candela; area: nits
+    glm::vec3 color{1, 1, 1};  // linear Rec.709
+    float intensity = 1;       // directional: lux; point, spot: candela; area: nits
     float range = std::numeric_limits<float>::infinity();  // m; of an area light from its centre
     float inner_cone = 0;                                  // rad, from the axis
     float outer_cone = gpu::PI / 4;                        // rad
@@ -147,8 +147,8 @@ struct Light {
 };
 
 // What shines from everywhere, as a picture of all directions: column x + 0.5 of `width` looks to the azimuth
-// 2 pi (x + 0.5) / width - pi, which is 0 at -Z, positive towards +X; row y + 0.5 of `height` to pi (y + 0.5) /
-// height from +Y. Between the pixels' centres it is bilinear, across the seam too.
+// 2 pi (x + 0.5) / width - pi, which is 0 at -Z, positive towards +X; row y + 0.5 of `height` to pi (y + 0.5)
+// / height from +Y. Between the pixels' centres it is bilinear, across the seam too.
 struct Environment {
     std::string name;  // the file
     Image radiance;    // width x height x 3, linear Rec.709, W/(sr m^2), >= 0 and finite
@@ -188,8 +188,8 @@ struct Scene {
 // squares in float32, which ends at 3.4e38.
 inline constexpr double maxCoordinate = 1e18;  // m
 
-// A mesh's primitive where the node tree puts it. Where joints or morph targets move its vertices, posed.h has
-// them; world_from_object is then where it stands undeformed: where its skin's first joint puts it.
+// A mesh's primitive where the node tree puts it. Where joints or morph targets move its vertices, posed.h
+// has them; world_from_object is then where it stands undeformed: where its skin's first joint puts it.
 struct Instance {
     int mesh = 0, primitive = 0, node = 0;
     glm::dmat4 world_from_object{1.0};
@@ -215,8 +215,8 @@ struct Bounds {
     double radius() const;  // of the sphere around centre(); 0 where empty
 };
 
-// Animations play from 0 s on, as animation.h says. What has no place (a transform that is not finite or reaches
-// beyond maxCoordinate) is not in the pose.
+// Animations play from 0 s on, as animation.h says. What has no place (a transform that is not finite or
+// reaches beyond maxCoordinate) is not in the pose.
 Pose poseAt(const Scene& scene, double seconds);
 Bounds worldBounds(const Scene& scene, const Pose& pose);  // over every vertex of every instance, posed
 // Those at 0 s, whenever the pose is: what is laid out around a scene stays while it moves.

@@ -130,7 +130,8 @@ OwnedPipeline Pipelines::make(const PipelineKey& key) const {
         VkVertexInputBindingDescription{0, sizeof(gpu::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
         VkVertexInputBindingDescription{perDraw, sizeof(Draw), VK_VERTEX_INPUT_RATE_INSTANCE},
         VkVertexInputBindingDescription{1, sizeof(Attributes), VK_VERTEX_INPUT_RATE_VERTEX}};
-    constexpr std::uint32_t clip = offsetof(Draw, clip_from_object), world = offsetof(Draw, world_from_object),
+    constexpr std::uint32_t clip = offsetof(Draw, clip_from_object),
+                            world = offsetof(Draw, world_from_object),
                             normal = offsetof(Draw, normal_from_object), column3 = sizeof(gpu::vec3),
                             column4 = sizeof(gpu::vec4);
     static_assert(offsetof(Draw, handedness) == normal + 3 * column3);

@@ -15,7 +15,8 @@ std::vector<Frame> drawIn(const Scene& scene, const Rgb& ambient, Size size = {4
     return bothPaths(scene, settings);
 }
 
-// A base without a layer sends back what it has of the colour; the green texel of the square's texture is closed.
+// A base without a layer sends back what it has of the colour; the green texel of the square's texture is
+// closed.
 TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
     Scene scene = square();
     Material& m = scene.materials[0];
@@ -26,11 +27,13 @@ TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
     m.occlusion_strength = 0.75f;
     for (const Frame& frame : drawIn(scene, {1, 2, 4})) {
         expectColor(colorAt(frame, lit_ambient, 0, 0), {0.8f, 0.8f, 0.8f}, float32, frame.name + " open");
-        expectColor(colorAt(frame, lit_ambient, 3, 0), {0.2f, 0.2f, 0.2f}, float32, frame.name + " a quarter");
+        expectColor(colorAt(frame, lit_ambient, 3, 0), {0.2f, 0.2f, 0.2f}, float32,
+                    frame.name + " a quarter");
     }
 }
 
-// At normal incidence and roughness 1 the lobe's integral is 1 - ln 2 (tests/unit/reference_ambient_test.cpp).
+// At normal incidence and roughness 1 the lobe's integral is 1 - ln 2
+// (tests/unit/reference_ambient_test.cpp).
 TEST(Ambient, OfARoughMetalSeenStraightOn) {
     Scene scene = square();
     Material& m = scene.materials[0];
@@ -44,8 +47,8 @@ TEST(Ambient, OfARoughMetalSeenStraightOn) {
     }
 }
 
-// The second set of the square is mirrored left to right: the green texel is at its top left. A lightmap is irradiance
-// over pi, which a Lambertian base sends back times its colour and a metal not at all.
+// The second set of the square is mirrored left to right: the green texel is at its top left. A lightmap is
+// irradiance over pi, which a Lambertian base sends back times its colour and a metal not at all.
 TEST(Ambient, OfALightmap) {
     Scene scene = square();
     scene.lights.emplace_back().intensity = 0;
@@ -62,7 +65,8 @@ TEST(Ambient, OfALightmap) {
     for (const Frame& frame : draw(scene)) {
         expectColor(colorAt(frame, lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " second set");
         expectColor(colorAt(frame, lit_ambient, 3, 0), {12, 0, 0}, 1e-5f, frame.name);
-        expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_lightmap), 3, 3), {0, 0, 6}, 1e-6f, frame.name);
+        expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_lightmap), 3, 3), {0, 0, 6}, 1e-6f,
+                    frame.name);
         EXPECT_EQ(colorAt(frame, lit, 0, 0), colorAt(frame, lit_ambient, 0, 0));
     }
     m.metallic = 1;

@@ -78,8 +78,8 @@ double furthest(const Image& a, const Image& b) {
     return most;
 }
 
-// Sums of 48 lights of one sign, each of some forty roundings of 6e-8 and, in the CPU's kernel alone, of products
-// fused with sums: 1e-5 is several times that, and far below what another formula would differ by.
+// Sums of 48 lights of one sign, each of some forty roundings of 6e-8 and, in the CPU's kernel alone, of
+// products fused with sums: 1e-5 is several times that, and far below what another formula would differ by.
 constexpr double oneArithmetic = 1e-5;
 
 TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {

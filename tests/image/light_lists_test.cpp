@@ -120,8 +120,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LightMatrix,
                          testing::Combine(testing::Values("spheres", "gallery"),
                                           testing::Values(1, 255, 256, 257, 1024, 4096)),
                          [](const auto& row) {
-                             return std::string(std::get<0>(row.param)) + "_" + std::to_string(std::get<1>(row.param)) +
-                                    "_lights";
+                             return std::string(std::get<0>(row.param)) + "_" +
+                                    std::to_string(std::get<1>(row.param)) + "_lights";
                          });
 
 // The other scenes in pairs: each with two of the counts and one size, so that every count meets every size.

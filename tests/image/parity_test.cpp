@@ -76,13 +76,15 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AssetParity, testing::ValuesIn(assetScenes()), 
 
 // Light from everywhere goes through the same table in both.
 TEST(Parity, OfAmbientLight) {
-    for (const char* name : {"builtin:gallery", "builtin:dielectrics", "builtin:occlusion", "builtin:ortho"}) {
+    for (const char* name :
+         {"builtin:gallery", "builtin:dielectrics", "builtin:occlusion", "builtin:ortho"}) {
         const Scene scene = loadScene(name);
         for (const GBufferEncoding encoding :
              {GBufferEncoding::full, GBufferEncoding::standard, GBufferEncoding::compact}) {
             Settings settings = smallPicture(encoding);
             settings.ambient = {0.3f, 0.4f, 0.5f};
-            encoding == GBufferEncoding::full ? expectBitEqual(scene, settings) : expectExplained(scene, settings);
+            encoding == GBufferEncoding::full ? expectBitEqual(scene, settings)
+                                              : expectExplained(scene, settings);
         }
     }
 }

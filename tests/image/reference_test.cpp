@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both paths against the reference, the reference's two modes against each other, and planted faults on either side.
+// Both paths against the reference, the reference's two modes against each other, and planted faults on
+// either side.
 #include "compare/diff.h"
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"
@@ -30,7 +31,8 @@ std::size_t nonfinite(const Frame& frame) {
 
 // ---- both paths --------------------------------------------------------------------------------------
 
-// 1e-4 relative on 99.9 % of the pixels that show a surface: what float32 shading of a captured surface keeps.
+// 1e-4 relative on 99.9 % of the pixels that show a surface: what float32 shading of a captured surface
+// keeps.
 void expectTruth(const Scene& scene, Settings settings) {
     settings.gbuffer = GBufferEncoding::full;
     settings.assign = Assignment::every;
@@ -64,8 +66,8 @@ TEST(Reference, BothPathsDrawSponza) {
 
 // ---- its two modes -----------------------------------------------------------------------------------
 
-// Pixels of which both modes show one place. Coplanar triangles are anyone's, and of triangles of 200 km the raster
-// has the depth to 6e-4 of itself.
+// Pixels of which both modes show one place. Coplanar triangles are anyone's, and of triangles of 200 km the
+// raster has the depth to 6e-4 of itself.
 Coverage samePlaces(const Frame& a, const Frame& b) {
     const Image &depth = a.channels.at(10), &other = b.channels.at(10);
     const Image &id = a.channels.at(8), &other_id = b.channels.at(8);
@@ -79,8 +81,8 @@ Coverage samePlaces(const Frame& a, const Frame& b) {
     return same;
 }
 
-// The raster snaps corners to 1/256 of a pixel: a pixel may be off by what the channel changes by over 1/128 of the
-// way to its neighbours. Of the rest, 1e-4 relative.
+// The raster snaps corners to 1/256 of a pixel: a pixel may be off by what the channel changes by over 1/128
+// of the way to its neighbours. Of the rest, 1e-4 relative.
 double shareBeyond(const Frame& traced, const Frame& surface, int mode, const Coverage& same) {
     const Image &truth = traced.channels.at(mode), &image = surface.channels.at(mode);
     const PixelError error(Metric::relative, debugMode(mode).kind, truth, same);
@@ -109,7 +111,8 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
     const Scene scene = loadScene(GetParam());
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {96, 54};
-    const Frame surface = reference(scene, settings), traced = reference(scene, settings, ReferenceMode::scene);
+    const Frame surface = reference(scene, settings),
+                traced = reference(scene, settings, ReferenceMode::scene);
     for (const Frame* frame : {&surface, &traced})
         for (const DebugMode& mode : debugModes()) {
             ASSERT_EQ(frame->channels.contains(mode.number), mode.maker != MadeBy::paths_only) << mode.name;
@@ -175,7 +178,8 @@ protected:
         for (Frame& frame : bothPaths(scene, settings)) frames.push_back(std::move(frame));
         return frames;
     }
-    static Report verdict(const std::vector<Frame>& truth, const std::vector<Frame>& drawn, const Scene& scene) {
+    static Report verdict(const std::vector<Frame>& truth, const std::vector<Frame>& drawn,
+                          const Scene& scene) {
         const Requirements needs = requirements(scene, poseAt(scene, 0));
         const DeviceInfo& info = device().info();
         return makeTruthReport({truth[0], drawn[1], drawn[2]}, {needs, needs, needs},

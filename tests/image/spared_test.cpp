@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a device is spared (uniforms gathered for each pixel, inputs that nobody reads, normals of triangles) changes
-// no bit of the picture.
+// What a device is spared (uniforms gathered for each pixel, inputs that nobody reads, normals of triangles)
+// changes no bit of the picture.
 #include "compare/shot.h"
 #include "tests/image/scenes.h"
 
@@ -47,7 +47,8 @@ TEST(Spared, TheViewIsTheSameFromEverySource) {
         for (const Assignment assign : {Assignment::clustered, Assignment::tiled, Assignment::every}) {
             Settings settings = smallFrame(path);
             settings.assign = assign;
-            for (const char* scene : {"builtin:gallery", "builtin:ortho"}) expectSame(scene, settings, uniform);
+            for (const char* scene : {"builtin:gallery", "builtin:ortho"})
+                expectSame(scene, settings, uniform);
             settings.size = {117, 63};
             expectSame("builtin:gallery", settings, uniform);
         }
@@ -80,8 +81,8 @@ TEST(Spared, WhatIsCapturedChangesNoOtherChannel) {
         }
 }
 
-// What lies before everything else is drawn first: hidden fragments fail their depth test before they are shaded.
-// An orthographic camera, whose w is 1 everywhere, sees near and far, too.
+// What lies before everything else is drawn first: hidden fragments fail their depth test before they are
+// shaded. An orthographic camera, whose w is 1 everywhere, sees near and far, too.
 TEST(Spared, DrawsGoFromNearToFar) {
     for (const char* name : {"builtin:spheres", "builtin:ortho"}) {
         const Scene scene = loadScene(name);

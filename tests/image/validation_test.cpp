@@ -8,8 +8,8 @@ namespace {
 
 class Validation : public testing::TestWithParam<std::string> {};
 
-// All frames of one Renderer: uploads and most pipelines are the same for every one. Every channel is captured in
-// one encoding; what others change of a capture is its last shading pass.
+// All frames of one Renderer: uploads and most pipelines are the same for every one. Every channel is
+// captured in one encoding; what others change of a capture is its last shading pass.
 TEST_P(Validation, SaysNothing) {
     Device validated{DeviceOptions{.choice = "", .validate = true}};
     const Scene scene = loadScene(GetParam());

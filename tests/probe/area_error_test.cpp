@@ -20,7 +20,8 @@ constexpr std::array angles{0.0, 45.0, 75.0};
 constexpr std::array distances{0.5, 1.0, 2.0, 5.0};
 constexpr std::array sizes{0.3, 1.0};
 
-// Of the light's specular reflection, relative to what a sky as bright would send: a light is as far off as it looks.
+// Of the light's specular reflection, relative to what a sky as bright would send: a light is as far off as
+// it looks.
 struct Case {
     LightKind kind;
     double roughness, angle, distance, size;
@@ -28,7 +29,8 @@ struct Case {
     double sky;
 };
 
-// A light of a size in m at a distance in m, where the mirror image of the viewer is, beside it and above the surface.
+// A light of a size in m at a distance in m, where the mirror image of the viewer is, beside it and above the
+// surface.
 std::vector<Light> placesOf(LightKind kind, double angle, double distance, double size) {
     std::vector<Light> lights;
     const glm::dvec3 mirrored = viewAt(angle, reference::pi);
@@ -53,7 +55,8 @@ std::vector<Case> measured(Probes& probes) {
                         for (const Light& light : placesOf(kind, angle, distance, size)) {
                             const Receiver r{.roughness = roughness, .to_viewer = viewAt(angle)};
                             pushArea(input, light, r);
-                            Case c{kind, roughness, angle, distance, size, referenceArea(light, r), {}, {}, 0};
+                            Case c{kind, roughness, angle, distance, size, referenceArea(light, r),
+                                   {},   {},        0};
                             c.sky = double{ltcTable().at(roughness, r.nDotV()).magnitude};
                             cases.push_back(c);
                         }
@@ -72,8 +75,8 @@ struct Figures {
         ltc_most = std::max(ltc_most, a / c.sky), points_most = std::max(points_most, b / c.sky);
     }
     std::string row() const {
-        return fmt::format("{:.1f} | {:.1f} | {:.0f} | {:.0f}", 100 * ltc / truth, 100 * ltc_most, 100 * points / truth,
-                           100 * points_most);
+        return fmt::format("{:.1f} | {:.1f} | {:.0f} | {:.0f}", 100 * ltc / truth, 100 * ltc_most,
+                           100 * points / truth, 100 * points_most);
     }
 };
 
@@ -81,13 +84,15 @@ template <class Key>
 std::string tableOf(const std::vector<Case>& cases, const char* name, const Key& key) {
     std::map<std::string, Figures> rows;
     for (const Case& c : cases) rows[key(c)].add(c);
-    std::string text = fmt::format("| {} | ltc: mean | most | representative: mean | most |\n|---|---|---|---|---|\n", name);
+    std::string text =
+        fmt::format("| {} | ltc: mean | most | representative: mean | most |\n|---|---|---|---|---|\n", name);
     for (const auto& [label, figures] : rows) text += fmt::format("| {} | {} |\n", label, figures.row());
     return text;
 }
 
-// No light's reflection is off by more than half the cell's distance between lobe and transformed cosine (total
-// variation), of what a sky as bright would send; the table's own bilinear steps and halves add up to 2 % of it.
+// No light's reflection is off by more than half the cell's distance between lobe and transformed cosine
+// (total variation), of what a sky as bright would send; the table's own bilinear steps and halves add up to
+// 2 % of it.
 TEST(AreaError, IsBoundedByTheFit) {
     Probes probes;
     const std::vector<Case> cases = measured(probes);
@@ -95,11 +100,12 @@ TEST(AreaError, IsBoundedByTheFit) {
     for (const Case& c : cases) {
         const LtcCell cell = ltcTable().at(c.roughness, std::cos(c.angle * reference::pi / 180));
         EXPECT_LE(std::abs(c.ltc[1] - c.truth[1]) / c.sky, 0.5 * double{cell.error} + 0.02)
-            << static_cast<int>(c.kind) << " roughness " << c.roughness << " angle " << c.angle << " distance "
-            << c.distance << " size " << c.size;
+            << static_cast<int>(c.kind) << " roughness " << c.roughness << " angle " << c.angle
+            << " distance " << c.distance << " size " << c.size;
         all.add(c);
     }
-    EXPECT_LT(all.ltc, 0.5 * all.points) << "a representative point is as good: the table is not worth its while";
+    EXPECT_LT(all.ltc, 0.5 * all.points)
+        << "a representative point is as good: the table is not worth its while";
     std::string text;
     const auto kindOf = [](const Case& c) {
         return std::string(c.kind == LightKind::rect ? "rect" : c.kind == LightKind::disc ? "disc" : "tube");

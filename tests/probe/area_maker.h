@@ -52,7 +52,8 @@ inline void pushArea(std::vector<float>& input, const Light& light, const Receiv
 // Each row's {diffuse, specular} radiance for a light of radiance 1.
 inline std::vector<std::array<double, 2>> shadeArea(Probes& probes, const std::vector<float>& input,
                                                     bool points = false) {
-    const std::vector<float> out = probes.run("area", input, areaWidth, 2, {gpu::FEATURE_area_lights, points ? gpu::AREA_POINTS : 0});
+    const std::vector<float> out =
+        probes.run("area", input, areaWidth, 2, {gpu::FEATURE_area_lights, points ? gpu::AREA_POINTS : 0});
     std::vector<std::array<double, 2>> rows;
     for (std::size_t i = 0; i + 1 < out.size(); i += 2) rows.push_back({double{out[i]}, double{out[i + 1]}});
     return rows;
@@ -74,12 +75,14 @@ inline std::array<double, 2> referenceArea(const Light& light, const Receiver& r
     return {shading.reflected.diffuse.g, shading.reflected.specular.g};
 }
 
-// The outline of an area light from the origin. A tube's is two lines along its side, and at each end the near half of
-// the rim where the end's face is not seen, the far one where it is; from beyond an end, within the side, that rim.
+// The outline of an area light from the origin. A tube's is two lines along its side, and at each end the
+// near half of the rim where the end's face is not seen, the far one where it is; from beyond an end, within
+// the side, that rim.
 inline std::vector<glm::dvec3> outlineOf(const Light& light) {
     if (light.kind == LightKind::rect) return reference::cornersOf(light);
     std::vector<glm::dvec3> outline;
-    const auto addRim = [&](const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y, double from, double to) {
+    const auto addRim = [&](const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y, double from,
+                            double to) {
         reference::addArc(outline, centre, x * double{light.radius}, y * double{light.radius}, from, to);
     };
     if (light.kind == LightKind::disc) {
@@ -89,7 +92,8 @@ inline std::vector<glm::dvec3> outlineOf(const Light& light) {
     }
     const glm::dvec3 axis = light.axis, half = axis * (double{light.length} / 2);
     const double along = -glm::dot(light.position, axis);
-    const glm::dvec3 towards = -light.position - axis * along, x = glm::normalize(towards), y = glm::cross(axis, x);
+    const glm::dvec3 towards = -light.position - axis * along, x = glm::normalize(towards),
+                     y = glm::cross(axis, x);
     const bool above = along > double{light.length} / 2, below = -along > double{light.length} / 2;
     if (glm::length(towards) <= double{light.radius}) {
         if (above) addRim(light.position + half, x, y, 0, 2 * reference::pi);
@@ -102,8 +106,8 @@ inline std::vector<glm::dvec3> outlineOf(const Light& light) {
     return outline;
 }
 
-// The share of the sky that a light has under a transformed cosine: Lambert's formula, in double, for its outline
-// transformed corner by corner.
+// The share of the sky that a light has under a transformed cosine: Lambert's formula, in double, for its
+// outline transformed corner by corner.
 inline double shareOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
     const bool flat = light.kind != LightKind::tube;
     if (flat && !light.two_sided && glm::dot(light.position, light.direction) >= 0) return 0;

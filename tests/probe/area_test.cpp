@@ -29,7 +29,8 @@ Light lightAround(std::mt19937& random, LightKind kind, double least, double mos
     light.kind = kind;
     light.position = randomUnit(random) * std::exp(size(random) * 0.5);
     light.direction = randomUnit(random);
-    if (unit(random) < 0.7 && glm::dot(light.direction, light.position) > 0) light.direction = -light.direction;
+    if (unit(random) < 0.7 && glm::dot(light.direction, light.position) > 0)
+        light.direction = -light.direction;
     light.axis = glm::normalize(glm::cross(light.direction, randomUnit(random)));
     light.width = metres(), light.height = metres(), light.radius = metres() / 2, light.length = metres();
     light.two_sided = unit(random) < 0.3;
@@ -38,9 +39,10 @@ Light lightAround(std::mt19937& random, LightKind kind, double least, double mos
 
 std::string words(const Light& l, const Receiver& r) {
     const auto v = [](const glm::dvec3& a) { return fmt::format("[{}, {}, {}]", a.x, a.y, a.z); };
-    return fmt::format("kind {} at {} towards {} axis {} width {} height {} radius {} length {}{}; roughness {}, view {}",
-                       static_cast<int>(l.kind), v(l.position), v(l.direction), v(l.axis), l.width, l.height, l.radius,
-                       l.length, l.two_sided ? " two-sided" : "", r.roughness, v(r.to_viewer));
+    return fmt::format(
+        "kind {} at {} towards {} axis {} width {} height {} radius {} length {}{}; roughness {}, view {}",
+        static_cast<int>(l.kind), v(l.position), v(l.direction), v(l.axis), l.width, l.height, l.radius,
+        l.length, l.two_sided ? " two-sided" : "", r.roughness, v(r.to_viewer));
 }
 
 // One that shines down on the surface, a little aslant.
@@ -52,9 +54,9 @@ Light lightOf(LightKind kind) {
 
 class AreaShapes : public testing::TestWithParam<LightKind> {};
 
-// Lambert alone, and a lobe of F = 1: the table's magnitude times the transformed cosine over the light. Both closed
-// forms are sums of a dozen terms of float32 that largely cancel, and M^-1 makes up to 500 times larger what is rounded:
-// 2e-5 of the sky is ten times what this finds.
+// Lambert alone, and a lobe of F = 1: the table's magnitude times the transformed cosine over the light. Both
+// closed forms are sums of a dozen terms of float32 that largely cancel, and M^-1 makes up to 500 times
+// larger what is rounded: 2e-5 of the sky is ten times what this finds.
 TEST_P(AreaShapes, AreIntegratedExactly) {
     Probes probes;
     std::mt19937 random(11);
@@ -109,7 +111,8 @@ double solidAngleOf(const Light& light) {
     return (2 * r * double{light.length} * std::sqrt(1 - along * along) + reference::pi * r * r * along) / d2;
 }
 double densityAt(const Light& light, const ltc::Transform& lobe, const Receiver& r) {
-    const glm::dvec3 l = glm::normalize(light.position), x = -glm::normalize(glm::dvec3(r.to_viewer.x, r.to_viewer.y, 0));
+    const glm::dvec3 l = glm::normalize(light.position),
+                     x = -glm::normalize(glm::dvec3(r.to_viewer.x, r.to_viewer.y, 0));
     return lobe.density({glm::dot(l, x), glm::dot(l, glm::cross(glm::dvec3(0, 0, 1), x)), l.z});
 }
 
@@ -129,8 +132,9 @@ TEST_P(AreaShapes, FarAwayTheyArePoints) {
             pushArea(input, light, r);
             const ltc::Transform lobe = ltc::transformOf(cell, 0.16, r.nDotV());
             // Where an outline's own sum would be rounding: its solid angle times the density there.
-            expected.push_back(double{cell.magnitude} * (share > 1e-2 ? shareOfSky(light, lobe, r.to_viewer)
-                                                                      : solidAngleOf(light) * densityAt(light, lobe, r)));
+            expected.push_back(double{cell.magnitude} *
+                               (share > 1e-2 ? shareOfSky(light, lobe, r.to_viewer)
+                                             : solidAngleOf(light) * densityAt(light, lobe, r)));
         }
     const auto rows = shadeArea(probes, input);
     for (std::size_t i = 0; i < expected.size(); ++i)
@@ -180,8 +184,8 @@ TEST_P(AreaShapes, NothingComesFromBelow) {
     for (const auto& row : shadeArea(probes, input)) EXPECT_EQ(row[0] + row[1], 0);
 }
 
-// On the light's plane, its edge, its corner, its axis, its surface and its centre, edge on, from 1e-15 m to 1e15 m:
-// finite, and in each lobe at most what a sky as bright sends.
+// On the light's plane, its edge, its corner, its axis, its surface and its centre, edge on, from 1e-15 m to
+// 1e15 m: finite, and in each lobe at most what a sky as bright sends.
 TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
     Probes probes;
     for (const bool points : {false, true}) {
@@ -189,8 +193,8 @@ TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
         for (const double size : {1e-15, 1e-6, 1.0, 1e6, 1e15})
             for (const double x : {0.0, 0.5, 0.5000001, 1.0})
                 for (const double z : {0.0, 1e-7, 0.5, 1.0, 1e3})
-                    for (const glm::dvec3 direction :
-                         {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(-0.6, 0, -0.8)})
+                    for (const glm::dvec3 direction : {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1),
+                                                       glm::dvec3(1, 0, 0), glm::dvec3(-0.6, 0, -0.8)})
                         for (const double degrees : {0.0, 89.999})
                             for (const double roughness : {0.0, 1.0}) {
                                 Light light;
@@ -201,8 +205,9 @@ TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
                                 light.width = light.height = light.length = static_cast<float>(size);
                                 light.radius = light.width / 2;
                                 light.two_sided = true;
-                                pushArea(input, light,
-                                         {.roughness = roughness, .metallic = 0.5, .to_viewer = viewAt(degrees)});
+                                pushArea(
+                                    input, light,
+                                    {.roughness = roughness, .metallic = 0.5, .to_viewer = viewAt(degrees)});
                             }
         const auto rows = shadeArea(probes, input, points);
         for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -218,8 +223,8 @@ TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
     }
 }
 
-// What the dielectric's layer takes from its base is exact for a small light, to the square of its size as it is seen,
-// and near for large ones.
+// What the dielectric's layer takes from its base is exact for a small light, to the square of its size as it
+// is seen, and near for large ones.
 TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
     Probes probes;
     std::vector<float> input;
@@ -227,7 +232,8 @@ TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
     for (const double size : {0.01, 1.0})
         for (const double degrees : {0.0, 45.0, 75.0}) {
             Light light = lightOf(GetParam());
-            light.width = light.height = light.length = static_cast<float>(size), light.radius = light.width / 3;
+            light.width = light.height = light.length = static_cast<float>(size),
+            light.radius = light.width / 3;
             const Receiver r{.roughness = 0.5, .metallic = 0, .f0 = 0.04, .to_viewer = viewAt(degrees, 2)};
             pushArea(input, light, r);
             expected.push_back(referenceArea(light, r)[0]);
@@ -238,7 +244,8 @@ TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
         EXPECT_NEAR(rows[i][0], expected[i], allowed[i] * expected[i]) << i;
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, AreaShapes, testing::Values(LightKind::rect, LightKind::disc, LightKind::tube),
+INSTANTIATE_TEST_SUITE_P(Kinds, AreaShapes,
+                         testing::Values(LightKind::rect, LightKind::disc, LightKind::tube),
                          [](const auto& kind) {
                              return kind.param == LightKind::rect   ? "rect"
                                     : kind.param == LightKind::disc ? "disc"

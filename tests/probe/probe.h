@@ -24,8 +24,8 @@ public:
     ~Probes();
 
     // `shader`: file name without ".comp". `input` holds rows of inWidth floats. Returns as many rows of
-    // outWidth floats. `feature`: a specialization constant and its value (shared/contract/features.h); all others
-    // are 0.
+    // outWidth floats. `feature`: a specialization constant and its value (shared/contract/features.h); all
+    // others are 0.
     std::vector<float> run(const std::string& shader, const std::vector<float>& input, std::size_t inWidth,
                            std::size_t outWidth, std::pair<std::uint32_t, std::uint32_t> feature = {});
 

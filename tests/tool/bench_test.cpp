@@ -13,7 +13,8 @@ constexpr const char* small =
 
 TEST(Bench, LeavesTableJsonPlotAndPage) {
     const Folder folder;
-    const Ran ran = runTool(folder, std::string(small) + "--light-counts 1,4,16 --kernels off --json -q -o b");
+    const Ran ran =
+        runTool(folder, std::string(small) + "--light-counts 1,4,16 --kernels off --json -q -o b");
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
     EXPECT_EQ(ran.out, contentsOf(folder / "b/bench.json")) << "--json prints it and nothing else";
@@ -47,16 +48,18 @@ TEST(Bench, LeavesTableJsonPlotAndPage) {
 
 TEST(Bench, SkipsWithAReasonWhatIsNotDrawnOrTooSlow) {
     const Folder folder;
-    const Ran ran = runTool(
-        folder, "bench builtin:triangle --size 16x12 --runs 1 --kernels off --paths deferred "
-                "--assign every,per_object --light-counts 1,2 --max-ms 1e-6 -o b");
+    const Ran ran = runTool(folder,
+                            "bench builtin:triangle --size 16x12 --runs 1 --kernels off --paths deferred "
+                            "--assign every,per_object --light-counts 1,2 --max-ms 1e-6 -o b");
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json bench = readJson(folder / "b/bench.json");
     EXPECT_TRUE(bench["frames"].empty());
     ASSERT_EQ(bench["skipped"].size(), 3u) << bench["skipped"];
     EXPECT_EQ(bench["skipped"][0]["assign"], "per_object");
-    EXPECT_NE(bench["skipped"][1]["reason"].get<std::string>().find("its first frame took"), std::string::npos);
-    EXPECT_NE(bench["skipped"][2]["reason"].get<std::string>().find("with 1 lights already"), std::string::npos);
+    EXPECT_NE(bench["skipped"][1]["reason"].get<std::string>().find("its first frame took"),
+              std::string::npos);
+    EXPECT_NE(bench["skipped"][2]["reason"].get<std::string>().find("with 1 lights already"),
+              std::string::npos);
     EXPECT_NE(ran.out.find("not timed: deferred, every, 16x12, 2 lights: over --max-ms 1e-06"),
               std::string::npos)
         << ran.out;

@@ -67,13 +67,12 @@ TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
 
 TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
     const Folder folder;
-    for (const std::string option :
-         {"--time 1", "--frames 2",
-          "--shadows pcf", "--shadows evsm", "--shadows clipmap", "--shadow-lights 1", "--msaa 4",
-          "--haze on"})
+    for (const std::string option : {"--time 1", "--frames 2", "--shadows pcf", "--shadows evsm",
+                                     "--shadows clipmap", "--shadow-lights 1", "--msaa 4", "--haze on"})
         for (const std::string command : {"compare ", "render ", "plan "})
             EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
-    EXPECT_TRUE(runTool(folder, "render --heat --path reference").failedOver("--heat: light_count: the reference"));
+    EXPECT_TRUE(
+        runTool(folder, "render --heat --path reference").failedOver("--heat: light_count: the reference"));
     EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("a.png: no such file"));
 }
 
@@ -102,7 +101,8 @@ TEST(Command, DiscsOfSunsAndTheEnvironmentAreNoted) {
         {"type": "directional", "angle": 0.0093, "intensity": 2}]})");
     const Image sky(4, 2, 3, 1.0f);
     writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
-    const std::string options = " unlit.gltf --size 16x9 --runs 0 --prepass on --lights lights.json --env sky.exr";
+    const std::string options =
+        " unlit.gltf --size 16x9 --runs 0 --prepass on --lights lights.json --env sky.exr";
     Json report = parsed(runTool(folder, "compare --json" + options));
     ASSERT_EQ(report["frames"].size(), 2u);
     for (const Json& frame : report["frames"]) {

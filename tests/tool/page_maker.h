@@ -31,8 +31,7 @@ inline std::vector<Frame> rampFrames(int width = 96, int height = 54) {
     Image& roughness = frames[1].channels.at(gpu::DEBUG_roughness);
     roughness.at(40, 20) = 0.75f;
     roughness.at(80, 50) = 0.625f;
-    for (const int mode : litModes)
-        frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+    for (const int mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
     return frames;
 }
 

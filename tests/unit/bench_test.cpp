@@ -89,8 +89,9 @@ TEST(BenchPlan, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
     EXPECT_EQ(skipName(plan.skips[0]), "deferred, per_object");
     EXPECT_EQ(plan.groups.size(), 3u);
     options.assign = {Assignment::per_object};
-    EXPECT_EQ(thrownBy([&] { planBench("builtin:spheres", Settings(), options); })
-                  .find("nothing to time: deferred, per_object: "),
+    EXPECT_EQ(thrownBy([&] {
+                  planBench("builtin:spheres", Settings(), options);
+              }).find("nothing to time: deferred, per_object: "),
               0u);
 }
 
@@ -255,8 +256,9 @@ TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
 
 TEST(BenchOutput, ThePageHasEverything) {
     const std::string page = benchHtml(several());
-    for (const char* part : {"<svg class=\"chart\"", "assign lights 10", "25.0 %", "would take &lt;long&gt;",
-                             "uniform buffer", "at most 2.4", "one note", "its own note", "a note", "bench.json"})
+    for (const char* part :
+         {"<svg class=\"chart\"", "assign lights 10", "25.0 %", "would take &lt;long&gt;", "uniform buffer",
+          "at most 2.4", "one note", "its own note", "a note", "bench.json"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_EQ(page.find("<scene>"), std::string::npos);
     Bench kernelsOnly = several();

@@ -103,8 +103,7 @@ TEST(Builtin, EveryPartOfEverySceneIsWhole) {
                                             &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
                 expectSlot(scene, *slot, what + ": " + m.name);
         for (const TextureImage& image : scene.images)
-            ASSERT_EQ(image.components(),
-                      static_cast<std::size_t>(image.width * image.height * 4))
+            ASSERT_EQ(image.components(), static_cast<std::size_t>(image.width * image.height * 4))
                 << what << ": " << image.name;
         for (const Light& light : scene.lights) {
             if (light.kind != LightKind::point) {

@@ -198,7 +198,8 @@ TEST(GltfExtras, LightsHaveMarks) {
 TEST(GltfExtras, AMarkThatIsNoneIsLeftOutWithANote) {
     const std::pair<Json, const char*> faults[] = {
         {"high", "importance: \"high\" is none of auto, important, not_important: left out"},
-        {"not important", "importance: \"not important\" is none of auto, important, not_important: left out"},
+        {"not important",
+         "importance: \"not important\" is none of auto, important, not_important: left out"},
         {"a\nb", "importance: \"a?b\" is none of auto, important, not_important: left out"},
         {1, "importance: is not a text: left out"},
         {nullptr, "importance: is not a text: left out"},
@@ -212,7 +213,8 @@ TEST(GltfExtras, AMarkThatIsNoneIsLeftOutWithANote) {
         ASSERT_EQ(sun.notes.size(), 1u) << word;
         EXPECT_EQ(sun.notes[0].find('\n'), std::string::npos) << sun.notes[0];
         EXPECT_TRUE(mentions(sun.notes, std::string("light 0: extras: diptych: ") + note)) << sun.notes[0];
-        const Scene hung = with(Json::array({{{"type", "disc"}}, {{"type", "disc"}, {"importance", word}}})).load();
+        const Scene hung =
+            with(Json::array({{{"type", "disc"}}, {{"type", "disc"}, {"importance", word}}})).load();
         EXPECT_EQ(hung.lights.size(), 1u) << "a light of our own is whole or not there";
         EXPECT_TRUE(mentions(hung.notes, std::string("light 1: ") + note)) << hung.notes.at(0);
     }

@@ -150,8 +150,8 @@ TEST(House, APlantedClimbIsFound) {
     EXPECT_EQ(plant("shared/draw/planted.h", "shared/light/lights.h"), 0u);
 }
 
-// The reference is an independent truth: of the contract it may name the channels and nothing else, and what it
-// asks of other rooms is where they say what a scene is, not how the paths draw it.
+// The reference is an independent truth: of the contract it may name the channels and nothing else, and what
+// it asks of other rooms is where they say what a scene is, not how the paths draw it.
 Faults borrowedByTheReference(const Files& files) {
     static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     static const std::regex contract("gpu::(?!DEBUG_|uint\\b)\\w+");
@@ -165,8 +165,9 @@ Faults borrowedByTheReference(const Files& files) {
             std::smatch match;
             if (std::regex_search(line, match, include)) {
                 const std::string target = fs::path(match[1].str()).lexically_normal().generic_string();
-                const bool fine = target == "shared/contract/debug_mode.h" ||
-                                  std::ranges::any_of(open, [&](const std::string& r) { return target.starts_with(r); });
+                const bool fine =
+                    target == "shared/contract/debug_mode.h" ||
+                    std::ranges::any_of(open, [&](const std::string& r) { return target.starts_with(r); });
                 if (!fine) faults.push_back(path + " includes " + target);
             }
             if (std::regex_search(line, match, contract)) faults.push_back(path + " uses " + match.str());
@@ -184,9 +185,10 @@ TEST(House, APlantedLoanOfTheReferenceIsFound) {
         return borrowedByTheReference({{"compare/reference/planted.cpp", line + "\n"}}).size();
     };
     for (const char* header :
-         {"shared/contract/material.h", "shared/contract/light.h", "shared/contract/constants.h", "shared/light/lights.h",
-          "shared/material/materials.h", "shared/draw/draws.h", "shared/vulkan/device.h", "shaders/lib/brdf.glsl",
-          "compare/render.h", "../metrics/channel.h", "../../shared/contract/view.h"})
+         {"shared/contract/material.h", "shared/contract/light.h", "shared/contract/constants.h",
+          "shared/light/lights.h", "shared/material/materials.h", "shared/draw/draws.h",
+          "shared/vulkan/device.h", "shaders/lib/brdf.glsl", "compare/render.h", "../metrics/channel.h",
+          "../../shared/contract/view.h"})
         EXPECT_EQ(plant(std::string("#include \"") + header + "\""), 1u) << header;
     EXPECT_EQ(plant("const double a = gpu::MIN_ROUGHNESS;"), 1u);
     EXPECT_EQ(plant("const float a = gpu::PI;"), 1u);
@@ -225,8 +227,9 @@ TEST(House, APlantedPiIsFound) {
 Faults withoutLicence(const Files& files) {
     Faults faults;
     for (const auto& [path, text] : files) {
-        const bool wanted = isCode(path) || endsIn(path, {"CMakeLists.txt", ".cmake", ".css", ".js", ".yml"}) || path == "diptych" ||
-                            path == ".ci/run";
+        const bool wanted = isCode(path) ||
+                            endsIn(path, {"CMakeLists.txt", ".cmake", ".css", ".js", ".yml"}) ||
+                            path == "diptych" || path == ".ci/run";
         const std::size_t second = text.find('\n', text.find('\n') + 1);
         if (wanted && text.substr(0, second).find("SPDX-License-Identifier: MIT") == std::string::npos)
             faults.push_back(path);

@@ -107,8 +107,9 @@ TEST(LightsJson, AreaLights) {
 TEST(LightsJson, MarksOfAnyType) {
     for (const std::string type : {"point", "spot", "directional", "rect", "disc", "tube"}) {
         const std::string light = "{\"type\": \"" + type + "\"";
-        const auto lights = read(light + "}, " + light + R"(, "importance": "auto"}, )" + light +
-                                 R"(, "importance": "important"}, )" + light + R"(, "importance": "not_important"})");
+        const auto lights =
+            read(light + "}, " + light + R"(, "importance": "auto"}, )" + light +
+                 R"(, "importance": "important"}, )" + light + R"(, "importance": "not_important"})");
         ASSERT_EQ(lights.size(), 4u) << type;
         EXPECT_EQ(lights[0].importance, Importance::automatic) << type;
         EXPECT_EQ(lights[1].importance, Importance::automatic) << type;

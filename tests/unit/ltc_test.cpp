@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The stored table of linearly transformed cosines against the lobe that it stands for.
+#include "shared/light/ltc.h"
 #include "shared/contract/constants.h"
 #include "shared/light/fit/fit.h"
-#include "shared/light/ltc.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -27,15 +27,16 @@ Transform transformOf(const Lobe& lobe, const LtcCell& cell) {
     return ltc::transformOf(cell, lobe.alpha(), lobe.nDotV());
 }
 
-// The integral over the hemisphere, by directions spread evenly over its cosine-weighted disc's cells in other ways
-// than the fit's own: rings of the polar angle.
+// The integral over the hemisphere, by directions spread evenly over its cosine-weighted disc's cells in
+// other ways than the fit's own: rings of the polar angle.
 template <class F>
 double hemisphere(const F& f) {
     constexpr int rings = 800, sectors = 800;
     double sum = 0;
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < sectors; ++j) {
-            const double z = (i + 0.5) / rings, s = std::sqrt(1 - z * z), phi = 2 * std::numbers::pi * (j + 0.5) / sectors;
+            const double z = (i + 0.5) / rings, s = std::sqrt(1 - z * z),
+                         phi = 2 * std::numbers::pi * (j + 0.5) / sectors;
             sum += f(glm::dvec3(s * std::cos(phi), s * std::sin(phi), z));
         }
     return sum * 2 * std::numbers::pi / (rings * sectors);
@@ -54,8 +55,8 @@ TEST(Ltc, EveryCellIsInItsRange) {
     }
 }
 
-// What is stored as the fit's error is the fit's error, and what is stored as magnitude and Fresnel the lobe's, by
-// another quadrature: where the lobe is wide enough for rings.
+// What is stored as the fit's error is the fit's error, and what is stored as magnitude and Fresnel the
+// lobe's, by another quadrature: where the lobe is wide enough for rings.
 TEST(Ltc, StoredFiguresAreTheLobes) {
     for (const auto& [i, j] : some) {
         const Lobe lobe = lobeOf(i, j);
@@ -65,8 +66,8 @@ TEST(Ltc, StoredFiguresAreTheLobes) {
         if (lobe.alpha() < 0.2 || lobe.nDotV() < 0.02) continue;
         const double magnitude = hemisphere([&](const glm::dvec3& l) { return lobe(l).lobe; });
         EXPECT_NEAR(double{cell.magnitude}, magnitude, 1e-3) << i << " " << j;
-        EXPECT_NEAR(double{cell.fresnel}, hemisphere([&](const glm::dvec3& l) { return lobe(l).lobe * lobe(l).schlick; }),
-                    1e-3)
+        EXPECT_NEAR(double{cell.fresnel},
+                    hemisphere([&](const glm::dvec3& l) { return lobe(l).lobe * lobe(l).schlick; }), 1e-3)
             << i << " " << j;
         EXPECT_NEAR(double{cell.error}, hemisphere([&](const glm::dvec3& l) {
                         return std::abs(lobe(l).lobe / magnitude - t.density(l));
@@ -92,8 +93,8 @@ TEST(Ltc, ATransformedCosineIsADensity) {
     }
 }
 
-// Fitted again, from afar, a cell comes out no better than a hundredth: the stored one is a minimum, and its lobe is
-// the lobe of today.
+// Fitted again, from afar, a cell comes out no better than a hundredth: the stored one is a minimum, and its
+// lobe is the lobe of today.
 TEST(Ltc, AFitComesToTheStoredCell) {
     for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{13, 31}, {30, 10}, {last, 20}}) {
         const LtcCell& stored = ltcTable().cell(i, j);
@@ -107,7 +108,8 @@ TEST(Ltc, AFitComesToTheStoredCell) {
     }
 }
 
-// And is worse than itself nowhere around: each of the three numbers changed by a twentieth makes the error larger.
+// And is worse than itself nowhere around: each of the three numbers changed by a twentieth makes the error
+// larger.
 TEST(Ltc, AChangedCellIsWorse) {
     for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 40}, {13, 31}, {30, 10}}) {
         const Lobe lobe = lobeOf(i, j);
@@ -123,7 +125,9 @@ TEST(Ltc, AChangedCellIsWorse) {
 
 TEST(Ltc, LookingUpIsBilinearAndStaysInside) {
     const LtcTable& table = ltcTable();
-    const auto roughness = [](double x) { return std::lerp(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}, 1.0, x / last); };
+    const auto roughness = [](double x) {
+        return std::lerp(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}, 1.0, x / last);
+    };
     const auto cosine = [](double y) { return std::pow(1 - y / last, 2); };
     EXPECT_NEAR(table.at(roughness(20), cosine(30)).in_plane, table.cell(20, 30).in_plane, 1e-6f);
     EXPECT_NEAR(table.at(roughness(20.5), cosine(30)).across,
@@ -139,7 +143,8 @@ TEST(Ltc, TexelsHoldTheTableInHalves) {
     ASSERT_EQ(texels.size(), 2 * ltcTable().cells.size());
     LtcTable one;
     one.cells.resize(1);
-    one.cells[0] = {.in_plane = 1, .across = 0.5f, .unsheared = 0, .magnitude = 2, .fresnel = 0.25f, .error = 9};
+    one.cells[0] = {
+        .in_plane = 1, .across = 0.5f, .unsheared = 0, .magnitude = 2, .fresnel = 0.25f, .error = 9};
     EXPECT_EQ(ltcTexels(one), (std::vector<std::uint64_t>{0x4000'0000'3800'3c00, 0x3400}));
 }
 

@@ -155,8 +155,8 @@ TEST(Mipmap, SixteenBitsKeepEveryStep) {
 }
 
 // sRGB codes of 16 bits as linear float32: 655 / 65535 / 12.92 in the straight part, and
-// ((32896 / 65535 + 0.055) / 1.055)^2.4 = 0.215861 for what 128 / 255 is of 8 bits; a step up is 1.42e-5 more.
-// The level below is their mean in linear light.
+// ((32896 / 65535 + 0.055) / 1.055)^2.4 = 0.215861 for what 128 / 255 is of 8 bits; a step up is 1.42e-5
+// more. The level below is their mean in linear light.
 TEST(Mipmap, SixteenBitsOfSrgbAreDecodedToFloats) {
     const TextureImage source = deepImage(2, 1, {655, 656, 32896, 65535, 655, 656, 32897, 0});
     const auto chain = levels<float>(source, true, Texels::float32);

@@ -30,7 +30,8 @@ Frame frameOf(Path path, const std::vector<float>& values) {
 
 std::vector<Frame> threeFrames(const std::vector<float>& truth, const std::vector<float>& deferred,
                                const std::vector<float>& forward) {
-    return {frameOf(Path::reference, truth), frameOf(Path::deferred, deferred), frameOf(Path::forward_plus, forward)};
+    return {frameOf(Path::reference, truth), frameOf(Path::deferred, deferred),
+            frameOf(Path::forward_plus, forward)};
 }
 
 NearerChannel litOf(const std::vector<Frame>& frames) {
@@ -46,7 +47,8 @@ TEST(Nearer, SaysWhichWhereAndByHowMuch) {
     EXPECT_NEAR(channel.paths[0].stats.mean, (0.1 + 0 + 0.2 + 0) / 4, 1e-6);
     EXPECT_NEAR(channel.paths[1].stats.mean, (0 + 0 + 0.05 + 0.1) / 4, 1e-6);
     EXPECT_NEAR(channel.by, 2, 1e-5);
-    EXPECT_NEAR(channel.between.stats.max, 0.4 / 4 > 0.3 / 2.4 ? 0.1 : 0.3 / 2.4, 1e-6) << "relative to the first";
+    EXPECT_NEAR(channel.between.stats.max, 0.4 / 4 > 0.3 / 2.4 ? 0.1 : 0.3 / 2.4, 1e-6)
+        << "relative to the first";
     EXPECT_EQ(channel.nearer_pixels[0], 1u);
     EXPECT_EQ(channel.nearer_pixels[1], 2u);
     EXPECT_EQ(channel.even_pixels, 1u);
@@ -58,9 +60,10 @@ TEST(Nearer, SaysWhichWhereAndByHowMuch) {
     EXPECT_EQ(channel.materials[0].pixels, 3u);
     EXPECT_NEAR(channel.materials[1].mean[1], 0.1, 1e-6);
     const Nearer nearer = nearerOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
-    EXPECT_EQ(nearerLine(nearer, nearer.channels[0], frames),
-              "lit: forward_plus is nearer to the reference: mean error 0.0375 against 0.075 of deferred (2 times "
-              "less), at 50.0 % of the pixels (deferred at 25.0 %, even at 25.0 %)");
+    EXPECT_EQ(
+        nearerLine(nearer, nearer.channels[0], frames),
+        "lit: forward_plus is nearer to the reference: mean error 0.0375 against 0.075 of deferred (2 times "
+        "less), at 50.0 % of the pixels (deferred at 25.0 %, even at 25.0 %)");
 }
 
 TEST(Nearer, WhatCannotBeToldApartIsEven) {
@@ -93,7 +96,8 @@ TEST(Nearer, ThePictureHasEachPathsColour) {
     EXPECT_EQ(picture.data[6], 112) << "the root of a quarter: half of 224";
 }
 
-// A path that is off by what the reference may be off by itself is not blamed for it; one that is further off is.
+// A path that is off by what the reference may be off by itself is not blamed for it; one that is further off
+// is.
 TEST(Nearer, TheTruthsOwnUncertaintyIsGrantedByThePixel) {
     auto frames = threeFrames({1, 1}, {1.01f, 1}, {1.03f, 1});
     const Requirements needs;
@@ -105,7 +109,8 @@ TEST(Nearer, TheTruthsOwnUncertaintyIsGrantedByThePixel) {
     frames[0].uncertainty = Image(2, 1, 1);
     frames[0].uncertainty.data = {0.005f, 0.5f};
     EXPECT_EQ(certain(1).value(), 0);
-    EXPECT_NEAR(certain(2).value(), 0.03 - 2.29 * 0.005, 1e-6) << "what is open elsewhere grants nothing here";
+    EXPECT_NEAR(certain(2).value(), 0.03 - 2.29 * 0.005, 1e-6)
+        << "what is open elsewhere grants nothing here";
     frames[2].channels[lit].at(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(std::isinf(certain(2).value()));
 }

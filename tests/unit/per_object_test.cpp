@@ -18,7 +18,8 @@ TEST(PerObject, BrightnessIsTheLuminanceOfIrradianceFarAway) {
     Light light = point({0, 0, 200}, 8);
     light.color = {1, 0.5f, 0.25f};
     const double expected = 8 * (0.2126 + 0.7152 / 2 + 0.0722 / 4) / (200.0 * 200.0);
-    EXPECT_NEAR(brightnessAt(fromEye({light}), 0, unitBox), expected, 0.01 * expected) << "the box is a point there";
+    EXPECT_NEAR(brightnessAt(fromEye({light}), 0, unitBox), expected, 0.01 * expected)
+        << "the box is a point there";
     EXPECT_NEAR(brightnessAt(fromEye({sun(3)}), 0, unitBox), 3, 1e-6);
     EXPECT_TRUE(std::isfinite(brightnessAt(fromEye({point({0, 0, 0}, 8)}), 0, unitBox))) << "inside the box";
 }
@@ -49,7 +50,8 @@ TEST(PerObject, NoLightThatReachesIsDark) {
         const bool found = brightnessAt(lights, 0, box) > 0;
         bool reached = false;
         for (int i = 0; i < 50 && !reached; ++i) {
-            const glm::vec3 place(box.centre + box.half * glm::sign(vec()) * (i % 2 ? glm::dvec3(1) : glm::abs(vec())));
+            const glm::vec3 place(box.centre +
+                                  box.half * glm::sign(vec()) * (i % 2 ? glm::dvec3(1) : glm::abs(vec())));
             const glm::vec3 to_light = lights.lights[0].position - place;
             const float d2 = glm::dot(to_light, to_light), x = d2 * lights.lights[0].inverse_range_squared;
             reached = x < 1;
@@ -83,12 +85,14 @@ TEST(PerObject, FadesFromTheThresholdUp) {
 std::vector<Light> row(std::size_t count) {
     std::vector<Light> lights;
     for (std::size_t i = 0; i < count; ++i)
-        lights.push_back(point({0, 0, 3.0 + 0.1 * static_cast<double>(i)}, std::ldexp(1024.0f, -2 * static_cast<int>(i))));
+        lights.push_back(
+            point({0, 0, 3.0 + 0.1 * static_cast<double>(i)}, std::ldexp(1024.0f, -2 * static_cast<int>(i))));
     return lights;
 }
 
 TEST(PerObject, TheBrightestArePerPixelTheNextPerVertexTheRestHarmonics) {
-    // Each four times fainter than the one before, and farther: no share is broken but the first of the next group's.
+    // Each four times fainter than the one before, and farther: no share is broken but the first of the next
+    // group's.
     const std::vector<LightShares> shares = lightShares(fromEye(row(12)), unitBox, 3);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         EXPECT_NEAR(shares[i].pixel + shares[i].vertex + shares[i].harmonics, 1, 1e-15);
@@ -144,16 +148,18 @@ TEST(PerObject, NeverMoreThanThereIsRoomFor) {
     }
 }
 
-// One of six lights walks past the others, into its range and out of it, in steps of a hundredth of a metre: no share
-// jumps. 0.05 of a share: a step changes the nearest light's brightness by up to 3 %, and the fade's steepest is 1.5
-// over ln 4.
+// One of six lights walks past the others, into its range and out of it, in steps of a hundredth of a metre:
+// no share jumps. 0.05 of a share: a step changes the nearest light's brightness by up to 3 %, and the fade's
+// steepest is 1.5 over ln 4.
 TEST(PerObject, NothingPopsAsALightMoves) {
     std::vector<LightShares> before;
     std::vector<double> dark;
     double largest = 0, moved = 0;
     for (int step = 0; step <= 1600; ++step) {
         std::vector<Light> lights{point({-8 + 0.01 * step, 1.5, 0}, 3, 5)};
-        for (int i = 0; i < 12; ++i) lights.push_back(point({std::cos(i) * (2 + 0.2 * i), std::sin(i), 2}, 1.0f + 0.2f * static_cast<float>(i), 6));
+        for (int i = 0; i < 12; ++i)
+            lights.push_back(
+                point({std::cos(i) * (2 + 0.2 * i), std::sin(i), 2}, 1.0f + 0.2f * static_cast<float>(i), 6));
         Light strongest = sun(0.2f);
         lights.push_back(strongest);
         const GpuLights all = fromEye(lights);
@@ -190,7 +196,8 @@ TEST(PerObject, MarksOverrideTheRanking) {
 
 // Lights are sorted by kind, and those that give nothing left out: marks go with them.
 TEST(PerObject, MarksStayWithTheirLights) {
-    Light black = point({0, 0, 3}, 0), spot = point({0, 2, 3}, 1000), panel = point({0, 0, 20}, 0.01f), lamp = point({0, 0, 3}, 1000);
+    Light black = point({0, 0, 3}, 0), spot = point({0, 2, 3}, 1000), panel = point({0, 0, 20}, 0.01f),
+          lamp = point({0, 0, 3}, 1000);
     black.importance = Importance::important;
     spot.kind = LightKind::spot;
     spot.direction = {0, -0.6, -0.8};
@@ -201,8 +208,9 @@ TEST(PerObject, MarksStayWithTheirLights) {
     faint.importance = Importance::important;
     const GpuLights all = fromEye({black, panel, spot, lamp, faint, sun(1)});
     ASSERT_EQ(all.count(), 5u);
-    EXPECT_EQ(all.importance, (std::vector{Importance::important, Importance::automatic, Importance::automatic,
-                                           Importance::not_important, Importance::important}))
+    EXPECT_EQ(all.importance,
+              (std::vector{Importance::important, Importance::automatic, Importance::automatic,
+                           Importance::not_important, Importance::important}))
         << "two suns, the lamp, the spot, the panel";
     const std::vector<LightShares> shares = lightShares(all, unitBox, 1);
     EXPECT_EQ(shares[0].pixel, 1) << "a faint sun that is important";
@@ -214,20 +222,24 @@ TEST(PerObject, MarksStayWithTheirLights) {
     // As objects get them, in the order of the lights.
     const ObjectLightLists lists = objectLightLists(all, std::span(&unitBox, 1), 1);
     std::vector<gpu::uint> perPixel;
-    for (gpu::uint i = lists.objects[0].begin; i < lists.objects[0].area_end; ++i) perPixel.push_back(lists.entries[i].light);
+    for (gpu::uint i = lists.objects[0].begin; i < lists.objects[0].area_end; ++i)
+        perPixel.push_back(lists.entries[i].light);
     EXPECT_EQ(perPixel, (std::vector<gpu::uint>{0, 1, 2, 4}));
 }
 
-// Whatever is marked, and however many there is room for: important ones are whole wherever they reach, the others
-// never per pixel, and the rest are as if the important ones were not there.
+// Whatever is marked, and however many there is room for: important ones are whole wherever they reach, the
+// others never per pixel, and the rest are as if the important ones were not there.
 TEST(PerObject, MarksHoldForAnyLights) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int round = 0; round < 200; ++round) {
         std::vector<Light> lights, unmarked;
         for (int i = 0; i < 24; ++i) {
-            Light light = point({9 * unit(random), 9 * unit(random), 9 * unit(random)}, std::exp2(static_cast<float>(6 * unit(random))), 12);
-            light.importance = i % 4 == 0 ? Importance::important : i % 4 == 1 ? Importance::not_important : Importance::automatic;
+            Light light = point({9 * unit(random), 9 * unit(random), 9 * unit(random)},
+                                std::exp2(static_cast<float>(6 * unit(random))), 12);
+            light.importance = i % 4 == 0   ? Importance::important
+                               : i % 4 == 1 ? Importance::not_important
+                                            : Importance::automatic;
             lights.push_back(light);
             if (light.importance != Importance::important) unmarked.push_back(light);
         }
@@ -252,7 +264,8 @@ TEST(PerObject, MarksHoldForAnyLights) {
     }
 }
 
-// A lamp's panel: by rank like any, never per vertex, and in the harmonics as bright as a small light of its intensity.
+// A lamp's panel: by rank like any, never per vertex, and in the harmonics as bright as a small light of its
+// intensity.
 TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
     Light panel = point({0, 0, 20}, 5);
     panel.kind = LightKind::rect;
@@ -297,7 +310,8 @@ TEST(PerObject, AnObjectWithALightmapHasNoHarmonics) {
     EXPECT_EQ(lists.features, gpu::OBJECT_LIGHTS_LISTS | gpu::OBJECT_LIGHTS_VERTEX | gpu::OBJECT_LIGHTS_SH);
     EXPECT_GT(lists.objects[0].irradiance.constant.g, 0);
     EXPECT_EQ(lists.objects[1].irradiance.constant, glm::vec3(0));
-    EXPECT_EQ(lists.objects[1].spot_end - lists.objects[1].begin, lists.objects[0].spot_end - lists.objects[0].begin);
+    EXPECT_EQ(lists.objects[1].spot_end - lists.objects[1].begin,
+              lists.objects[0].spot_end - lists.objects[0].begin);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light that is the same from everywhere: the reference's integral against closed forms and brute force, and the
-// paths' against the reference's.
+// Light that is the same from everywhere: the reference's integral against closed forms and brute force, and
+// the paths' against the reference's.
 #include "tests/unit/reference_maker.h"
 
 #include "compare/reference/ambient.h"
@@ -14,7 +14,8 @@ Reflected ambientAlbedo(const Surface& s) {
     return {diffuseAlbedo(s), specularAlbedo(s)};
 }
 
-// Without an angle of its own: every direction of the hemisphere, in parameters that know nothing of the lobe.
+// Without an angle of its own: every direction of the hemisphere, in parameters that know nothing of the
+// lobe.
 Reflected bruteForce(const Surface& surface) {
     const Brdf brdf(surface);
     const auto integrand = [&](double u, double v) {
@@ -39,8 +40,8 @@ TEST(ReferenceAmbient, AWhiteLambertianSurfaceSendsItBack) {
     }
 }
 
-// Height-correlated Smith masking at normal incidence and alpha = 1: D = 1 / pi, G / (4 n.l) = 1 / (2 (1 + n.l)),
-// so that the integral of 2 n.l / (2 (1 + n.l)) over n.l from 0 to 1 is 1 - ln 2.
+// Height-correlated Smith masking at normal incidence and alpha = 1: D = 1 / pi, G / (4 n.l) = 1 / (2 (1 +
+// n.l)), so that the integral of 2 n.l / (2 (1 + n.l)) over n.l from 0 to 1 is 1 - ln 2.
 TEST(ReferenceAmbient, ARoughMirrorSeenFromAboveLosesTheLogarithmOfTwo) {
     EXPECT_NEAR(ambientAlbedo(mirror(1, 0)).specular.g, 1 - std::numbers::ln2, 1e-6);
 }
@@ -70,7 +71,8 @@ TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
                 s.dielectric_f0 = glm::dvec3(0.04);
                 s.dielectric_f90 = 1;
                 const Reflected share = ambientAlbedo(s);
-                // A base under Schlick's layer is given 1 - F by the half vector, and so gains at grazing angles.
+                // A base under Schlick's layer is given 1 - F by the half vector, and so gains at grazing
+                // angles.
                 EXPECT_LE(share.specular.g, 1 + 1e-6);
                 EXPECT_LE(share.diffuse.g, 1 + 1e-6);
                 EXPECT_GE(share.size(), 0);
@@ -78,8 +80,8 @@ TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
         }
 }
 
-// The paths' own integrals, another derivation in other words, from the mirror to the roughest, from grazing to
-// straight on.
+// The paths' own integrals, another derivation in other words, from the mirror to the roughest, from grazing
+// to straight on.
 TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
     for (const double roughness : {0.045, 0.07, 0.15, 0.3, 0.6, 1.0})
         for (const double cosine : {1e-4, 1e-3, 0.004, 0.02, 0.1, 0.35, 0.8, 1.0}) {

@@ -24,7 +24,8 @@ std::filesystem::path twoRecords() {
     return file;
 }
 
-std::vector<std::uint64_t> numbersIn(const std::filesystem::path& file, std::uint64_t key = 7, std::size_t floats = 3) {
+std::vector<std::uint64_t> numbersIn(const std::filesystem::path& file, std::uint64_t key = 7,
+                                     std::size_t floats = 3) {
     Checkpoint checkpoint(file, key, floats);
     std::vector<std::uint64_t> numbers;
     for (const Checkpoint::Record& record : checkpoint.takeEarlier()) {

@@ -42,11 +42,13 @@ TEST(ReferenceClosedForms, ADiscOverAPlaneOffItsAxis) {
 }
 
 TEST(ReferenceClosedForms, ATiltedDiscPartlyBelowTheHorizon) {
-    for (const glm::dvec3 normal : {glm::dvec3(0, 0, 1), {1, 0, 0}, {1, 0.3, 0.2}, {-0.5, -1, 0.7}, {1, 0, 0.001}}) {
+    for (const glm::dvec3 normal :
+         {glm::dvec3(0, 0, 1), {1, 0, 0}, {1, 0.3, 0.2}, {-0.5, -1, 0.7}, {1, 0, 0.001}}) {
         Light disc = lightOf(LightKind::disc, {0.4, 0.1, 1.2}, {0.3, -0.2, -1});
         disc.radius = 0.75f;
         std::vector<glm::dvec3> outline;
-        addArc(outline, disc.position, disc.axis * 0.75, glm::cross(disc.direction, disc.axis) * 0.75, 0, 2 * pi);
+        addArc(outline, disc.position, disc.axis * 0.75, glm::cross(disc.direction, disc.axis) * 0.75, 0,
+               2 * pi);
         const glm::dvec3 n = glm::normalize(normal);
         expectRelative(irradianceBy(disc, lambertian(n)), lambertIrradiance(outline, n));
     }
@@ -55,7 +57,8 @@ TEST(ReferenceClosedForms, ATiltedDiscPartlyBelowTheHorizon) {
 // ---- rectangle ---------------------------------------------------------------------------------------
 
 TEST(ReferenceClosedForms, RectanglesByLambertsFormula) {
-    for (const glm::dvec3 normal : {glm::dvec3(0, 0, 1), {1, 0, 0}, {0.7, -0.7, 0.1}, {-1, 2, 0.4}, {0.3, 1, -0.1}})
+    for (const glm::dvec3 normal :
+         {glm::dvec3(0, 0, 1), {1, 0, 0}, {0.7, -0.7, 0.1}, {-1, 2, 0.4}, {0.3, 1, -0.1}})
         for (const glm::dvec3 direction : {glm::dvec3(0, 0, -1), {0.5, 0.2, -1}, {0.3, -0.9, -0.4}})
             for (const double distance : {0.2, 1.0, 30.0}) {
                 Light rect = lightOf(LightKind::rect, {0.1 * distance, 0.2 * distance, distance}, direction);
@@ -111,14 +114,15 @@ TEST(ReferenceClosedForms, LightsEndAtTheirRangeExactly) {
 
 // ---- tube --------------------------------------------------------------------------------------------
 
-// The outline of a cylinder from the origin: two lines along the side, and at each end the near half of the rim
-// or, where the cap is seen, the far one.
+// The outline of a cylinder from the origin: two lines along the side, and at each end the near half of the
+// rim or, where the cap is seen, the far one.
 std::vector<glm::dvec3> outlineOf(const Light& tube) {
     const glm::dvec3 axis = tube.axis, c = tube.position;
     const double radius = tube.radius, half_length = double{tube.length} / 2, along = -glm::dot(c, axis);
     const glm::dvec3 out = -c - axis * along;
     const double distance = glm::length(out);
-    const glm::dvec3 x = distance > 0 ? out / distance : glm::normalize(glm::cross(axis, glm::dvec3(0.2, 0.3, 1)));
+    const glm::dvec3 x =
+        distance > 0 ? out / distance : glm::normalize(glm::cross(axis, glm::dvec3(0.2, 0.3, 1)));
     const glm::dvec3 y = glm::cross(axis, x);
     std::vector<glm::dvec3> outline;
     const double cap = along > 0 ? half_length : -half_length;
@@ -142,15 +146,14 @@ TEST(ReferenceClosedForms, TubesByTheirOutline) {
         float radius, length;
     };
     const std::vector<Case> cases{
-        {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.1f, 1},        // above
-        {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.9f, 3},        // thick and near
-        {{3, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.3f, 2},        // beside its end, which is seen
-        {{1.5, 0.1, 0}, {1, 0, 0}, {1, 0, 0.2}, 0.4f, 2},  // in its prolongation: the cap alone
-        {{0, 0, 2}, {0.2, 0.1, 1}, {0, 0, 1}, 0.25f, 1},   // cap and side
-        {{0.7, 0.4, 0.2}, {0, 0.3, 1}, {0, 0, 1}, 0.2f, 3},   // its axis through the horizon
-        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.3f, 1},           // its axis on the horizon
-        {{0.6, -0.2, 0.5}, {1, 0, -1}, {0.3, 0, 1}, 0.1f, 4},
-        {{0, 0, 5}, {1, 0, 0}, {0, 0, 1}, 0.001f, 100}};
+        {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.1f, 1},          // above
+        {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.9f, 3},          // thick and near
+        {{3, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.3f, 2},          // beside its end, which is seen
+        {{1.5, 0.1, 0}, {1, 0, 0}, {1, 0, 0.2}, 0.4f, 2},    // in its prolongation: the cap alone
+        {{0, 0, 2}, {0.2, 0.1, 1}, {0, 0, 1}, 0.25f, 1},     // cap and side
+        {{0.7, 0.4, 0.2}, {0, 0.3, 1}, {0, 0, 1}, 0.2f, 3},  // its axis through the horizon
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.3f, 1},          // its axis on the horizon
+        {{0.6, -0.2, 0.5}, {1, 0, -1}, {0.3, 0, 1}, 0.1f, 4}, {{0, 0, 5}, {1, 0, 0}, {0, 0, 1}, 0.001f, 100}};
     for (const Case& c : cases) {
         Light tube = lightOf(LightKind::tube, c.position);
         tube.axis = glm::normalize(c.axis);
@@ -201,13 +204,15 @@ TEST(ReferenceClosedForms, ASunOnTheHorizon) {
         const glm::dvec3 towards = -sun.direction;
         const double radius = std::tan(double{sun.angle} / 2);
         std::vector<glm::dvec3> outline;
-        addArc(outline, towards, glm::dvec3(0, radius, 0), glm::cross(towards, glm::dvec3(0, radius, 0)), 0, 2 * pi);
+        addArc(outline, towards, glm::dvec3(0, radius, 0), glm::cross(towards, glm::dvec3(0, radius, 0)), 0,
+               2 * pi);
         const double radiance = 1 / (pi * std::pow(std::sin(double{sun.angle} / 2), 2));
         expectRelative(irradianceBy(sun, lambertian()), radiance * lambertIrradiance(outline, {0, 0, 1}));
     }
 }
 
-// What is rough enough sees no difference between a small disc and a direction: it goes with the angle squared.
+// What is rough enough sees no difference between a small disc and a direction: it goes with the angle
+// squared.
 TEST(ReferenceClosedForms, ASunsDiscGoesToADirection) {
     Surface s = mirror(0.5, 0.7);
     s.metallic = 0.5;
@@ -241,7 +246,8 @@ TEST(ReferenceClosedForms, ASpotsCones) {
     spot.inner_cone = 0.3f;
     spot.outer_cone = 0.6f;
     const auto factor = [&](double angle) {
-        const Incident light = incident(spot, {0, 0, 0}, 2.0 * glm::dvec3(std::sin(angle), 0, -std::cos(angle)));
+        const Incident light =
+            incident(spot, {0, 0, 0}, 2.0 * glm::dvec3(std::sin(angle), 0, -std::cos(angle)));
         return light.irradiance.g * 4;
     };
     const double inner = std::cos(double{spot.inner_cone}), outer = std::cos(double{spot.outer_cone});

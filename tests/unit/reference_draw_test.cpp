@@ -29,12 +29,17 @@ double seenBelow(const Scene& scene, bool shadows = false) {
 // What each kind sends onto the floor below it, by its formula; a kind without a case here fails.
 double irradianceOf(const Light& light) {
     switch (light.kind) {
-        case LightKind::directional: return light.intensity;
+        case LightKind::directional:
+            return light.intensity;
         case LightKind::point:
-        case LightKind::spot: return light.intensity / 4;
-        case LightKind::rect: return light.intensity * lambertIrradiance(cornersOf(light), {0, 0, 1});
-        case LightKind::disc: return light.intensity * pi * 0.25 / (0.25 + 4);
-        case LightKind::tube: return -1;  // its outline is in the tests of closed forms
+        case LightKind::spot:
+            return light.intensity / 4;
+        case LightKind::rect:
+            return light.intensity * lambertIrradiance(cornersOf(light), {0, 0, 1});
+        case LightKind::disc:
+            return light.intensity * pi * 0.25 / (0.25 + 4);
+        case LightKind::tube:
+            return -1;  // its outline is in the tests of closed forms
     }
     ADD_FAILURE() << "a kind of light without a test";
     return 0;
@@ -47,7 +52,8 @@ TEST(ReferenceDraw, EveryKindInEveryChannel) {
         scene.lights[0].intensity = 3;
         const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
         for (const DebugMode& mode : debugModes()) {
-            ASSERT_EQ(d.picture.channels.contains(mode.number), mode.maker != MadeBy::paths_only) << mode.name;
+            ASSERT_EQ(d.picture.channels.contains(mode.number), mode.maker != MadeBy::paths_only)
+                << mode.name;
             if (mode.maker == MadeBy::paths_only) continue;
             const Image& image = d.picture.channels.at(mode.number);
             EXPECT_EQ(image.components, mode.width) << mode.name;
@@ -79,7 +85,8 @@ TEST(ReferenceDraw, Channels) {
     EXPECT_EQ(value(gpu::DEBUG_lit, 2), 4) << "what it emits, without lights";
     EXPECT_EQ(value(gpu::DEBUG_occlusion), 1);
     EXPECT_EQ(value(gpu::DEBUG_dielectric_f90), 0.5);
-    EXPECT_NEAR(value(gpu::DEBUG_specular, 1), 0.5 * 0.04 * 0.5 + 0.25 * 0.5, 1e-8) << "half metal, half dielectric";
+    EXPECT_NEAR(value(gpu::DEBUG_specular, 1), 0.5 * 0.04 * 0.5 + 0.25 * 0.5, 1e-8)
+        << "half metal, half dielectric";
     EXPECT_EQ(value(gpu::DEBUG_normals, 2), 1);
     EXPECT_EQ(value(gpu::DEBUG_geometric_normal, 2), 1);
     EXPECT_NEAR(value(gpu::DEBUG_depth), 3, 1e-6);
@@ -89,7 +96,8 @@ TEST(ReferenceDraw, Channels) {
     const Drawn empty = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 9}, 1, 1, 0.01));
     for (const DebugMode& mode : debugModes()) {
         if (mode.maker == MadeBy::paths_only) continue;
-        EXPECT_EQ(empty.picture.channels.at(mode.number).data[0], mode.name == "material_id" ? -1 : 0) << mode.name;
+        EXPECT_EQ(empty.picture.channels.at(mode.number).data[0], mode.name == "material_id" ? -1 : 0)
+            << mode.name;
     }
 }
 
@@ -152,7 +160,8 @@ TEST(ReferenceDraw, AMaskThrowsTheShadowOfItsHoles) {
     EXPECT_EQ(below(scene), 0);
 }
 
-// Light from behind the triangle does not reach it, where shadows are; without them the shading normal alone tells.
+// Light from behind the triangle does not reach it, where shadows are; without them the shading normal alone
+// tells.
 TEST(ReferenceDraw, LightFromBehindTheTriangle) {
     Scene scene = floorScene();
     for (glm::vec3& n : scene.meshes[0].primitives[0].normals) n = glm::normalize(glm::vec3(1, 0, 1));
@@ -174,8 +183,8 @@ TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
     EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 8 + 0.75 * 1), 1e-6);
 }
 
-// A lamp that lies on a ceiling, whose float32 vertices are above it, in it or below it by a rounding: its light
-// comes through, and what hangs between is seen.
+// A lamp that lies on a ceiling, whose float32 vertices are above it, in it or below it by a rounding: its
+// light comes through, and what hangs between is seen.
 TEST(ReferenceDraw, ALampMayLieOnACeiling) {
     for (const double height : {2.0, 2.3, 2.5, 2.7}) {
         Scene scene = floorScene();
@@ -187,9 +196,11 @@ TEST(ReferenceDraw, ALampMayLieOnACeiling) {
             lamp.direction = {0, 0, -1};
             scene.lights = {lamp};
             const View view = viewFrom({3, 0, 1.5}, {0, 0, 0}, 5, 5);
-            const Image open = drawn(scene, view)[gpu::DEBUG_lit], shaded = drawn(scene, view, true)[gpu::DEBUG_lit];
+            const Image open = drawn(scene, view)[gpu::DEBUG_lit],
+                        shaded = drawn(scene, view, true)[gpu::DEBUG_lit];
             for (std::size_t i = 0; i < open.pixels(); ++i)
-                EXPECT_NEAR(shaded.pixel(i)[0], open.pixel(i)[0], 1e-5f * open.pixel(i)[0]) << height << " " << i;
+                EXPECT_NEAR(shaded.pixel(i)[0], open.pixel(i)[0], 1e-5f * open.pixel(i)[0])
+                    << height << " " << i;
             add(scene, quad({-4, 4, 1.9f}, {8, 0, 0}, {0, -8, 0}));
             EXPECT_EQ(drawn(scene, view, true)[gpu::DEBUG_lit].at(2, 2, 0), 0) << "a board between";
             scene.meshes[0].primitives.pop_back();
@@ -197,7 +208,8 @@ TEST(ReferenceDraw, ALampMayLieOnACeiling) {
     }
 }
 
-// Many samples of a coarse picture are the mean of a fine one, at silhouettes too, wherever a pixel's centre is.
+// Many samples of a coarse picture are the mean of a fine one, at silhouettes too, wherever a pixel's centre
+// is.
 TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
     Scene scene = floorScene();
     scene.materials[0].emissive = {1, 1, 1};
@@ -208,7 +220,8 @@ TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
         return sum / static_cast<double>(lit.pixels());
     };
     const double fine = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 320, 240))[gpu::DEBUG_lit]);
-    const double coarse = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6), false, 1600)[gpu::DEBUG_lit]);
+    const double coarse =
+        mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6), false, 1600)[gpu::DEBUG_lit]);
     EXPECT_NEAR(coarse, fine, 0.005 * fine);
     const double one = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6))[gpu::DEBUG_lit]);
     EXPECT_GT(std::abs(one - fine), 0.01 * fine) << "one sample is not, or this would show nothing";
@@ -275,7 +288,8 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
         {"geometry", [](Scene& s, View&) { s.meshes[0].primitives[1].positions[0].x -= 1; }},
         {"node", [](Scene& s, View&) { s.nodes[0].parent_from_node[3].z = 0.1; }},
         {"sky", [](Scene& s, View&) { s.environment->radiance.data[0] = -0.0f; }},  // as black, in other bits
-        {"sky's shape", [](Scene& s, View&) { s.environment->radiance.width = 4, s.environment->radiance.height = 8; }},
+        {"sky's shape",
+         [](Scene& s, View&) { s.environment->radiance.width = 4, s.environment->radiance.height = 8; }},
         {"camera", [](Scene&, View& v) { v.camera.world_from_camera[3].x += 0.1; }},
         {"size", [](Scene&, View& v) { v.width = 39; }}};
     for (const auto& [name, change] : changes) {

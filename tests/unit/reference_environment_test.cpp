@@ -22,7 +22,8 @@ Shading under(const Environment& sky, const Surface& s, std::uint64_t seed, doub
     return Lighting({}, &sky, factor, {0, 0, 0})(s, {}, seed);
 }
 
-// scene.h: azimuth 2 pi (x + 0.5) / width - pi, 0 at -Z and positive towards +X; pi (y + 0.5) / height from +Y.
+// scene.h: azimuth 2 pi (x + 0.5) / width - pi, 0 at -Z and positive towards +X; pi (y + 0.5) / height from
+// +Y.
 glm::dvec3 ofTexel(double x, double y, int width, int height) {
     const double azimuth = 2 * pi * (x + 0.5) / width - pi, down = pi * (y + 0.5) / height;
     return {std::sin(down) * std::sin(azimuth), std::cos(down), -std::sin(down) * std::cos(azimuth)};
@@ -54,7 +55,8 @@ TEST(ReferenceEnvironment, PolesAndSeamAreContinuous) {
         for (int i = 0; i < 64; ++i) {
             const double turn = 2 * pi * i / 64, across = std::sqrt(1 - y * y);
             const glm::dvec3 d(across * std::sin(turn), y, across * std::cos(turn));
-            for (const glm::dvec3 aside : {glm::dvec3(step, 0, 0), {-step, 0, 0}, {0, 0, step}, {0, 0, -step}})
+            for (const glm::dvec3 aside :
+                 {glm::dvec3(step, 0, 0), {-step, 0, 0}, {0, 0, step}, {0, 0, -step}})
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(light.radiance(d)[c], light.radiance(glm::normalize(d + aside))[c],
                                 std::abs(y) == 1 ? 101 : 1e-3)
@@ -64,8 +66,10 @@ TEST(ReferenceEnvironment, PolesAndSeamAreContinuous) {
     for (int i = 0; i < 16; ++i) {
         const double turn = 2 * pi * i / 16;
         const glm::dvec3 aside(step * std::sin(turn), 0, step * std::cos(turn)), up(0, 1, 0);
-        EXPECT_NEAR(light.radiance(glm::normalize(up + aside)).r, light.radiance(glm::normalize(up - aside)).r, 1e-3);
-        EXPECT_NEAR(light.radiance(glm::normalize(aside - up)).r, light.radiance(glm::normalize(-up - aside)).r, 1e-3);
+        EXPECT_NEAR(light.radiance(glm::normalize(up + aside)).r,
+                    light.radiance(glm::normalize(up - aside)).r, 1e-3);
+        EXPECT_NEAR(light.radiance(glm::normalize(aside - up)).r,
+                    light.radiance(glm::normalize(-up - aside)).r, 1e-3);
     }
 }
 
@@ -86,13 +90,14 @@ TEST(ReferenceEnvironment, SamplesComeAsOftenAsTheDensitySays) {
                 ASSERT_NEAR(glm::length(d), 1, 1e-12);
                 const int x = static_cast<int>((std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * columns);
                 const int y = static_cast<int>(std::acos(d.y) / pi * rows);
-                drawn[static_cast<std::size_t>(std::clamp(y, 0, rows - 1) * columns + std::clamp(x, 0, columns - 1))] +=
-                    1.0 / (steps * steps);
+                drawn[static_cast<std::size_t>(std::clamp(y, 0, rows - 1) * columns +
+                                               std::clamp(x, 0, columns - 1))] += 1.0 / (steps * steps);
             }
         double sum = 0;
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x) {
-                const double solid = 2 * pi / columns * (std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows));
+                const double solid =
+                    2 * pi / columns * (std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows));
                 const double density = sampler.density(ofTexel(x, y, columns, rows));
                 EXPECT_EQ(density > 0, weight(ofTexel(x / 2, y / 2, 16, 8), 0) > 0);
                 said[static_cast<std::size_t>(y * columns + x)] = density * solid;
@@ -100,7 +105,8 @@ TEST(ReferenceEnvironment, SamplesComeAsOftenAsTheDensitySays) {
             }
         EXPECT_NEAR(sum, 1, 1e-12);
         // A step of the grid either way at each edge.
-        for (std::size_t i = 0; i < drawn.size(); ++i) EXPECT_NEAR(drawn[i], said[i], 4.0 / steps * said[i] + 2e-3) << i;
+        for (std::size_t i = 0; i < drawn.size(); ++i)
+            EXPECT_NEAR(drawn[i], said[i], 4.0 / steps * said[i] + 2e-3) << i;
     }
 }
 
@@ -110,8 +116,8 @@ TEST(ReferenceEnvironment, ABlackSkyIsNone) {
     EXPECT_EQ(under(constantSky(1), lambertian(), 1, 0).reflected.size(), 0);
 }
 
-// A plane under a constant sky is its albedo; the furnace's figures where F = 1. Errors by the stated confidence:
-// of independent ones 95 % are within it, and four times it is beyond any chance.
+// A plane under a constant sky is its albedo; the furnace's figures where F = 1. Errors by the stated
+// confidence: of independent ones 95 % are within it, and four times it is beyond any chance.
 void expectConfident(const Environment& sky, const Surface& s, double truth, double worst) {
     int within = 0;
     double mean = 0;
@@ -164,7 +170,8 @@ TEST(ReferenceEnvironment, ASmoothLayerOverAWhiteBaseUnderACoarseSky) {
     Surface s = lambertian({0.2, 1, 0.1});
     s.roughness = 0.045;
     s.dielectric_f0 = glm::dvec3(0.04);
-    s.dielectric_f90 = 0.04;  // as much from everywhere: 0.96 of the light reaches the base, the rest is mirrored
+    s.dielectric_f90 =
+        0.04;  // as much from everywhere: 0.96 of the light reaches the base, the rest is mirrored
     s.to_viewer = s.normal;
     for (const glm::ivec2 size : {glm::ivec2(2, 1), {4, 2}, {8, 4}, {16, 8}, {64, 32}})
         expectConfident(constantSky(1, size.x, size.y), s, 0.96 + 0.04 * 0.99998, samplingError);
@@ -188,7 +195,8 @@ TEST(ReferenceEnvironment, NeighboursErrAlone) {
 TEST(ReferenceEnvironment, WhatIsHiddenOfASkyIsDark) {
     const Environment sky = constantSky(1);
     const Lighting lighting({}, &sky, 1, {0, 0, 0});
-    const Open half = [](const glm::dvec3& d, double) { return d.x > 0; }, none = [](const glm::dvec3&, double) { return false; };
+    const Open half = [](const glm::dvec3&d, double) { return d.x > 0; },
+               none = [](const glm::dvec3&, double) { return false; };
     EXPECT_EQ(lighting(lambertian(), none, 1).reflected.size(), 0);
     int within = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {

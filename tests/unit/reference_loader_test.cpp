@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a glTF file to the reference's numbers, computed by hand: a loader that both paths and the reference share
-// hides no fault.
+// From a glTF file to the reference's numbers, computed by hand: a loader that both paths and the reference
+// share hides no fault.
 #include "tests/unit/gltf_maker.h"
 #include "tests/unit/png_maker.h"
 #include "tests/unit/reference_scene.h"
@@ -18,10 +18,11 @@ GltfFile square(const Json& material = Json::object()) {
     const int normals = f.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
     const int uvs = f.accessor<float>({0, 1, 1, 1, 1, 0, 0, 0}, FLOAT, "VEC2", 2);
     const int indices = f.accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, USHORT, "SCALAR", 1);
-    f.json["meshes"] = {{{"primitives",
-                          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
-                            {"indices", indices},
-                            {"material", 0}}}}}};
+    f.json["meshes"] = {
+        {{"primitives",
+          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
+            {"indices", indices},
+            {"material", 0}}}}}};
     Json whole = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
     whole["extensions"]["KHR_materials_specular"]["specularFactor"] = 0;
     f.json["extensionsUsed"] = {"KHR_materials_specular"};
@@ -55,8 +56,9 @@ void expectNear(const glm::dvec3& value, const glm::dvec3& truth, double toleran
 
 // ---- nodes -------------------------------------------------------------------------------------------
 
-// A triangle whose normal is (0, -1, 1) / sqrt(2), stretched along y by 2: (0, -1, 2) / sqrt(5); then turned by
-// -90 degrees around x, (x, y, z) to (x, z, -y): (0, 2, 1) / sqrt(5). A third of each corner: (1/3, 1/3, -2/3).
+// A triangle whose normal is (0, -1, 1) / sqrt(2), stretched along y by 2: (0, -1, 2) / sqrt(5); then turned
+// by -90 degrees around x, (x, y, z) to (x, z, -y): (0, 2, 1) / sqrt(5). A third of each corner: (1/3, 1/3,
+// -2/3).
 TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
     GltfFile f;
     const double s = std::sqrt(0.5);
@@ -66,9 +68,11 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
     const int colors = f.accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.5f}, FLOAT, "VEC3", 3);
     f.json["meshes"] = {
         {{"primitives",
-          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"COLOR_0", colors}}}, {"material", 0}}}}}};
-    f.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {0.5, 1, 1, 1}}}},
-                            {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}}};
+          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"COLOR_0", colors}}},
+            {"material", 0}}}}}};
+    f.json["materials"] = {
+        {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorFactor", {0.5, 1, 1, 1}}}},
+         {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}}};
     f.json["extensionsUsed"] = {"KHR_materials_specular", "KHR_lights_punctual"};
     f.json["nodes"] = {{{"children", {1, 2}}, {"rotation", {-s, 0, 0, s}}},
                        {{"mesh", 0}, {"scale", {1, 2, 1}}},
@@ -88,12 +92,14 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
 
 // ---- lights ------------------------------------------------------------------------------------------
 
-// 2 m before the square, 8 cd: at (0.25, 0.25) d^2 = 4.125, the cosine 2 / d, twice: towards it and from its axis.
+// 2 m before the square, 8 cd: at (0.25, 0.25) d^2 = 4.125, the cosine 2 / d, twice: towards it and from its
+// axis.
 TEST(ReferenceLoader, ASpotInItsUnits) {
     GltfFile f = square();
     f.json["extensionsUsed"].push_back("KHR_lights_punctual");
     f.json["nodes"][0]["children"] = {1};
-    f.json["nodes"].push_back({{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    f.json["nodes"].push_back(
+        {{"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"},
          {"intensity", 8},
@@ -121,8 +127,9 @@ TEST(ReferenceLoader, AnAreaLightOfExtras) {
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) {
             const glm::dvec3 place(-0.75 + 0.5 * x, 0.75 - 0.5 * y, 0);
-            const std::vector<glm::dvec3> corners{glm::dvec3(-1.5, -0.5, 2) - place, glm::dvec3(1.5, -0.5, 2) - place,
-                                                  glm::dvec3(1.5, 0.5, 2) - place, glm::dvec3(-1.5, 0.5, 2) - place};
+            const std::vector<glm::dvec3> corners{
+                glm::dvec3(-1.5, -0.5, 2) - place, glm::dvec3(1.5, -0.5, 2) - place,
+                glm::dvec3(1.5, 0.5, 2) - place, glm::dvec3(-1.5, 0.5, 2) - place};
             const double truth = 10 * lambertIrradiance(corners, {0, 0, 1}) / pi;
             EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, truth, 1e-6 * truth);
         }
@@ -149,9 +156,10 @@ TEST(ReferenceLoader, TheOrderOfMetallicAndRoughness) {
     const Json slot = {{"index", 0}};
     Json occlusion = slot;
     occlusion["strength"] = 0.5;
-    GltfFile f = square({{"pbrMetallicRoughness",
-                          {{"metallicRoughnessTexture", slot}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
-                         {"occlusionTexture", occlusion}});
+    GltfFile f =
+        square({{"pbrMetallicRoughness",
+                 {{"metallicRoughnessTexture", slot}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
+                {"occlusionTexture", occlusion}});
     addTexture(f, 1, {{51, 102, 204}});
     const Drawn d = front(f.load());
     EXPECT_NEAR(double{d[gpu::DEBUG_roughness].at(1, 1)}, 0.4 * 0.25, 1e-7);

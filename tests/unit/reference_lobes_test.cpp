@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference's material, and what of lights with extent it reflects, against formulas and sums of the tests' own.
+// The reference's material, and what of lights with extent it reflects, against formulas and sums of the
+// tests' own.
 #include "tests/unit/reference_maker.h"
 
 #include "compare/reference/brdf.h"
@@ -9,15 +10,16 @@
 namespace diptych::reference {
 namespace {
 
-// glTF 2.0, appendix B, with KHR_materials_specular's f0 and f90, as written there: V = G / (4 n.l n.v) of the
-// height-correlated Smith term, D of Trowbridge and Reitz. Of the first colour component.
+// glTF 2.0, appendix B, with KHR_materials_specular's f0 and f90, as written there: V = G / (4 n.l n.v) of
+// the height-correlated Smith term, D of Trowbridge and Reitz. Of the first colour component.
 double appendixB(const Surface& s, const glm::dvec3& l) {
     const double nl = glm::dot(s.normal, l), nv = glm::dot(s.normal, s.to_viewer);
     if (nl <= 0) return 0;
     const glm::dvec3 h = glm::normalize(l + s.to_viewer);
     const double nh = glm::dot(s.normal, h), vh = glm::dot(s.to_viewer, h);
     const double a2 = std::pow(s.roughness, 4);
-    const double v = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+    const double v =
+        0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
     const double d = a2 / (pi * std::pow((nh * nh) * (a2 - 1) + 1, 2));
     const double schlick = std::pow(1 - vh, 5);
     const double metal = v * d * (s.albedo.r + (1 - s.albedo.r) * schlick);
@@ -79,9 +81,9 @@ TEST(ReferenceLobes, AMirrorIsAsRoughAsTheModelsSmoothest) {
 
 // ---- light from all around ---------------------------------------------------------------------------
 
-// Over the hemisphere, by half vectors drawn as D (n.h) is (Walter et al. 2007): even steps in both numbers, and
-// `steps` of each over half a turn: the viewer is in the plane of x and z. The mirror's image is where they are
-// densest.
+// Over the hemisphere, by half vectors drawn as D (n.h) is (Walter et al. 2007): even steps in both numbers,
+// and `steps` of each over half a turn: the viewer is in the plane of x and z. The mirror's image is where
+// they are densest.
 double hemisphere(const Surface& s, int steps) {
     const Brdf brdf(s);
     const double a2 = std::pow(std::max(s.roughness, 0.045), 4);
@@ -103,7 +105,8 @@ TEST(ReferenceLobes, TheWhiteFurnacesFigures) {
     EXPECT_NEAR(hemisphere(mirror(0.5, 0), 400), 0.9158, 5e-5);
     EXPECT_NEAR(hemisphere(mirror(1, 0), 400), 0.3069, 5e-5);
     for (const double roughness : {0.045, 0.2, 0.6, 1.0})
-        for (const double angle : {0.0, 0.7, 1.3, 1.5}) EXPECT_LE(hemisphere(mirror(roughness, angle), 200), 1 + 1e-4);
+        for (const double angle : {0.0, 0.7, 1.3, 1.5})
+            EXPECT_LE(hemisphere(mirror(roughness, angle), 200), 1 + 1e-4);
 }
 
 // The loss over a whole hemisphere of light and viewers, cosine-weighted, %.
@@ -121,8 +124,8 @@ TEST(ReferenceLobes, TheWhiteFurnacesLosses) {
 
 // ---- light from an area ------------------------------------------------------------------------------
 
-// Simpson's rule in a parameter t with x = middle + width sinh t: points crowd where the lobe is, `width` wide. One
-// more factor is the step's.
+// Simpson's rule in a parameter t with x = middle + width sinh t: points crowd where the lobe is, `width`
+// wide. One more factor is the step's.
 struct Crowded {
     double from, to, middle, width;
     template <class F>
@@ -131,7 +134,10 @@ struct Crowded {
         double sum = 0;
         for (int i = 0; i <= steps; ++i) {
             const double t = t0 + (t1 - t0) * i / steps;
-            sum += f(middle + width * std::sinh(t)) * width * std::cosh(t) * (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2);
+            sum += f(middle + width * std::sinh(t)) * width * std::cosh(t) *
+                   (i == 0 || i == steps ? 1
+                    : i % 2              ? 4
+                                         : 2);
         }
         return sum * (t1 - t0) / steps / 3;
     }
@@ -140,7 +146,8 @@ struct Crowded {
 // A rectangle at z = 1 facing down, from x0 to x1 and y0 to y1; the lobe's middle is at `mirrored`.
 double ceilingLight(const Surface& s, const glm::dvec4& extent, const glm::dvec2& mirrored) {
     const double alpha = s.roughness * s.roughness;
-    const Crowded along_x{extent.x, extent.y, mirrored.x, alpha}, along_y{extent.z, extent.w, mirrored.y, alpha};
+    const Crowded along_x{extent.x, extent.y, mirrored.x, alpha},
+        along_y{extent.z, extent.w, mirrored.y, alpha};
     return along_x(500, [&](double x) {
         return along_y(500, [&](double y) {
             const double square = x * x + y * y + 1;
@@ -157,16 +164,21 @@ Light ceilingRect(const glm::dvec4& e) {
     return light;
 }
 
-// Wherever the mirror's image is: in the middle, in a corner, on an edge, beside the light; sizes that float32 has.
+// Wherever the mirror's image is: in the middle, in a corner, on an edge, beside the light; sizes that
+// float32 has.
 TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
     for (const double roughness : {0.045, 0.1, 0.3, 1.0})
         for (const double angle : {0.0, 0.6, 1.2})
             for (const double metallic : {0.0, 1.0}) {
                 const Surface s = plastic(roughness, angle, metallic);
                 const glm::dvec2 m{-std::tan(angle), 0};
-                for (const glm::dvec4& place : {glm::dvec4(-1, 1, -1, 1), {-4, 0.0625, -0.03125, 2}, {0, 8, -4, 4},
-                                                {0.125, 1, 0.25, 1}, {-0.015625, 0.5, -0.015625, 0.0625}}) {
-                    // In float32 the middle is not exactly where it was put: of the narrowest lobe 1e-7 / alpha.
+                for (const glm::dvec4& place : {glm::dvec4(-1, 1, -1, 1),
+                                                {-4, 0.0625, -0.03125, 2},
+                                                {0, 8, -4, 4},
+                                                {0.125, 1, 0.25, 1},
+                                                {-0.015625, 0.5, -0.015625, 0.0625}}) {
+                    // In float32 the middle is not exactly where it was put: of the narrowest lobe 1e-7 /
+                    // alpha.
                     Light light = ceilingRect(place);
                     light.position.x += m.x;
                     const glm::dvec4 e = place + glm::dvec4(m.x, m.x, 0, 0);
@@ -191,7 +203,8 @@ TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
         const double truth = along_y(600, [&](double y) {
             return along_z(1200, [&](double z) {
                 const double square = 4 + y * y + z * z;
-                return z > 0 ? appendixB(s, glm::normalize(glm::dvec3(-2, y, z))) * 2 / (square * std::sqrt(square))
+                return z > 0 ? appendixB(s, glm::normalize(glm::dvec3(-2, y, z))) * 2 /
+                                   (square * std::sqrt(square))
                              : 0;
             });
         });
@@ -199,8 +212,8 @@ TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
     }
 }
 
-// A disc and a tube that fill the lobe, whatever their outline, show the mirror's radiance: the part of F, masking
-// and D that is left of 1 is what the hemisphere's sum says.
+// A disc and a tube that fill the lobe, whatever their outline, show the mirror's radiance: the part of F,
+// masking and D that is left of 1 is what the hemisphere's sum says.
 TEST(ReferenceLobes, ALightThatFillsTheLobeIsSeenInIt) {
     const Surface s = mirror(0.045, 0.4);
     const double all = hemisphere(s, 300);
@@ -229,7 +242,8 @@ TEST(ReferenceLobes, ASunInAMirror) {
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j) {
             const double a = (i + 0.5) / steps * edge, t = 2 * pi * (j + 0.5) / steps;
-            sum += appendixB(s, z * std::cos(a) + (x * std::cos(t) + y * std::sin(t)) * std::sin(a)) * std::sin(a);
+            sum += appendixB(s, z * std::cos(a) + (x * std::cos(t) + y * std::sin(t)) * std::sin(a)) *
+                   std::sin(a);
         }
     const double radiance = 1 / (pi * std::pow(std::sin(edge), 2));
     const double truth = sum * edge / steps * 2 * pi / steps * radiance;

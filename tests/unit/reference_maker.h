@@ -62,8 +62,8 @@ inline double irradianceBy(const Light& light, const Surface& surface) {
     return reflectedBy(light, surface) * pi;
 }
 
-// Lambert's formula for a polygon of radiance 1 seen from the origin, over what of it is above the horizon: half
-// the sum over its edges of the angle each takes, times the cosine of its plane's normal. (Lambert 1760,
+// Lambert's formula for a polygon of radiance 1 seen from the origin, over what of it is above the horizon:
+// half the sum over its edges of the angle each takes, times the cosine of its plane's normal. (Lambert 1760,
 // "Photometria"; Baum, Rushmeier and Winget 1989.) Any outline of a convex body, planar or not, will do.
 inline double lambertIrradiance(const std::vector<glm::dvec3>& outline, const glm::dvec3& n) {
     std::vector<glm::dvec3> above;

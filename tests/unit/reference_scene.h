@@ -65,8 +65,7 @@ struct Drawn {
     const Image& operator[](gpu::uint mode) const { return picture.channels.at(static_cast<int>(mode)); }
 };
 inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,
-                   const std::filesystem::path& keep = {},
-                   const std::function<void(double)>& progress = {}) {
+                   const std::filesystem::path& keep = {}, const std::function<void(double)>& progress = {}) {
     Drawn result{poseAt(scene, 0), {}};
     result.picture = draw({.scene = scene,
                            .pose = result.pose,

@@ -39,7 +39,8 @@ Record recordOf(int seeds, const Surface& s, Truth&& truth) {
     for (int seed = 0; seed < seeds; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         const auto [screen, value] = truth(random);
-        const Shading shading = shadedBy(std::span(&light, 1), s, screen, static_cast<std::uint64_t>(seed) * 104729);
+        const Shading shading =
+            shadedBy(std::span(&light, 1), s, screen, static_cast<std::uint64_t>(seed) * 104729);
         const double error = std::abs(shading.reflected.diffuse.g + shading.reflected.specular.g - value);
         record.within += error <= shading.uncertainty + 1e-7 * value;
         record.worst = std::max(record.worst, error / (shading.uncertainty + 1e-9));
@@ -59,8 +60,8 @@ TEST(ReferenceShadow, FullLightIsTheUnshadowedAndFullShadeIsNone) {
         for (const Surface& s : {lambertian(), mirror(0.2, 0.4)}) {
             const double whole = shadedBy(one, s).reflected.size();
             EXPECT_GT(whole, 0);
-            EXPECT_NEAR(shadedBy(one, s, [](const glm::dvec3&, double) { return true; }).reflected.size(), whole,
-                        1e-6 * whole);
+            EXPECT_NEAR(shadedBy(one, s, [](const glm::dvec3&, double) { return true; }).reflected.size(),
+                        whole, 1e-6 * whole);
             EXPECT_EQ(shadedBy(one, s, [](const glm::dvec3&, double) { return false; }).reflected.size(), 0);
         }
     }
@@ -95,8 +96,9 @@ TEST(ReferenceShadow, ASmallHoleBeforeALight) {
         const Record record = recordOf(200, lambertian(), [&](Random& random) {
             const double x = (random() - 0.5) * (1 - size), y = (random() - 0.5) * (1 - size);
             const Screen hole{x - size / 2, x + size / 2, y - size / 2, y + size / 2};
-            return std::pair(Open([hole](const glm::dvec3& d, double distance) { return !hole(d, distance); }),
-                             part(hole.x0, hole.x1, hole.y0, hole.y1));
+            return std::pair(
+                Open([hole](const glm::dvec3& d, double distance) { return !hole(d, distance); }),
+                part(hole.x0, hole.x1, hole.y0, hole.y1));
         });
         EXPECT_GE(record.within, record.seeds * 9 / 10) << size;
     }

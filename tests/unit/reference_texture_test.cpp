@@ -13,7 +13,8 @@ TextureImage noise(int width, int height) {
     TextureImage image{"noise", width, height, {}};
     std::uint32_t state = 1;
     for (int i = 0; i < width * height; ++i) {
-        for (int c = 0; c < 3; ++c) image.rgba.push_back(static_cast<std::uint8_t>((state = state * 1664525 + 1013904223) >> 24));
+        for (int c = 0; c < 3; ++c)
+            image.rgba.push_back(static_cast<std::uint8_t>((state = state * 1664525 + 1013904223) >> 24));
         image.rgba.push_back(255);
     }
     return image;
@@ -70,7 +71,8 @@ TEST(ReferenceTexture, ColoursAreDecodedBeforeTheyAreMixed) {
     EXPECT_NEAR(Pyramid(wide, false).texel(0, 0, 0).r, 6554 / 65535.0, 1e-15);
 }
 
-// Closer than a texel: bilinear about the texels' middles, or the one that it lies in; beyond the edge as glTF says.
+// Closer than a texel: bilinear about the texels' middles, or the one that it lies in; beyond the edge as
+// glTF says.
 TEST(ReferenceTexture, MagnifiedAndWrapped) {
     const TextureImage image = noise(4, 4);
     const auto edge = [](int i, Wrap wrap) {
@@ -91,19 +93,22 @@ TEST(ReferenceTexture, MagnifiedAndWrapped) {
                     for (double v = -1.51; v < 2.5; v += 0.41) {
                         const double x = u * 4 - (smooth ? 0.5 : 0), y = v * 4 - (smooth ? 0.5 : 0);
                         const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-                        const auto texel = [&](int i, int j) { return code(image, edge(x0 + i, s), edge(y0 + j, t)); };
+                        const auto texel = [&](int i, int j) {
+                            return code(image, edge(x0 + i, s), edge(y0 + j, t));
+                        };
                         const double fx = x - x0, fy = y - y0;
                         const double truth = smooth ? (texel(0, 0) * (1 - fx) + texel(1, 0) * fx) * (1 - fy) +
                                                           (texel(0, 1) * (1 - fx) + texel(1, 1) * fx) * fy
                                                     : texel(0, 0);
-                        EXPECT_NEAR(textures(scene.textures[0], false, {{u, v}, {}, {}}).r, truth, 1e-12) << u << " " << v;
+                        EXPECT_NEAR(textures(scene.textures[0], false, {{u, v}, {}, {}}).r, truth, 1e-12)
+                            << u << " " << v;
                     }
             }
 }
 
-// A box mean, by very many places. The reference's 64 are apart by a texel of the level it reads: what is between
-// them it has by bilinear interpolation, which spreads a texel over its neighbours; of noise of 0.29 that leaves a
-// few hundredths over the 8 x 8 texels of the least box here, and less over more.
+// A box mean, by very many places. The reference's 64 are apart by a texel of the level it reads: what is
+// between them it has by bilinear interpolation, which spreads a texel over its neighbours; of noise of 0.29
+// that leaves a few hundredths over the 8 x 8 texels of the least box here, and less over more.
 TEST(ReferenceTexture, FootprintsAreMeans) {
     const TextureImage image = noise(64, 64);
     const Scene scene = sceneOf(image, {});
@@ -113,7 +118,8 @@ TEST(ReferenceTexture, FootprintsAreMeans) {
         double sum = 0;
         for (int j = 0; j < steps; ++j)
             for (int i = 0; i < steps; ++i) {
-                const glm::dvec2 at = f.uv + f.dx * ((i + 0.5) / steps - 0.5) + f.dy * ((j + 0.5) / steps - 0.5);
+                const glm::dvec2 at =
+                    f.uv + f.dx * ((i + 0.5) / steps - 0.5) + f.dy * ((j + 0.5) / steps - 0.5);
                 sum += code(image, repeated(static_cast<int>(std::floor(at.x * 64)), 64),
                             repeated(static_cast<int>(std::floor(at.y * 64)), 64));
             }
@@ -126,7 +132,8 @@ TEST(ReferenceTexture, FootprintsAreMeans) {
                                {{0.2, 0.2}, {1, 0}, {0, 1}},
                                {{0.2, 0.2}, {3, 0}, {0, 2}}}) {
         const double texels = std::max(1.0, std::abs(f.dx.x * f.dy.y - f.dx.y * f.dy.x) * 64 * 64);
-        EXPECT_NEAR(textures(scene.textures[0], false, f).r, box(f), 0.29 / std::sqrt(std::min(texels, 4096.0)) + 1e-3)
+        EXPECT_NEAR(textures(scene.textures[0], false, f).r, box(f),
+                    0.29 / std::sqrt(std::min(texels, 4096.0)) + 1e-3)
             << f.dx.x << " " << texels;
     }
     // A whole period is the mean itself.
@@ -160,7 +167,9 @@ TEST(ReferenceTexture, FlatColoursAreThemselvesAtAnySize) {
     const Scene scene = sceneOf(image, {});
     const Textures textures(scene);
     for (const double size : {0.0, 1e-3, 0.3, 1.0, 50.0, 1e6, 1e300})
-        EXPECT_NEAR(textures(scene.textures[0], false, {{0.4, 1e9}, {size, 0}, {0, size}}).g, 77 / 255.0, 1e-6) << size;
+        EXPECT_NEAR(textures(scene.textures[0], false, {{0.4, 1e9}, {size, 0}, {0, size}}).g, 77 / 255.0,
+                    1e-6)
+            << size;
 }
 
 // ---- geometry ----------------------------------------------------------------------------------------
@@ -179,11 +188,13 @@ TEST(ReferenceGeometry, HitsAreWhereTheyAreToThirteenDigits) {
                 const std::optional<Hit> hit = geometry.nearest({{0, 0, 0}, {x, y, -1}, 0, 1e9}, all);
                 ASSERT_TRUE(hit);
                 EXPECT_NEAR(hit->t, 3, 1e-13 * std::max(far, 1.0));
-                EXPECT_LT(glm::length(hit->position - 3.0 * glm::dvec3(x, y, -1)), 1e-13 * std::max(far, 1.0));
+                EXPECT_LT(glm::length(hit->position - 3.0 * glm::dvec3(x, y, -1)),
+                          1e-13 * std::max(far, 1.0));
                 EXPECT_EQ(hit->geometric_normal, glm::dvec3(0, 0, 1));
                 EXPECT_TRUE(hit->front);
                 const std::array<glm::dvec3, 3> p = geometry.corners(hit->id);
-                const glm::dvec3 again = p[0] + (p[1] - p[0]) * hit->barycentric.x + (p[2] - p[0]) * hit->barycentric.y;
+                const glm::dvec3 again =
+                    p[0] + (p[1] - p[0]) * hit->barycentric.x + (p[2] - p[0]) * hit->barycentric.y;
                 EXPECT_LT(glm::length(again - hit->position), 1e-12 * std::max(far, 1.0));
             }
     }

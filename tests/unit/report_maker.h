@@ -61,8 +61,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
             for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;
         }
     }
-    for (const int mode : litModes)
-        frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+    for (const int mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
     return frames;
 }
 

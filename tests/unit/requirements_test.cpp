@@ -212,7 +212,8 @@ TEST(Requirements, APathSaysWhatLightItLeavesOut) {
 TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     Scene scene = plainScene();
     const auto before = of(scene).lines();
-    for (const char* what : {"animation", "skins and morph targets"}) EXPECT_FALSE(line(before, what).modelled);
+    for (const char* what : {"animation", "skins and morph targets"})
+        EXPECT_FALSE(line(before, what).modelled);
     EXPECT_EQ(line(before, "skins and morph targets").why.find("no path"), std::string::npos);
     EXPECT_EQ(of(scene).deformedInWords(), "");
 
@@ -240,9 +241,10 @@ TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     EXPECT_TRUE(line(after, "animation").modelled);
     EXPECT_EQ(line(after, "skins and morph targets").why,
               "1 skinned mesh, 1 morphed: no path poses them yet; the reference does");
-    EXPECT_EQ(undrawnMotion(Path::deferred, r),
-              std::vector<std::string>{"1 skinned mesh, 1 morphed: drawn undeformed by deferred yet: the reference "
-                                       "poses them in mode scene"});
+    EXPECT_EQ(
+        undrawnMotion(Path::deferred, r),
+        std::vector<std::string>{"1 skinned mesh, 1 morphed: drawn undeformed by deferred yet: the reference "
+                                 "poses them in mode scene"});
     EXPECT_TRUE(undrawnMotion(Path::reference, r).empty());
     EXPECT_TRUE(undrawnMotion(Path::deferred, of(plainScene())).empty());
 }

@@ -105,7 +105,8 @@ TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
         if (light.kind == LightKind::tube) area = 2 * light.radius * light.length;
         const glm::vec3 c = light.color;
         // Eight roundings to float32 of 6e-8 each.
-        EXPECT_NEAR((0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) * light.intensity * area / candela, 1.0f, 1e-6f);
+        EXPECT_NEAR((0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) * light.intensity * area / candela, 1.0f,
+                    1e-6f);
         ASSERT_TRUE(isArea(light.kind));
         ++kinds[static_cast<std::size_t>(light.kind) - static_cast<std::size_t>(LightKind::rect)];
     }

@@ -251,7 +251,8 @@ TEST(Settings, LightsByObjectAreForwardPlussAlone) {
     s.pixel_lights = 4;
     s.path = Path::deferred;
     EXPECT_EQ(s.problem().value_or("none"),
-              "--assign per_object has no meaning with --path deferred: its G-buffer does not say which object a pixel "
+              "--assign per_object has no meaning with --path deferred: its G-buffer does not say which "
+              "object a pixel "
               "is of; use --path forward_plus");
 }
 

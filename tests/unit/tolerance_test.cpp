@@ -32,7 +32,8 @@ struct Pair {
         deferred.settings.size = forward.settings.size = {1, 1};
         for (const DebugMode& mode : debugModes()) {
             forward.channels[mode.number] = Image(1, 1, mode.width, 0.5f);
-            if (mode.maker != MadeBy::forward_only) deferred.channels[mode.number] = forward.channels[mode.number];
+            if (mode.maker != MadeBy::forward_only)
+                deferred.channels[mode.number] = forward.channels[mode.number];
         }
     }
     Pair& encoding(GBufferEncoding e) {

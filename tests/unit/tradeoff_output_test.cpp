@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a sweep leaves: table, CSV, JSON, plots and page.
 #include "compare/command_line.h"
-#include "compare/tradeoff/html.h"
 #include "compare/plot/log_axis.h"
+#include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "tests/unit/report_maker.h"

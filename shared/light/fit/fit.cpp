@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t cells = gpu::LTC_CELLS;
 
-// Directions a side of the square: of the search, of the error that is stored (a tenth of a percent of it), and of the
-// albedo (1e-4).
+// Directions a side of the square: of the search, of the error that is stored (a tenth of a percent of it),
+// and of the albedo (1e-4).
 constexpr int searched = 32, stored = 96, counted = 192;
 
 LtcCell cellOf(const Point<3>& x) {
@@ -62,7 +62,8 @@ LtcTable fitTable(const std::function<void(double)>& progress) {
     };
     for (std::size_t i = cells; i-- > 0;) {
         fit(i, 0, i + 1 < cells ? table.cell(i + 1, 0) : LtcCell{});
-        // Seen from the normal a lobe is round, and whatever its shear is multiplied by 0: near what comes next.
+        // Seen from the normal a lobe is round, and whatever its shear is multiplied by 0: near what comes
+        // next.
         LtcCell& round = table.cells[i];
         round.in_plane = round.across = std::sqrt(round.in_plane * round.across);
         round.unsheared = static_cast<float>(lobeOf(i, 0).alpha());

@@ -12,12 +12,14 @@ namespace diptych::ltc {
 // Of cell (i, j).
 Lobe lobeOf(std::size_t i, std::size_t j);
 
-// The transform nearest to a lobe by distance(), searched from a neighbour's cell on (three numbers, Nelder and Mead);
-// its magnitude, Fresnel and error. `start` too is given as the cell's factors, so neighbours lie near one another.
+// The transform nearest to a lobe by distance(), searched from a neighbour's cell on (three numbers, Nelder
+// and Mead); its magnitude, Fresnel and error. `start` too is given as the cell's factors, so neighbours lie
+// near one another.
 LtcCell fitCell(const Lobe& lobe, const LtcCell& start);
 
-// Roughness 1 first, each row of roughness from the normal on to grazing: every cell starts from the one before. On
-// all cores, the same table on any number. `progress` is called from any thread with the share done.
+// Roughness 1 first, each row of roughness from the normal on to grazing: every cell starts from the one
+// before. On all cores, the same table on any number. `progress` is called from any thread with the share
+// done.
 LtcTable fitTable(const std::function<void(double)>& progress);
 
 }  // namespace diptych::ltc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// fit_ltc FILE.exr: fits the table of linearly transformed cosines and writes it, with its error. Run by hand where
-// the specular lobe of shaders/lib/brdf.glsl has changed; the file belongs at shared/light/ltc.exr.
+// fit_ltc FILE.exr: fits the table of linearly transformed cosines and writes it, with its error. Run by hand
+// where the specular lobe of shaders/lib/brdf.glsl has changed; the file belongs at shared/light/ltc.exr.
 #include "shared/image/exr.h"
 #include "shared/light/fit/fit.h"
 #include "shared/light/ltc_file.h"
@@ -24,12 +24,14 @@ void writeTable(const std::string& file, const LtcTable& table) {
     std::vector<Image> images;
     for (const LtcLayer& layer : ltcLayers) {
         Image& image = images.emplace_back(side, side, 1);
-        std::ranges::transform(table.cells, image.data.begin(), [&](const LtcCell& c) { return c.*layer.member; });
+        std::ranges::transform(table.cells, image.data.begin(),
+                               [&](const LtcCell& c) { return c.*layer.member; });
     }
     std::vector<ExrLayerView> layers;
     for (std::size_t i = 0; i < images.size(); ++i)
         layers.push_back({{std::string(ltcLayers[i].name) + ".Y"}, &images[i]});
-    writeExr(file, layers, {{"comments", "Linearly transformed cosines; shared/contract/ltc.h says what they are."}});
+    writeExr(file, layers,
+             {{"comments", "Linearly transformed cosines; shared/contract/ltc.h says what they are."}});
 }
 
 }  // namespace

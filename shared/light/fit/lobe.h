@@ -22,8 +22,8 @@ public:
         double schlick = 0;  // (1 - v.h)^5
     };
     Value operator()(const glm::dvec3& l) const;
-    // Mirrors at a normal that the viewer sees: Heitz 2018, "Sampling the GGX Distribution of Visible Normals". `u`
-    // is in the unit square. The direction may be below the horizon.
+    // Mirrors at a normal that the viewer sees: Heitz 2018, "Sampling the GGX Distribution of Visible
+    // Normals". `u` is in the unit square. The direction may be below the horizon.
     glm::dvec3 sample(const glm::dvec2& u) const;
 
     double alpha() const { return alpha_; }
@@ -50,8 +50,8 @@ struct Albedo {
 };
 Albedo albedoOf(const Lobe& lobe, int n);
 
-// LtcCell::error, by 2 n x n directions: half of them drawn from the lobe, half from the transformed cosine, weighted
-// by the balance heuristic (Veach and Guibas 1995).
+// LtcCell::error, by 2 n x n directions: half of them drawn from the lobe, half from the transformed cosine,
+// weighted by the balance heuristic (Veach and Guibas 1995).
 double distance(const Lobe& lobe, double magnitude, const Transform& transform, int n);
 
 }  // namespace diptych::ltc

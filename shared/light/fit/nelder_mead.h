@@ -12,8 +12,8 @@ namespace diptych::ltc {
 template <std::size_t N>
 using Point = std::array<double, N>;
 
-// A local minimum of f near `start`; the first simplex has edges of `step`. Ends where the values at the corners
-// agree to `relative` of the smallest, or after `most` steps.
+// A local minimum of f near `start`; the first simplex has edges of `step`. Ends where the values at the
+// corners agree to `relative` of the smallest, or after `most` steps.
 template <std::size_t N, class F>
 Point<N> nelderMead(const F& f, const Point<N>& start, double step, double relative, int most) {
     struct Corner {

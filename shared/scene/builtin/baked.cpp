@@ -22,8 +22,9 @@ struct Ball {
     double radius;
 };
 
-// What a place gets of a sky of radiance 1 past balls that reflect nothing, over pi: each hides its configuration
-// factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010; a ball wholly above the horizon of the place).
+// What a place gets of a sky of radiance 1 past balls that reflect nothing, over pi: each hides its
+// configuration factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010; a ball wholly above the horizon of
+// the place).
 double skyLight(const glm::dvec3& place, const glm::dvec3& normal, std::span<const Ball> balls) {
     double share = 1;
     for (const Ball& ball : balls) {
@@ -57,17 +58,18 @@ Primitive unwrapped(Primitive shape) {
 
 }  // namespace
 
-// A floor and a wall under a sky, with two balls that hide some of it, and a stripe of 40 W/(sr m^2) along the wall's
-// foot: the floats of the floor's lightmap leave 8 bits far behind. The balls' own lightmaps are of 8 bits, times
-// 1.5. In front the same tile five times: without a lightmap, with one, under an occlusion map as well, as metal,
-// which reflects nothing of one, and unlit. A weak sun and a lamp shine on all of it.
+// A floor and a wall under a sky, with two balls that hide some of it, and a stripe of 40 W/(sr m^2) along
+// the wall's foot: the floats of the floor's lightmap leave 8 bits far behind. The balls' own lightmaps are
+// of 8 bits, times 1.5. In front the same tile five times: without a lightmap, with one, under an occlusion
+// map as well, as metal, which reflects nothing of one, and unlit. A weak sun and a lamp shine on all of it.
 Scene lightmaps() {
     Builder b;
     b.camera("front", {0, 2.4, 6.5}, {0, 0.7, 0}, 38, 0.1, 100);
     constexpr std::array balls{Ball{{-1.2, 0.7, 0}, 0.7}, Ball{{1.1, 0.5, 0.4}, 0.5}};
     Sampler clamped;
     clamped.wrap_s = clamped.wrap_t = Wrap::clamp_to_edge;
-    const auto lit = [&](const std::string& name, const Surface& surface, TextureImage image, float intensity) {
+    const auto lit = [&](const std::string& name, const Surface& surface, TextureImage image,
+                         float intensity) {
         const int material = b.material(name, surface);
         b.scene.materials.back().lightmap_texture = b.texture(std::move(image), 1, clamped);
         b.scene.materials.back().lightmap_texture.texcoord = 1;
@@ -77,25 +79,31 @@ Scene lightmaps() {
     const glm::dvec3 sky(0.55, 0.7, 0.9), glow(40, 9, 2);
 
     // unwrapped() has u across as v, and v as 1 - u.
-    const int floor = lit("floor", {glm::vec3(0.6f), 0, 0.5f}, floats("floor light", 128, [&](double u, double v) {
-                              const glm::dvec3 place(-4 + 8 * (1 - v), 0, -2 + 5 * u);
-                              const double near = std::max(0.0, 1 - (place.z + 2) / 0.5);
-                              return sky * skyLight(place, {0, 1, 0}, balls) + glow * near * near;
-                          }),
+    const int floor = lit("floor", {glm::vec3(0.6f), 0, 0.5f},
+                          floats("floor light", 128,
+                                 [&](double u, double v) {
+                                     const glm::dvec3 place(-4 + 8 * (1 - v), 0, -2 + 5 * u);
+                                     const double near = std::max(0.0, 1 - (place.z + 2) / 0.5);
+                                     return sky * skyLight(place, {0, 1, 0}, balls) + glow * near * near;
+                                 }),
                           1);
     b.add("floor", unwrapped(quad({-4, 0, 3}, {8, 0, 0}, {0, 0, -5})), floor, glm::dvec3(0.0));
-    const int wall = lit("wall", {{0.7f, 0.6f, 0.5f}, 0, 0.8f}, floats("wall light", 64, [&](double u, double v) {
-                             const glm::dvec3 place(-4 + 8 * (1 - v), 3 * (1 - u), -2);
-                             return sky * 0.5 * skyLight(place, {0, 0, 1}, balls) + glow * 1e-3 * (3 - place.y);
-                         }),
-                         1);
+    const int wall =
+        lit("wall", {{0.7f, 0.6f, 0.5f}, 0, 0.8f},
+            floats("wall light", 64,
+                   [&](double u, double v) {
+                       const glm::dvec3 place(-4 + 8 * (1 - v), 3 * (1 - u), -2);
+                       return sky * 0.5 * skyLight(place, {0, 0, 1}, balls) + glow * 1e-3 * (3 - place.y);
+                   }),
+            1);
     b.add("wall", unwrapped(quad({-4, 0, -2}, {8, 0, 0}, {0, 3, 0})), wall, glm::dvec3(0.0));
 
     for (const Ball& ball : balls) {
         TextureImage image{"ball light", 32, 32, {}};
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {  // x grows downwards on the ball
-                for (const int top : {200, 215, 235}) image.rgba.push_back(static_cast<std::uint8_t>(top - 5 * x));
+                for (const int top : {200, 215, 235})
+                    image.rgba.push_back(static_cast<std::uint8_t>(top - 5 * x));
                 image.rgba.push_back(255);
             }
         const int material = lit("ball", {{0.8f, 0.3f, 0.2f}, 0, 0.3f}, std::move(image), 1.5f);
@@ -104,8 +112,9 @@ Scene lightmaps() {
 
     const TextureSlot depths = b.texture(diptych::occlusion("depths", brickHeights(128)));
     for (int i = 0; i < 5; ++i) {
-        const int tile = lit("tile", {{0.5f, 0.6f, 0.4f}, i == 3 ? 1.0f : 0.0f, 0.4f},
-                             floats("tile light", 16, [&](double u, double v) { return sky * (u + 2 * v); }), 0.7f);
+        const int tile =
+            lit("tile", {{0.5f, 0.6f, 0.4f}, i == 3 ? 1.0f : 0.0f, 0.4f},
+                floats("tile light", 16, [&](double u, double v) { return sky * (u + 2 * v); }), 0.7f);
         Material& material = b.scene.materials[static_cast<std::size_t>(tile)];
         if (i == 0) material.lightmap_texture = {};
         if (i == 2) material.occlusion_texture = depths;

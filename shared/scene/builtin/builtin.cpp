@@ -51,8 +51,8 @@ constexpr std::array ROWS{
         builtin::unlitMaterials},
     Row{"sixteen_bits", "textures of 16 bits beside the same in 8: dark colours, shallow normals, roughness",
         TEST, builtin::sixteenBits},
-    Row{"lightmaps", "baked light on the second UV set, of floats and of 8 bits, beside the same without", TEST,
-        builtin::lightmaps},
+    Row{"lightmaps", "baked light on the second UV set, of floats and of 8 bits, beside the same without",
+        TEST, builtin::lightmaps},
     Row{"coplanar", "coincident triangles and bodies that pass through each other: depth ties", TEST,
         builtin::coplanar},
     Row{"deep", "0.2 m to 90 km in one view with far 1e5, seen through its corner: position from depth", TEST,
@@ -70,7 +70,8 @@ constexpr std::array ROWS{
     Row{"suns", "directional lights alone", TEST, builtin::suns},
     Row{"points", "point lights alone", TEST, builtin::points},
     Row{"spots", "spot lights alone, cones of 0 to 90 degrees", TEST, builtin::spots},
-    Row{"areas", "rectangles, discs and tubes alone, in each other's way and the floor's", TEST, builtin::areas},
+    Row{"areas", "rectangles, discs and tubes alone, in each other's way and the floor's", TEST,
+        builtin::areas},
     Row{"unlit", "no lights and nothing that emits, with a camera", TEST, builtin::unlit},
 };
 

@@ -79,11 +79,13 @@ Scene spots() {
     return std::move(b.scene);
 }
 
-// From both sides and one, over the floor and through it, with ranges and without, near and far, one around a ball.
+// From both sides and one, over the floor and through it, with ranges and without, near and far, one around a
+// ball.
 Scene areas() {
     Builder b = stage();
     b.rect({-3, 2.4, -1.8}, {-2, 0.5, 1}, {1.0f, 0.7f, 0.4f}, 8).height = 0.5f;
-    Light& panel = b.rect({0.6, 0.3, 1.4}, {0.6, 0.5, 0}, {0.5f, 1.0f, 0.6f}, 2, 2.5f);  // stands in the floor
+    Light& panel =
+        b.rect({0.6, 0.3, 1.4}, {0.6, 0.5, 0}, {0.5f, 1.0f, 0.6f}, 2, 2.5f);  // stands in the floor
     panel.width = 0.4f, panel.two_sided = true;
     Light& disc = b.rect({0, 3, 0.5}, {0, 0, 0.5}, {0.8f, 0.9f, 1.0f}, 9, 6);
     disc.kind = LightKind::disc;
@@ -94,7 +96,8 @@ Scene areas() {
     Light& column = b.rect({-4, 0.4, 1}, {-3, 0.4, 1}, {1.0f, 0.9f, 0.6f}, 4, 3);  // stands in the floor
     column.kind = LightKind::tube, column.radius = 0.3f, column.length = 1.5f, column.axis = {0.2, 0.96, 0.2};
     column.axis = glm::normalize(column.axis);
-    Light& barrel = b.rect({-1.8, 0.45, 0}, {-1.8, 0, 0}, {1.0f, 0.5f, 1.0f}, 1, 2);  // around a ball: dark inside
+    Light& barrel =
+        b.rect({-1.8, 0.45, 0}, {-1.8, 0, 0}, {1.0f, 0.5f, 1.0f}, 1, 2);  // around a ball: dark inside
     barrel.kind = LightKind::tube, barrel.radius = 0.5f, barrel.length = 1.2f;
     return std::move(b.scene);
 }
