@@ -2,11 +2,11 @@
 // A whole benchmark, and what is made of it.
 #pragma once
 
+#include "compare/bench/cases.h"
 #include "compare/bench/kernels.h"
-#include "compare/bench/plan.h"
-#include "compare/diff.h"
 #include "compare/plot/drawing.h"
-#include "compare/render.h"
+#include "compare/render/renderer.h"
+#include "compare/verdict/comparison.h"
 
 #include <filesystem>
 #include <optional>

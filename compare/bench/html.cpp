@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
 #include "compare/bench/style.h"
-#include "compare/report/page.h"
-#include "compare/report/text.h"
+#include "compare/page/page.h"
+#include "compare/page/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

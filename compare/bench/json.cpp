@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
-#include "compare/output.h"
+#include "compare/files/our_files.h"
 
 #include <nlohmann/json.hpp>
 

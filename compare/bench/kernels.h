@@ -4,7 +4,7 @@
 #pragma once
 
 #include "compare/bench/workload.h"
-#include "compare/progress.h"
+#include "compare/run/progress.h"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
-#include "compare/report/text.h"
-#include "compare/shot.h"
+#include "compare/page/text.h"
+#include "compare/render/frame_facts.h"
 
 #include <fmt/format.h>
 

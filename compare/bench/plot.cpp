@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
-#include "compare/report/text.h"
+#include "compare/page/text.h"
 
 #include <fmt/format.h>
 

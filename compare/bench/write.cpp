@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
-#include "compare/output.h"
-#include "compare/report/report_folder.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output.h"
+#include "compare/files/output_folder.h"
 #include "shared/image/atomic_file.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ std::string writeBench(const Bench& bench, const std::filesystem::path& path, bo
         return markedIn(path, benchMark);
     };
     earlier();
-    ReportFolder folder(path);
+    OutputFolder folder(path);
     std::vector<std::string> files{benchMark, "index.html"};
     writeFile(folder / "index.html", benchHtml(bench));
     if (!bench.rows.empty()) {

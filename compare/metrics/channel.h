@@ -64,6 +64,9 @@ ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline
 Image errorImage(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
                  const Coverage& coverage);
 
+// Of the pixel's largest component: what a GPU's compiler may contract differently in two pipelines.
+constexpr int gpuUlps = 16;
+
 // Pixels of all W x H, covered or not, that are not the same: bit for bit (NaN is NaN, -0 is not 0), or, with
 // `ulps` > 0, further apart than that many units in the last place of the pixel's largest component.
 std::uint64_t unequalPixels(const Image& a, const Image& b, int ulps);

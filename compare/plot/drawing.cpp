@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/plot/drawing.h"
 
-#include "compare/report/text.h"
+#include "compare/page/text.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/area.h"
 
-#include "shared/scene/axes.h"
+#include "shared/scene/model/axes.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/reference/surface.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <array>
 #include <vector>

@@ -2,7 +2,7 @@
 // The light of a lat-long environment, every direction of it.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

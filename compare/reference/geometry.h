@@ -2,8 +2,9 @@
 // Which triangle a ray meets, which Embree says, and where, which is worked out in double.
 #pragma once
 
-#include "shared/scene/posed.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
+#include "shared/scene/motion/pose.h"
+#include "shared/scene/motion/posed.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

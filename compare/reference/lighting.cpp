@@ -4,7 +4,7 @@
 #include "compare/reference/ambient.h"
 #include "compare/reference/punctual.h"
 #include "compare/reference/sampling.h"
-#include "shared/scene/axes.h"
+#include "shared/scene/model/axes.h"
 
 #include <glm/geometric.hpp>
 
@@ -64,7 +64,7 @@ struct Leaves {
 // full light; a pilot tells which is nearer to hand.
 class Shaded {
 public:
-    Shaded(const Brdf& brdf, const std::vector<Leaves>& leaves, bool far, const Open& open)
+    Shaded(const Brdf& brdf, const std::vector<Leaves>& leaves, bool far, const Visibility& open)
         : brdf_(brdf), leaves_(leaves), far_(far), open_(open) {}
 
     // One place in each leaf, number `index` of a sequence that `seed` turns; `seen` counts those in the
@@ -107,7 +107,7 @@ private:
     const Brdf& brdf_;
     const std::vector<Leaves>& leaves_;
     bool far_;
-    const Open& open_;
+    const Visibility& open_;
 };
 
 // Eight independent sequences, twice as long each time, until their means agree: estimate(round, index).
@@ -182,7 +182,7 @@ Lighting::Lighting(std::span<const Light> lights, const Environment* environment
     if (environment_ && environment_->black()) environment_.reset();
 }
 
-Shading Lighting::operator()(const Surface& surface, const Open& open, std::uint64_t seed) const {
+Shading Lighting::operator()(const Surface& surface, const Visibility& open, std::uint64_t seed) const {
     const Brdf brdf(surface);
     Shading sum;
     for (const Punctual& p : punctual_) {
@@ -205,7 +205,7 @@ Shading Lighting::operator()(const Surface& surface, const Open& open, std::uint
 }
 
 Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
-                              const Open& open, std::uint64_t seed) const {
+                              const Visibility& open, std::uint64_t seed) const {
     const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - place;
     const double window = rangeWindow(glm::length(centre), emitter.range);
     if (!(window > 0)) return {};
@@ -242,7 +242,7 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
 // Two ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally
 // Combining Sampling Techniques for Monte Carlo Rendering"): what is bright and reflected, by blocks of the
 // picture, and what the specular lobe, which may be narrower than a block, mirrors.
-Shading Lighting::fromEnvironment(const Brdf& brdf, const Open& open, std::uint64_t seed) const {
+Shading Lighting::fromEnvironment(const Brdf& brdf, const Visibility& open, std::uint64_t seed) const {
     const LobeSampler lobes(brdf);
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
         // A block that the horizon cuts, or that a lobe grazes, has more to show than its middle.

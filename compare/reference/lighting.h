@@ -7,7 +7,7 @@
 #include "compare/reference/environment.h"
 #include "compare/reference/quadrature.h"
 #include "compare/reference/surface.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <cstdint>
 #include <functional>
@@ -28,7 +28,7 @@ inline constexpr double samplingError = 0.01;
 inline constexpr std::uint32_t mostSamples = 65536;
 
 // Whether light comes through from `distance` metres in a direction; infinite: from beyond everything.
-using Open = std::function<bool(const glm::dvec3& to_light, double distance)>;
+using Visibility = std::function<bool(const glm::dvec3& to_light, double distance)>;
 
 struct Shading {
     Reflected reflected;     // of lights and environment, W/(sr m^2), towards the viewer
@@ -55,16 +55,16 @@ public:
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0));
 
     // `open` empty: nothing throws a shadow. `seed` names what is shaded, for sampling.
-    Shading operator()(const Surface& surface, const Open& open, std::uint64_t seed) const;
+    Shading operator()(const Surface& surface, const Visibility& open, std::uint64_t seed) const;
 
 private:
     struct Punctual {
         Light light;
         glm::dvec3 position;
     };
-    Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf, const Open& open,
-                        std::uint64_t seed) const;
-    Shading fromEnvironment(const Brdf& brdf, const Open& open, std::uint64_t seed) const;
+    Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
+                        const Visibility& open, std::uint64_t seed) const;
+    Shading fromEnvironment(const Brdf& brdf, const Visibility& open, std::uint64_t seed) const;
 
     std::vector<Punctual> punctual_;
     std::vector<Emitter> emitters_;

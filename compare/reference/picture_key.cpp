@@ -2,7 +2,7 @@
 #include "compare/reference/picture_key.h"
 
 #include "compare/reference/key.h"
-#include "compare/reference/reference.h"
+#include "compare/reference/request.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -2,7 +2,7 @@
 // Lights without extent: KHR_lights_punctual (Khronos 2019) as it is defined, in double.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <glm/vec3.hpp>
 

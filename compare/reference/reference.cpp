@@ -10,7 +10,7 @@
 #include "compare/reference/sampling.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/scene/axes.h"
+#include "shared/scene/model/axes.h"
 
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
@@ -135,9 +135,9 @@ private:
 
 // ---- one pixel ---------------------------------------------------------------------------------------
 
-class Painter {
+class PixelRenderer {
 public:
-    explicit Painter(const Request& request)
+    explicit PixelRenderer(const Request& request)
         : request_(request),
           eye_(request.view.eye()),
           rays_(request.view),
@@ -162,8 +162,8 @@ private:
     static constexpr double lightOffset = 1e-5;
 
     // Light that comes from behind the triangle does not reach it, whatever the shading normal says.
-    Open openFrom(const glm::dvec3& place, const glm::dvec3& geometric_normal, const TriangleId& without,
-                  double offset) const {
+    Visibility openFrom(const glm::dvec3& place, const glm::dvec3& geometric_normal,
+                        const TriangleId& without, double offset) const {
         if (!request_.shadows) return {};
         const double from = offset * glm::length(place);
         return [this, place, geometric_normal, without, from](const glm::dvec3& to_light, double distance) {
@@ -190,7 +190,7 @@ private:
         if (!captured.isSurface(seed)) return pixel;
         Surface s = captured.surface(seed, rays_);
         pixel.depth = captured.depth(seed);
-        Open open;
+        Visibility open;
         if (request_.shadows) {
             // The place itself is found again, where the ray sees what the path saw there.
             const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5), 0);
@@ -313,10 +313,10 @@ public:
             if (!there[tile]) order.push_back(tile);
 
         if (!order.empty()) {
-            const Painter painter(request_);
+            const PixelRenderer painter(request_);
             std::atomic<std::size_t> done{0};
             tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
-                const std::vector<float> values = paintTile(painter, order[i]);
+                const std::vector<float> values = renderTile(painter, order[i]);
                 put(order[i], values);
                 checkpoint.keep(order[i], values);
                 if (request_.progress)
@@ -337,7 +337,7 @@ private:
             for (int x = x0; x < std::min(x0 + tileSide, request_.view.width); ++x) visit(x, y);
     }
 
-    std::vector<float> paintTile(const Painter& painter, std::uint64_t tile) const {
+    std::vector<float> renderTile(const PixelRenderer& painter, std::uint64_t tile) const {
         std::vector<float> values;
         eachPixel(tile, [&](int x, int y) {
             const Pixel pixel = painter.paint(x, y);

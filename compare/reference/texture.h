@@ -2,7 +2,7 @@
 // What a texture looks like over a pixel's footprint.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/html.h"
 
-#include "compare/report/page.h"
-#include "compare/report/text.h"
+#include "compare/page/page.h"
+#include "compare/report/titles.h"
 
 #include <fmt/format.h>
 
@@ -70,7 +70,7 @@ std::string firstOf(const std::vector<std::string>& items, const char* elsewhere
 
 std::string saidFirst(const Report& report) {
     std::vector<std::string> items;
-    for (const std::string& line : report.said_first) items.push_back(markup(line));
+    for (const std::string& line : report.first_notes) items.push_back(markup(line));
     return listBox("notes", "Before anything else", firstOf(items, "report.json has all of them"));
 }
 
@@ -121,7 +121,7 @@ std::string marksLinks(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
-        const std::string line = marksLine(comparison);
+        const std::string line = checksLine(comparison);
         if (line.empty()) continue;
         const std::size_t colon = line.find(':');
         items.push_back(fmt::format("{}<a href=\"#eye-{}\">{}</a><span class=\"soft\">{}</span>",
@@ -213,7 +213,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
     return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", index,
                        several ? markup(titleOf(report, comparison)) : "Channels") +
            overview(comparison, index) + channelCards(report, layout, index) +
-           marksSection(report, layout, index) + "<h2>What was compared</h2>\n" +
+           checksSection(report, layout, index) + "<h2>What was compared</h2>\n" +
            frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
 }
 
@@ -232,7 +232,7 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
     std::string body = header(report) + saidFirst(report) + failures(report, layout) +
                        warnings(report, layout) + notes(report) + marksLinks(report, layout) +
-                       nearerSection(report, layout) + indexTable(report, layout) + legend +
+                       closerPathSection(report, layout) + indexTable(report, layout) + legend +
                        "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         body += section(report, layout, layout.order[at]);

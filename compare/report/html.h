@@ -2,8 +2,8 @@
 // index.html: one page without external resources, readable from file://.
 #pragma once
 
-#include "compare/diff.h"
 #include "compare/report/layout.h"
+#include "compare/verdict/comparison.h"
 
 #include <string>
 
@@ -15,13 +15,13 @@ std::string reportHtml(const Report& report, const ReportLayout& layout);
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index);
 
 // Its parts. `index` is the comparison's.
-std::string marksSection(const Report& report, const ReportLayout& layout, std::size_t index);
+std::string checksSection(const Report& report, const ReportLayout& layout, std::size_t index);
 std::string indexTable(const Report& report, const ReportLayout& layout);  // empty for one comparison
 std::string channelCards(const Report& report, const ReportLayout& layout, std::size_t index);
 // Histogram and worst pixels of the card `id`.
 std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id);
 // Empty without a reference.
-std::string nearerSection(const Report& report, const ReportLayout& layout);
+std::string closerPathSection(const Report& report, const ReportLayout& layout);
 std::string frameTables(const Report& report, const Comparison& comparison);
 
 }  // namespace diptych

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The cards of one comparison: pictures, difference, wipe, numbers, reason.
-#include "compare/command_words.h"
 #include "compare/report/html.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
+#include "compare/run/command_text.h"
 
 #include <fmt/format.h>
 

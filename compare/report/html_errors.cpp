@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How the errors of a channel are spread: a histogram, and links to the worst pixels.
 #include "compare/report/html.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What was drawn, how long it took and what it cost, both Frames side by side.
 #include "compare/report/html.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

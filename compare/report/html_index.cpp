@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Several comparisons: one line each, failures first.
 #include "compare/report/html.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/json.h"
 
-#include "compare/output.h"
-
-#include <cmath>
+#include "compare/files/frame_json.h"
+#include "compare/files/our_files.h"
 
 namespace diptych {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json finiteOrNull(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json jsonOf(const FrameCamera& camera) {
-    return {{"name", camera.name},
-            {"eye", camera.eye},
-            {"target", camera.target},
-            {"up", camera.up},
-            {"fov_degrees", camera.fov_degrees},
-            {"ymag", camera.ymag},
-            {"near", camera.near},
-            {"far", finiteOrNull(camera.far)}};
-}
 
 Json valuesAt(const Frame& frame, const ChannelDiff& channel) {
     Json values = Json::array();
@@ -65,7 +49,7 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     return json;
 }
 
-Json jsonOf(const FeatureMarks& feature, const Mark& mark) {
+Json jsonOf(const FeatureChecks& feature, const VisualCheck& mark) {
     const PixelBox& box = mark.box;
     return {{"feature", feature.feature},
             {"what", mark.what},
@@ -74,7 +58,7 @@ Json jsonOf(const FeatureMarks& feature, const Mark& mark) {
             {"pixels", mark.pixels}};
 }
 
-Json jsonOf(const Standing& standing) {
+Json jsonOf(const PathError& standing) {
     const ChannelStats& s = standing.stats;
     return {{"mean", finiteOrNull(s.mean)},
             {"max", finiteOrNull(s.max)},
@@ -85,13 +69,13 @@ Json jsonOf(const Standing& standing) {
             {"flip", standing.flip ? finiteOrNull(*standing.flip) : Json(nullptr)}};
 }
 
-Json jsonOf(const Report& report, const Nearer& nearer) {
+Json jsonOf(const Report& report, const CloserPath& nearer) {
     const Frame& truth = report.frames[nearer.truth];
     const auto name = [&](std::size_t k) { return report.frames[nearer.paths[k]].name; };
     Json channels = Json::array();
-    for (const NearerChannel& channel : nearer.channels) {
+    for (const CloserPathChannel& channel : nearer.channels) {
         Json materials = Json::array();
-        for (const MaterialStanding& m : channel.materials)
+        for (const MaterialError& m : channel.materials)
             materials.push_back(
                 {{"id", m.id},
                  {"name", m.name},
@@ -105,8 +89,8 @@ Json jsonOf(const Report& report, const Nearer& nearer) {
              {"error", {{name(0), jsonOf(channel.paths[0])}, {name(1), jsonOf(channel.paths[1])}}},
              {"between", jsonOf(channel.between)},
              {"nearer_pixels",
-              {{name(0), channel.nearer_pixels[0]},
-               {name(1), channel.nearer_pixels[1]},
+              {{name(0), channel.closer_pixels[0]},
+               {name(1), channel.closer_pixels[1]},
                {"even", channel.even_pixels}}},
              {"materials", materials}});
     }
@@ -119,9 +103,9 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
     for (const ChannelDiff& channel : comparison.channels)
         channels.push_back(jsonOf(report, comparison, channel));
     Json marks = Json::array(), found = Json::object();
-    for (const FeatureMarks& feature : comparison.marks) {
+    for (const FeatureChecks& feature : comparison.marks) {
         found[std::string(feature.feature)] = feature.found;
-        for (const Mark& mark : feature.marks) marks.push_back(jsonOf(feature, mark));
+        for (const VisualCheck& mark : feature.marks) marks.push_back(jsonOf(feature, mark));
     }
     return {{"scene", baseline.scene},
             {"camera", jsonOf(baseline.camera)},
@@ -138,45 +122,6 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
 
 }  // namespace
 
-Json jsonOf(const Frame& frame) {
-    Json passes = Json::array();
-    for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
-    // A picture of another renderer: nothing is known of how it was drawn.
-    const bool isUnknown = !frame.origin.file.empty() && frame.origin.device.empty();
-    Json noise = Json::object();
-    for (const auto& [mode, of] : frame.noise)
-        noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
-    const FrameTime& time = frame.time;
-    const FrameCounters& counters = frame.counters;
-    return {{"name", frame.name},
-            {"path", isUnknown ? Json(nullptr) : Json(nameOf(frame.settings.path))},
-            {"scene", frame.scene},
-            {"camera", jsonOf(frame.camera)},
-            {"size", {frame.settings.size.width, frame.settings.size.height}},
-            {"settings", isUnknown ? Json(nullptr) : Json::parse(toJson(frame.settings))},
-            {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
-            {"made_in_ms", frame.made_in_ms},
-            {"uncertainty", frame.relative_uncertainty},
-            {"passes", passes},
-            {"bytes",
-             {{"images", frame.bytes.images},
-              {"buffers", frame.bytes.buffers},
-              {"gbuffer_per_pixel", frame.bytes.gbuffer_per_pixel}}},
-            {"counters",
-             {{"nonfinite_pixels", counters.nonfinite_pixels},
-              {"overflowed_lists", counters.overflowed_lists},
-              {"lights", counters.lights},
-              {"unreproduced_pixels", counters.unreproduced_pixels},
-              {"energy_cut", counters.energy_cut}}},
-            {"noise", noise},
-            {"origin",
-             {{"file", frame.origin.file},
-              {"device", frame.origin.device},
-              {"driver", frame.origin.driver},
-              {"commit", frame.origin.commit}}},
-            {"notes", frame.notes}};
-}
-
 std::string reportJson(const Report& report, const ReportLayout* layout) {
     Json frames = Json::array(), comparisons = Json::array();
     for (std::size_t i = 0; i < report.frames.size(); ++i) {
@@ -185,14 +130,14 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
     }
     for (const Comparison& comparison : report.comparisons) comparisons.push_back(jsonOf(report, comparison));
     Json nearer = Json::array();
-    for (const Nearer& of : report.nearer) nearer.push_back(jsonOf(report, of));
+    for (const CloserPath& of : report.nearer) nearer.push_back(jsonOf(report, of));
     Json json{
         {"schema", 1},
         {"software", softwareName},
         {"verdict", report.passed() ? "pass" : "fail"},
         {"device",
          {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
-        {"said_first", report.said_first},
+        {"said_first", report.first_notes},
         {"frames", frames},
         {"comparisons", comparisons},
         {"truth", nearer},

@@ -2,17 +2,13 @@
 // report.json and junit.xml.
 #pragma once
 
-#include "compare/diff.h"
 #include "compare/report/layout.h"
-
-#include <nlohmann/json.hpp>
+#include "compare/verdict/comparison.h"
 
 #include <filesystem>
 #include <string>
 
 namespace diptych {
-
-nlohmann::ordered_json jsonOf(const Frame& frame);
 
 // report.json, schema 1. JSON has no infinity: a statistic that is infinite is null, and infinite_pixels then
 // says at how many pixels; a forward-only channel's statistics are all null. `layout` may be nullptr.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // In the form that Jenkins, GitLab and GitHub's test reporters read: the elements and attributes of
 // junit-10.xsd of Jenkins' xUnit plugin, and no others.
-#include "compare/command_words.h"
 #include "compare/report/json.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
+#include "compare/run/command_text.h"
 
 #include <fmt/format.h>
 
@@ -111,7 +111,7 @@ private:
     std::string notes() const {
         std::string lines;
         for (const std::string& note : notesOf(report_, comparison_)) lines += markup("note: " + note) + "\n";
-        if (const std::string line = marksLine(comparison_); !line.empty()) lines += markup(line) + "\n";
+        if (const std::string line = checksLine(comparison_); !line.empty()) lines += markup(line) + "\n";
         return lines.empty() ? "" : fmt::format("    <system-out>{}</system-out>\n", lines);
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/layout.h"
 
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
 #include "compare/report/values.h"
 #include "shared/contract/debug_mode.h"
 
@@ -124,7 +124,7 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool si
     for (std::size_t i = 0; i < report.nearer.size(); ++i) {
         auto& names = layout.nearer.emplace_back();
         const std::string prefix = report.nearer.size() > 1 ? fmt::format("{}.", i + 1) : "";
-        for (const NearerChannel& channel : report.nearer[i].channels)
+        for (const CloserPathChannel& channel : report.nearer[i].channels)
             names.push_back(fmt::format("{}{}.nearer.png", prefix, channel.mode->name));
     }
     return layout;

@@ -2,9 +2,9 @@
 // Which file holds what, decided once for the writers and the page.
 #pragma once
 
-#include "compare/diff.h"
-#include "compare/picture.h"
+#include "compare/picture/picture.h"
 #include "compare/report/error_figures.h"
+#include "compare/verdict/comparison.h"
 
 #include <map>
 #include <string>

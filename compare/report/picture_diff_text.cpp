@@ -2,8 +2,8 @@
 // What diff prints: for people and for scripts.
 #include "compare/report/picture_diff_text.h"
 
-#include "compare/output.h"
-#include "compare/report/text.h"
+#include "compare/files/our_files.h"
+#include "compare/report/titles.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/picture_diff.h"
+#include "compare/verdict/picture_diff.h"
 
 #include <string>
 

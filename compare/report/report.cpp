@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/report.h"
 
-#include "compare/picture.h"
-#include "compare/report/files.h"
+#include "compare/files/data_uri.h"
+#include "compare/files/frame_exr.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output.h"
+#include "compare/files/output_folder.h"
+#include "compare/picture/picture.h"
 #include "compare/report/html.h"
 #include "compare/report/json.h"
 #include "compare/report/layout.h"
-#include "compare/report/report_folder.h"
 #include "compare/report/values.h"
 #include "shared/image/atomic_file.h"
 
@@ -26,7 +29,7 @@ using Task = std::function<void()>;
 
 class Encoder {
 public:
-    Encoder(const Report& report, ReportLayout& layout, const ReportFolder& folder, const Stage& progress)
+    Encoder(const Report& report, ReportLayout& layout, const OutputFolder& folder, const Stage& progress)
         : report_(report), layout_(layout), folder_(folder), progress_(progress) {}
 
     void run() {
@@ -44,7 +47,7 @@ public:
             for (std::size_t k = 0; k < report_.nearer[i].channels.size(); ++k)
                 tasks.push_back([this, i, k] {
                     const Image& apart = report_.nearer[i].channels[k].apart;
-                    write(layout_.nearer[i][k], nearerPicture(apart, nearerTop(apart)));
+                    write(layout_.nearer[i][k], closerPathPicture(apart, closerPathTop(apart)));
                 });
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
@@ -103,7 +106,7 @@ private:
 
     const Report& report_;
     ReportLayout& layout_;
-    const ReportFolder& folder_;
+    const OutputFolder& folder_;
     const Stage& progress_;
     std::mutex mutex_;
 };
@@ -118,7 +121,7 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
         return markedIn(path, mark);
     };
     earlier();
-    ReportFolder folder(path);
+    OutputFolder folder(path);
     const auto start = std::chrono::steady_clock::now();
     ReportLayout layout = layoutOf(report, options.picture, options.single_file);
     Encoder(report, layout, folder, options.progress).run();

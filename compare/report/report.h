@@ -2,10 +2,9 @@
 // What a comparison leaves for people and for scripts.
 #pragma once
 
-#include "compare/command_line.h"
-#include "compare/diff.h"
-#include "compare/output.h"
-#include "compare/progress.h"
+#include "compare/picture/picture.h"
+#include "compare/run/progress.h"
+#include "compare/verdict/comparison.h"
 
 #include <filesystem>
 #include <string>
@@ -30,15 +29,5 @@ std::string writeReport(const Report& report, const std::filesystem::path& folde
 
 // For a terminal: a table per comparison, failures first, then one line of verdict. Ends in a newline.
 std::string reportTable(const Report& report);
-
-// One Frame: an EXR of the channels asked for, or a PNG of channel `shown`. Throws std::runtime_error naming
-// the file, or the channel where the Frame does not have it.
-void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
-                const PictureChoice& choice);
-
-// Into the folder that is there: FRAME.exr, CHANNEL.png and frame.json, which lists all; returns their names.
-std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
-                                          const std::filesystem::path& folder, const DebugMode& shown,
-                                          const PictureChoice& choice);
 
 }  // namespace diptych

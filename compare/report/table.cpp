@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The report on a terminal.
 #include "compare/report/report.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ std::string frameLine(const Frame& frame) {
 
 std::string reportTable(const Report& report) {
     std::string out;
-    for (const std::string& line : report.said_first) out += line + "\n";
+    for (const std::string& line : report.first_notes) out += line + "\n";
     std::set<std::string> said;  // several comparisons of one scene share their notes
     for (const Comparison& comparison : report.comparisons) {
         const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
@@ -83,16 +83,16 @@ std::string reportTable(const Report& report) {
             if (!channel.warning.empty())
                 out +=
                     fmt::format("  warning {}: {} ({})\n", channel.mode->name, channel.warning, channel.rule);
-        if (const std::string marks = marksLine(comparison); !marks.empty()) out += "  " + marks + "\n";
+        if (const std::string marks = checksLine(comparison); !marks.empty()) out += "  " + marks + "\n";
         for (const std::string& note : notesOf(report, comparison))
             if (said.insert(note).second) out += "  note: " + note + "\n";
     }
-    for (const Nearer& nearer : report.nearer) {
+    for (const CloserPath& nearer : report.nearer) {
         if (report.nearer.size() > 1)
             out += fmt::format("{}, {}:\n", report.frames[nearer.truth].scene,
                                cameraTitle(report.frames[nearer.truth]));
-        for (const NearerChannel& channel : nearer.channels)
-            out += nearerLine(nearer, channel, report.frames) + "\n";
+        for (const CloserPathChannel& channel : nearer.channels)
+            out += closerPathLine(nearer, channel, report.frames) + "\n";
     }
     return out + verdictLine(report) + "\n";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/values.h"
 
-#include "compare/report/files.h"
+#include "compare/files/data_uri.h"
 
 #include <Imath/half.h>
 #include <zlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/tradeoff/plan.h"
+#include "compare/tradeoff/sweep.h"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/html.h"
 
-#include "compare/report/page.h"
-#include "compare/report/text.h"
+#include "compare/page/page.h"
+#include "compare/page/text.h"
 #include "compare/tradeoff/page/page.h"
 #include "compare/tradeoff/plot.h"
 

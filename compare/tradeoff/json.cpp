@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "compare/output.h"
+#include "compare/files/our_files.h"
+#include "compare/run/version.h"
 #include "compare/tradeoff/tradeoff.h"
-#include "compare/version.h"
 
 namespace diptych {
 namespace {

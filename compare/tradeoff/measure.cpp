@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/measure.h"
 
-#include "compare/measurement.h"
-#include "compare/report/text.h"
+#include "compare/page/text.h"
+#include "compare/render/reference_frame.h"
 #include "compare/tradeoff/upsample.h"
-#include "compare/truth.h"
+#include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -48,11 +48,12 @@ void warn(TradeoffRow& row, const Frame& frame) {
 
 }  // namespace
 
-Truth drawTruths(Renderer& renderer, const Settings& given, const std::vector<std::string>& cameras,
-                 const PictureChoice& choice, const RenderOptions& options) {
+ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
+                                    const std::vector<std::string>& cameras, const PictureChoice& choice,
+                                    const RenderOptions& options) {
     RenderOptions drawing = drawingOptions(options);
     drawing.runs = 0;
-    Truth truth;
+    ReferenceFrames truth;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const double from = static_cast<double>(i), all = static_cast<double>(cameras.size());
         drawing.progress = options.progress.part(from / all, (from + 1) / all);
@@ -99,7 +100,7 @@ Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     return small(picture(debugMode(lit), frame, scaleFor(debugMode(lit), exposure, frames)));
 }
 
-MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth& truth,
+MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& truth,
                        const RenderOptions& options) {
     RenderOptions drawing = drawingOptions(options);
     MeasuredRow measured;
@@ -136,7 +137,8 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth
     return measured;
 }
 
-void timeAgain(Renderer& renderer, TradeoffRow& row, const Truth& truth, const RenderOptions& options) {
+void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& truth,
+               const RenderOptions& options) {
     RenderOptions timing = options;
     timing.channels.clear();
     timing.asked.clear();

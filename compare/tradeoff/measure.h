@@ -2,8 +2,8 @@
 #pragma once
 
 #include "compare/metrics/channel.h"
-#include "compare/picture.h"
-#include "compare/render.h"
+#include "compare/picture/picture.h"
+#include "compare/render/renderer.h"
 #include "compare/tradeoff/row.h"
 
 #include <string>
@@ -12,13 +12,14 @@
 namespace diptych {
 
 // What all rows of a sweep are measured against.
-struct Truth {
+struct ReferenceFrames {
     std::vector<Frame> frames;  // one a camera
     Exposure exposure;          // of every picture
 };
 
-Truth drawTruths(Renderer& renderer, const Settings& given, const std::vector<std::string>& cameras,
-                 const PictureChoice& choice, const RenderOptions& options);
+ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
+                                    const std::vector<std::string>& cameras, const PictureChoice& choice,
+                                    const RenderOptions& options);
 
 // RMSE and 99th percentile (nearest rank) of relative errors, each a pixel's.
 struct RelativeErrors {
@@ -42,11 +43,12 @@ struct MeasuredRow {
 };
 // Draws and times the Settings from every camera of the truth: a first visit. `options`: runs, said,
 // progress.
-MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Truth& truth,
+MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& truth,
                        const RenderOptions& options);
 
 // One visit more, of `options.runs` frames.
-void timeAgain(Renderer& renderer, TradeoffRow& row, const Truth& truth, const RenderOptions& options);
+void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& truth,
+               const RenderOptions& options);
 
 // lit as the pages show it, not wider than a card.
 Image8 thumbnail(const Frame& frame, const Exposure& exposure);

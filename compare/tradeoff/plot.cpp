@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/plot.h"
 
+#include "compare/page/text.h"
 #include "compare/plot/drawing.h"
 #include "compare/plot/log_axis.h"
-#include "compare/report/text.h"
 
 #include <fmt/format.h>
 

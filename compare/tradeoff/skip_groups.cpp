@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/plan.h"
+#include "compare/tradeoff/sweep.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/sweep_state.h"
 
-#include "compare/output.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output.h"
 #include "compare/reference/key.h"
 #include "shared/image/atomic_file.h"
 
@@ -52,7 +53,7 @@ std::string fingerprint(std::string_view bytes) {
     return fmt::format("{:016x}", key.value());
 }
 
-std::string fingerprint(const Truth& truth) {
+std::string fingerprint(const ReferenceFrames& truth) {
     reference::Key key;
     for (const Frame& frame : truth.frames)
         for (const auto& [mode, image] : frame.channels) key.addAll(image.data);

@@ -43,6 +43,6 @@ private:
 // 64 bits, FNV-1a (Fowler, Noll and Vo 1991), as 16 hexadecimal digits.
 std::string fingerprint(std::string_view bytes);
 // Of every bit of lit and material_id.
-std::string fingerprint(const Truth& truth);
+std::string fingerprint(const ReferenceFrames& truth);
 
 }  // namespace diptych

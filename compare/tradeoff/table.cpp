@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The sweep on a terminal.
-#include "compare/report/text.h"
+#include "compare/page/text.h"
 #include "compare/tradeoff/tradeoff.h"
 
 #include <fmt/format.h>

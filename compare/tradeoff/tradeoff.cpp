@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/tradeoff.h"
 
-#include "compare/command_words.h"
+#include "compare/render/reference_frame.h"
+#include "compare/run/command_text.h"
 #include "compare/tradeoff/pareto.h"
-#include "compare/truth.h"
 
 #include <fmt/format.h>
 
@@ -23,14 +23,14 @@ std::vector<std::string> withCameras(std::vector<std::string> words, const Trade
 }
 
 // What a command is given so that its truth is the sweep's: what of the row that would change is in the grid.
-struct AgainstTruth {
+struct AgainstReference {
     Settings settings;
     std::string grid;
-    bool sameTruth = true;  // the grid is empty
+    bool sameReference = true;  // the grid is empty
 };
 
-AgainstTruth againstTruth(const Tradeoff& tradeoff, const TradeoffRow& row) {
-    AgainstTruth against{row.settings, {}, true};
+AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& row) {
+    AgainstReference against{row.settings, {}, true};
     nlohmann::ordered_json swept = nlohmann::ordered_json::object();
     const Settings& given = tradeoff.given;
     Settings::fields(given, [&](const Field& field, const auto&) {
@@ -41,7 +41,7 @@ AgainstTruth againstTruth(const Tradeoff& tradeoff, const TradeoffRow& row) {
         set(against.settings, field.option, usual);
         if (unreadBecause(row.settings.path, field.option).empty()) swept[std::string(field.option)] = value;
     });
-    against.sameTruth = swept.empty();
+    against.sameReference = swept.empty();
     against.grid = nlohmann::ordered_json{{"settings", swept}}.dump();
     if (tradeoff.cameras.size() > 1) against.settings.camera.clear();
     return against;
@@ -90,7 +90,7 @@ std::vector<Path> pathsOf(const Tradeoff& tradeoff) {
 }
 
 std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
-    const AgainstTruth against = againstTruth(tradeoff, row);
+    const AgainstReference against = againstReference(tradeoff, row);
     std::vector<std::string> words = wordsOf("tradeoff", tradeoff.scene, against.settings);
     words = with(withCameras(std::move(words), tradeoff), "--grid", against.grid);
     if (tradeoff.runs != 5) words = with(std::move(words), "--runs", fmt::format("{}", tradeoff.runs));
@@ -98,8 +98,8 @@ std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
 }
 
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
-    const AgainstTruth against = againstTruth(tradeoff, row);
-    if (!against.sameTruth) return {};
+    const AgainstReference against = againstReference(tradeoff, row);
+    if (!against.sameReference) return {};
     // compare draws both paths, and one of them may not know these Settings.
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         Settings other = row.settings;

@@ -2,10 +2,10 @@
 // A whole sweep, and what is made of it.
 #pragma once
 
-#include "compare/diff.h"
-#include "compare/picture.h"
-#include "compare/tradeoff/plan.h"
+#include "compare/picture/picture.h"
 #include "compare/tradeoff/row.h"
+#include "compare/tradeoff/sweep.h"
+#include "compare/verdict/comparison.h"
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "compare/output.h"
-#include "compare/report/report_folder.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output.h"
+#include "compare/files/output_folder.h"
 #include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -33,7 +34,7 @@ std::string writeTradeoff(const Tradeoff& measured, const fs::path& path, const 
         return markedIn(path, tradeoffMark);
     };
     earlier();
-    ReportFolder folder(path);
+    OutputFolder folder(path);
     Tradeoff tradeoff = measured;
     std::vector<std::string> files{"index.html", "tradeoff.csv", tradeoffMark};
     const auto text = [&](const std::string& name, const std::string& contents) {

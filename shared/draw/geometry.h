@@ -2,7 +2,7 @@
 // Every primitive of a scene in three buffers: positions, other attributes, indices.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 #include "shared/vulkan/resources.h"
 
 #include <vector>

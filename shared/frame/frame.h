@@ -51,6 +51,11 @@ struct FrameOrigin {
     std::string device, driver, commit;
 };
 
+// What a Frame was drawn on, as a report names it.
+struct ReportDevice {
+    std::string name, driver, type;  // type "cpu" rounds alike in every pipeline
+};
+
 // Where the picture was taken from, world, metres; for the report and for another renderer.
 struct FrameCamera {
     std::string name;

@@ -3,7 +3,7 @@
 
 #include "shared/image/image.h"
 #include "shared/image/limits.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/picture_layers.h"
 
 #include <cstddef>
 #include <cstdint>

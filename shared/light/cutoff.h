@@ -2,7 +2,8 @@
 // Ranges for lights that have none: so that a list need not hold them everywhere.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
+#include "shared/scene/motion/pose.h"
 
 #include <span>
 #include <vector>

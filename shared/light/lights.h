@@ -3,7 +3,7 @@
 
 #include "shared/contract/area_light.h"
 #include "shared/contract/light.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <span>
 #include <vector>

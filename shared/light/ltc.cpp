@@ -3,7 +3,6 @@
 
 #include "shared/contract/constants.h"
 #include "shared/image/exr.h"
-#include "shared/light/ltc_file.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -21,6 +21,15 @@ struct LtcCell {
     float error = 0;
 };
 
+// The layers of ltc.exr: one channel Y each, column i, row j.
+struct LtcLayer {
+    const char* name;
+    float LtcCell::*member;
+};
+inline constexpr LtcLayer ltcLayers[] = {
+    {"in_plane", &LtcCell::in_plane},   {"across", &LtcCell::across},   {"unsheared", &LtcCell::unsheared},
+    {"magnitude", &LtcCell::magnitude}, {"fresnel", &LtcCell::fresnel}, {"error", &LtcCell::error}};
+
 // By its figure i of roughness and j of n.v: cell(i, j) = cells[j * LTC_CELLS + i].
 struct LtcTable {
     std::vector<LtcCell> cells;

@@ -4,7 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/material.h"
 #include "shared/material/textures.h"
-#include "shared/scene/material_slots.h"
+#include "shared/scene/model/material_slots.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>

@@ -2,7 +2,7 @@
 // A scene's materials on the device: one buffer of factors, one descriptor set and one Variant each.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pipelines.h"
 #include "shared/vulkan/resources.h"

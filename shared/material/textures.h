@@ -2,7 +2,7 @@
 // One image and one sampler on the device.
 #pragma once
 
-#include "shared/scene/mipmap.h"
+#include "shared/scene/image/mipmap.h"
 #include "shared/vulkan/resources.h"
 
 #include <functional>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "shared/scene/load.h"
 #include "shared/scene/builtin/builtin.h"
-#include "shared/scene/gltf.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/gltf/gltf.h"
+#include "shared/scene/model/scene.h"
 
 #include <fmt/format.h>
 

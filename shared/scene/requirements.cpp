@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/requirements.h"
 
-#include "shared/scene/material_slots.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
 
 }  // namespace
 
-Requirements requirements(const Scene& scene, const Pose& pose) {
+Requirements requirements(const Scene& scene, const Pose& pose, const std::vector<Light>& lights) {
     Requirements r;
     r.materials = static_cast<std::uint32_t>(scene.materials.size());
 
@@ -74,7 +74,7 @@ Requirements requirements(const Scene& scene, const Pose& pose) {
         if (used[i]) addMaterial(r, scene, scene.materials[i], textures);
     r.textures = static_cast<std::uint32_t>(textures.size());
 
-    for (const Light& light : pose.lights) {
+    for (const Light& light : lights) {
         r.directional_lights += light.kind == LightKind::directional;
         r.point_lights += light.kind == LightKind::point;
         r.spot_lights += light.kind == LightKind::spot;

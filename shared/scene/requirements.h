@@ -2,7 +2,8 @@
 // What a scene needs modelled; whatever is false here costs nothing in either path.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
+#include "shared/scene/motion/pose.h"
 
 #include <cstdint>
 #include <string>
@@ -45,6 +46,10 @@ struct Requirements {
     std::vector<Line> lines() const;
 };
 
-Requirements requirements(const Scene& scene, const Pose& pose);
+// `lights` are all that the scene is lit by; without them the pose's own.
+Requirements requirements(const Scene& scene, const Pose& pose, const std::vector<Light>& lights);
+inline Requirements requirements(const Scene& scene, const Pose& pose) {
+    return requirements(scene, pose, pose.lights);
+}
 
 }  // namespace diptych

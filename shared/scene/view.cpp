@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/view.h"
 
-#include "shared/scene/axes.h"
-#include "shared/scene/posed.h"
+#include "shared/scene/model/axes.h"
+#include "shared/scene/motion/bounds.h"
+#include "shared/scene/motion/posed.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

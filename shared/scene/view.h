@@ -3,7 +3,8 @@
 #pragma once
 
 #include "shared/contract/view.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
+#include "shared/scene/motion/pose.h"
 
 namespace diptych {
 

@@ -2,6 +2,7 @@
 // One logical device with one queue. Knows no scene and no window.
 #pragma once
 
+#include "shared/vulkan/device_info.h"
 #include "shared/vulkan/memory.h"
 #include "shared/vulkan/owned.h"
 
@@ -17,25 +18,6 @@ namespace diptych {
 struct DeviceOptions {
     std::string choice;     // "" a real GPU first; an index of listDevices(); part of a name
     bool validate = false;  // Khronos validation with synchronization validation
-};
-
-// One thing that a device can or cannot do here.
-struct DeviceFact {
-    std::string what;
-    bool there = false;
-    bool required = false;
-    std::string note;
-};
-
-struct DeviceInfo {
-    int index = 0;
-    std::string name, driver;  // "Mesa 22.3.6 (LLVM 15.0.6)"
-    std::string type;          // cpu, integrated, discrete, virtual, other
-    std::string api_version;   // "1.3.230"
-    std::vector<DeviceFact> facts;
-
-    bool usable() const;  // every required fact is there
-    bool isCpu() const { return type == "cpu"; }
 };
 
 // How a device rounds a float to a render target's format when a fragment shader writes it, measured by

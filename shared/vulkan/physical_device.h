@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device_info.h"
+
+#include <vulkan/vulkan.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,9 +2,10 @@
 // What it takes from a file to something that can be drawn:  bench_load [-n RUNS] SCENE...
 // Every scene is loaded RUNS times, the scenes in turn; medians and spread. `memory` is the largest resident
 // size that the scene's first load added to the process, beside the size of what was loaded.
+#include "shared/scene/load.h"
 #include "shared/draw/geometry.h"
 #include "shared/material/materials.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 #include "shared/vulkan/device.h"
 #include "shared/vulkan/resources.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // .gltf and .glb alike, told apart as a reader does: by their first bytes. A few files lie beside it.
-#include "shared/scene/gltf.h"
+#include "shared/scene/gltf/gltf.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sound_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/lights_json.h"
+#include "shared/scene/lights/lights_json.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sound_light.h"
 

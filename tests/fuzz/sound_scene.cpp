@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/sound_scene.h"
 
-#include "shared/scene/posed.h"
+#include "shared/scene/motion/posed.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sound_light.h"
 

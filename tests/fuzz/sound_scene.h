@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 namespace diptych::fuzz {
 

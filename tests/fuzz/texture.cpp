@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The PNG and JPEG images inside glTF files.
-#include "shared/scene/image_decode.h"
+#include "shared/scene/image/decode.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace diptych;

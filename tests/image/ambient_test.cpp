@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light that is the same from everywhere, in both paths: by hand, and against the reference.
 #include "shared/contract/debug_mode.h"
+#include "shared/scene/load.h"
 #include "tests/image/square.h"
 
 namespace diptych::tests {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Area lights in pictures: both paths and every way to choose lights agree, and the table is worth its cost.
 #include "shared/contract/debug_mode.h"
-#include "shared/scene/rig.h"
+#include "shared/scene/lights/rig.h"
+#include "shared/scene/load.h"
+#include "shared/scene/motion/bounds.h"
 #include "tests/image/scenes.h"
 
 namespace diptych::tests {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A Frame is the same whenever, wherever and however large it is drawn.
+#include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
 #include <cstdlib>

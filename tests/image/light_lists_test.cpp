@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Whatever chooses the lights of a pixel, the picture is that of every light, bit for bit.
 #include "shared/contract/debug_mode.h"
-#include "shared/scene/rig.h"
+#include "shared/scene/lights/rig.h"
+#include "shared/scene/load.h"
+#include "shared/scene/motion/bounds.h"
 #include "shared/scene/view.h"
 #include "tests/image/scenes.h"
 

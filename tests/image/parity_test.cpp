@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both paths draw the same picture: bit for bit with a float32 G-buffer, and with a packed one differing by
 // exactly what the encoding does.
+#include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
 namespace diptych::tests {

@@ -2,6 +2,7 @@
 // Lights by object: what is given up with few of them per pixel, and that nothing pops.
 #include "shared/light/per_object.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/scene/load.h"
 #include "shared/scene/view.h"
 #include "tests/image/square.h"
 
@@ -118,7 +119,7 @@ Scene movingLamp(double x, double height = 8.3, double z = -6.32) {
     return scene;
 }
 
-// Nearer than two metres to a surface its radiance itself changes by more than 1 % a centimetre.
+// CloserPath than two metres to a surface its radiance itself changes by more than 1 % a centimetre.
 TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     double worst = 0;
     const glm::dvec2 above[] = {{1.2, 8.3}, {4.2, 8.3}, {7.2, 8.3}, {13.2, 8.3}, {16.2, 8.3}},

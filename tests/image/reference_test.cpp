@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Both paths against the reference, the reference's two modes against each other, and planted faults on
 // either side.
-#include "compare/diff.h"
+#include "compare/verdict/comparison.h"
+#include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"
 
@@ -182,8 +183,8 @@ protected:
                           const Scene& scene) {
         const Requirements needs = requirements(scene, poseAt(scene, 0));
         const DeviceInfo& info = device().info();
-        return makeTruthReport({truth[0], drawn[1], drawn[2]}, {needs, needs, needs},
-                               {info.name, info.driver, info.type}, {}, {{}}, {{}});
+        return makeReferenceReport({truth[0], drawn[1], drawn[2]}, {needs, needs, needs},
+                                   {info.name, info.driver, info.type}, {}, {{}}, {{}});
     }
     static bool litFails(const Report& report, std::size_t comparison) {
         for (const ChannelDiff& channel : report.comparisons.at(comparison).channels)

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compare/metrics/channel.h"
-#include "compare/render.h"
-#include "compare/tolerance.h"
+#include "compare/render/renderer.h"
+#include "compare/verdict/tolerance.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/vulkan/device.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a path is said not to read changes no bit of what it draws: so that a sweep may leave it out.
 #include "shared/contract/debug_mode.h"
+#include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
 namespace diptych::tests {

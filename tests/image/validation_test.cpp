@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // No message of the Khronos validation layers, synchronization validation included, from any scene, path
 // or G-buffer encoding, nor of any way to choose lights.
+#include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
 namespace diptych::tests {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The verdict that users see: every built-in scene passes at the tolerances that its encoding derives, and
 // one constant changed in what one path draws fails the channel that shows it.
-#include "compare/diff.h"
+#include "compare/verdict/comparison.h"
+#include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"
 

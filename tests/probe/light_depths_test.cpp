@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The depth bounds of tiles by the shipped kernel, from one sample a pixel and from four: over all samples,
 // as what a tile's lists are made of must not depend on which sample is looked at.
+#include "shared/scene/motion/bounds.h"
 #include "tests/probe/kernel_frame.h"
 #include "tests/probe/probe.h"
 

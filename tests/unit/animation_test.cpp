@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Keyframes at a time, by hand, and what they make of nodes, lights and cameras.
-#include "shared/scene/animation.h"
+#include "shared/scene/motion/animation.h"
 
+#include "shared/scene/motion/pose.h"
 #include "tests/unit/gltf_maker.h"
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a benchmark plans, predicts and writes, of made-up times.
 #include "compare/bench/bench.h"
-#include "compare/command_line.h"
+#include "compare/cli/command_line.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -32,7 +32,7 @@ BenchOptions asked(const std::vector<std::string>& words) {
     return parseCommandLine(line).bench;
 }
 
-TEST(BenchPlan, ListsParseAndAreNamedWhereTheyDoNot) {
+TEST(BenchCases, ListsParseAndAreNamedWhereTheyDoNot) {
     const BenchOptions bench =
         asked({"--paths", "forward_plus", "--assign", "every,tiled,every", "--sizes", "16x12,8x8",
                "--light-counts", "256,4,16,4", "--max-ms", "12.5", "--kernels", "off"});
@@ -60,12 +60,12 @@ TEST(BenchPlan, ListsParseAndAreNamedWhereTheyDoNot) {
         EXPECT_EQ(thrownBy([&] { asked(words); }).find(message), 0u) << words[1];
 }
 
-TEST(BenchPlan, EveryModeOfACountIsTimedInTurn) {
+TEST(BenchCases, EveryModeOfACountIsTimedInTurn) {
     BenchOptions options;
     options.assign = {Assignment::every};
     options.sizes = {{32, 24}, {16, 12}};
     options.light_counts = {16, 64};
-    const BenchPlan plan = planBench("builtin:spheres?lights=7", Settings(), options);
+    const BenchCases plan = planBench("builtin:spheres?lights=7", Settings(), options);
     ASSERT_EQ(plan.groups.size(), 2u);
     EXPECT_EQ(plan.groups[1].scene, "builtin:spheres?lights=64");
     EXPECT_EQ(plan.groups[1].lights, 64u);
@@ -74,7 +74,7 @@ TEST(BenchPlan, EveryModeOfACountIsTimedInTurn) {
     EXPECT_EQ(plan.groups[0].settings[3].size, (Size{16, 12}));
 }
 
-TEST(BenchPlan, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
+TEST(BenchCases, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
     BenchOptions options;
     options.assign = {Assignment::every, Assignment::per_object};
     options.paths = {Path::deferred};
@@ -83,7 +83,7 @@ TEST(BenchPlan, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
     perObject.path = Path::deferred;
     perObject.assign = Assignment::per_object;
     ASSERT_TRUE(perObject.problem());
-    const BenchPlan plan = planBench("builtin:spheres", Settings(), options);
+    const BenchCases plan = planBench("builtin:spheres", Settings(), options);
     ASSERT_EQ(plan.skips.size(), 1u);
     EXPECT_EQ(plan.skips[0].reason, *perObject.problem());
     EXPECT_EQ(skipName(plan.skips[0]), "deferred, per_object");
@@ -95,7 +95,7 @@ TEST(BenchPlan, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
               0u);
 }
 
-TEST(BenchPlan, LightsComeFromTheSceneAFileOrARig) {
+TEST(BenchCases, LightsComeFromTheSceneAFileOrARig) {
     BenchOptions options;
     options.light_counts = {0, 64};
     EXPECT_EQ(planBench("a.glb", Settings(), options).groups[0].settings[0].lights, "");
@@ -116,7 +116,7 @@ TEST(BenchPlan, LightsComeFromTheSceneAFileOrARig) {
     EXPECT_FALSE(planBench("a.glb", files, options).groups[0].lights);
 }
 
-TEST(BenchPlan, PredictsAlongTheLastTwo) {
+TEST(BenchCases, PredictsAlongTheLastTwo) {
     using Points = std::vector<std::pair<std::uint32_t, double>>;
     EXPECT_FALSE(predictedMs(Points{}, 64));
     EXPECT_FALSE(predictedMs(Points{{16, 20}}, 64));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The workflow files of .ci/ that users copy: their commands parse, and what they keep is what is written.
-#include "compare/command_line.h"
+#include "compare/cli/command_line.h"
 #include "tests/unit/files.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/command_line.h"
+#include "compare/cli/command_line.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the user may say of a comparison of two paths: rules, pixels that count, noise; and a picture of
 // earlier.
-#include "compare/diff.h"
-#include "compare/measurement.h"
+#include "compare/verdict/comparison.h"
+#include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/unit/report_maker.h"
 
@@ -113,7 +113,7 @@ TEST(CompareOptions, ABaselineIsHeldAgainstBothPaths) {
     const Report report = makeBaselineReport(baseline, frames, {}, {"a device", "1.0", "cpu"}, {},
                                              {"baseline: commit abc (now def)"});
     ASSERT_EQ(report.comparisons.size(), 3u);
-    EXPECT_EQ(report.said_first.size(), 1u);
+    EXPECT_EQ(report.first_notes.size(), 1u);
     EXPECT_EQ(report.baseline(report.comparisons[0]).name, "baseline");
     EXPECT_EQ(report.test(report.comparisons[1]).name, frames[1].name);
     EXPECT_EQ(litOf(report).stats.different, 0u) << "the same path, unchanged";

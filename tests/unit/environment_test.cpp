@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/environment.h"
+#include "shared/scene/image/environment.h"
 
 #include "shared/image/exr.h"
 #include "shared/image/png.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every shape, type, layout and mode in which glTF stores numbers, each with values known by hand.
-#include "shared/scene/gltf_accessor.h"
+#include "shared/scene/gltf/accessor.h"
 #include "tests/unit/gltf_maker.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/scene/motion/bounds.h"
 #include "shared/scene/requirements.h"
 #include "tests/unit/gltf_maker.h"
 

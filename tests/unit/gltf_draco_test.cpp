@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // KHR_draco_mesh_compression: streams of the library's own encoder, read back through the loader.
-#include "shared/scene/gltf.h"
+#include "shared/scene/gltf/gltf.h"
 #include "tests/unit/draco_maker.h"
 
 #include <draco/compression/encode.h>

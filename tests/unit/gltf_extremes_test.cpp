@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Geometry that is broken, huge, tiny, far away or everywhere: it ends in a picture of what is sound, a
 // note, or one line.
-#include "shared/scene/tangents.h"
+#include "shared/scene/model/tangents.h"
+#include "shared/scene/motion/bounds.h"
 #include "tests/unit/gltf_maker.h"
 
 #include <fmt/format.h>

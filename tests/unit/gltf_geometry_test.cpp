@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/scene/motion/bounds.h"
 #include "tests/unit/gltf_maker.h"
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,8 @@
 // glTF files that a test makes: a small one that is right, then one thing changed.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/load.h"
+#include "shared/scene/model/scene.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/material_slots.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/scene/requirements.h"
 #include "tests/unit/gltf_material_maker.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // EXT_meshopt_compression: streams of the library's own encoder, read back through the loader.
-#include "shared/scene/gltf.h"
-#include "shared/scene/gltf_compression.h"
-#include "shared/scene/gltf_value.h"
+#include "shared/scene/gltf/compression.h"
+#include "shared/scene/gltf/gltf.h"
+#include "shared/scene/gltf/value.h"
 #include "tests/unit/gltf_maker.h"
 
 #include <meshoptimizer.h>

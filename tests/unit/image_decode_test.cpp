@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images that libpng and libjpeg write here, of every kind that glTF may bring, come back as the numbers that
 // were stored.
-#include "shared/scene/image_decode.h"
+#include "shared/scene/image/decode.h"
 
 #include <gtest/gtest.h>
 #include <png.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What two picture files have in common: names, types, widths; which pixels count; what forgives.
-#include "compare/layers.h"
-#include "compare/prefilter.h"
-#include "compare/selection.h"
+#include "compare/files/layers.h"
+#include "compare/metrics/prefilter.h"
+#include "compare/verdict/selection.h"
 #include "shared/image/png.h"
 #include "tests/unit/files.h"
 

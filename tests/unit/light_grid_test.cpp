@@ -3,6 +3,7 @@
 #include "shared/light/light_grid.h"
 #include "shared/light/cutoff.h"
 #include "shared/scene/builtin/builtin.h"
+#include "shared/scene/load.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/mipmap.h"
+#include "shared/scene/image/mipmap.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From numbers to pictures.
-#include "compare/picture.h"
+#include "compare/picture/picture.h"
 #include "tests/unit/report_maker.h"
 
 #include <gtest/gtest.h>

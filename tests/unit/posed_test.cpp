@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Vertices that joints and morph targets move, by hand.
-#include "shared/scene/posed.h"
+#include "shared/scene/motion/posed.h"
 
+#include "shared/scene/motion/bounds.h"
 #include "shared/scene/view.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/progress.h"
+#include "compare/run/progress.h"
 
 #include <gtest/gtest.h>
 

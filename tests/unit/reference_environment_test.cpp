@@ -195,8 +195,8 @@ TEST(ReferenceEnvironment, NeighboursErrAlone) {
 TEST(ReferenceEnvironment, WhatIsHiddenOfASkyIsDark) {
     const Environment sky = constantSky(1);
     const Lighting lighting({}, &sky, 1, {0, 0, 0});
-    const Open half = [](const glm::dvec3&d, double) { return d.x > 0; },
-               none = [](const glm::dvec3&, double) { return false; };
+    const Visibility half = [](const glm::dvec3&d, double) { return d.x > 0; },
+                     none = [](const glm::dvec3&, double) { return false; };
     EXPECT_EQ(lighting(lambertian(), none, 1).reflected.size(), 0);
     int within = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {

@@ -4,7 +4,7 @@
 
 #include "compare/reference/lighting.h"
 #include "compare/reference/reference.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 #include "shared/scene/view.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ inline Light lightOf(LightKind kind, const glm::dvec3& position, const glm::dvec
     return light;
 }
 
-inline Shading shadedBy(std::span<const Light> lights, const Surface& surface, const Open& open = {},
+inline Shading shadedBy(std::span<const Light> lights, const Surface& surface, const Visibility& open = {},
                         std::uint64_t seed = 1) {
     return Lighting(lights, nullptr, 1, {0, 0, 0})(surface, open, seed);
 }

@@ -32,8 +32,8 @@ struct Record {
     double worst = 0;  // error over the uncertainty
     double mean = 0;
 };
-template <class Truth>
-Record recordOf(int seeds, const Surface& s, Truth&& truth) {
+template <class ReferenceFrames>
+Record recordOf(int seeds, const Surface& s, ReferenceFrames&& truth) {
     Record record;
     const Light light = square();
     for (int seed = 0; seed < seeds; ++seed) {
@@ -71,7 +71,7 @@ TEST(ReferenceShadow, AnEdgeAcrossARectangle) {
     const double whole = part(-0.5, 0.5, -0.5, 0.5);
     const Record record = recordOf(200, lambertian(), [&](Random& random) {
         const double x = random() - 0.5;
-        return std::pair(Open(Screen{-9, x, -9, 9}), part(x, 0.5, -0.5, 0.5));
+        return std::pair(Visibility(Screen{-9, x, -9, 9}), part(x, 0.5, -0.5, 0.5));
     });
     EXPECT_GE(record.within, record.seeds * 9 / 10);
     EXPECT_LT(record.worst, 4);
@@ -84,7 +84,8 @@ TEST(ReferenceShadow, WhatIsSmallBeforeALight) {
         const Record record = recordOf(200, lambertian(), [&](Random& random) {
             const double x = (random() - 0.5) * (1 - size), y = (random() - 0.5) * (1 - size);
             const double x0 = x - size / 2, x1 = x + size / 2, y0 = y - size / 2, y1 = y + size / 2;
-            return std::pair(Open(Screen{x0, x1, y0, y1}), part(-0.5, 0.5, -0.5, 0.5) - part(x0, x1, y0, y1));
+            return std::pair(Visibility(Screen{x0, x1, y0, y1}),
+                             part(-0.5, 0.5, -0.5, 0.5) - part(x0, x1, y0, y1));
         });
         EXPECT_GE(record.within, record.seeds * 9 / 10) << size;
     }
@@ -97,7 +98,7 @@ TEST(ReferenceShadow, ASmallHoleBeforeALight) {
             const double x = (random() - 0.5) * (1 - size), y = (random() - 0.5) * (1 - size);
             const Screen hole{x - size / 2, x + size / 2, y - size / 2, y + size / 2};
             return std::pair(
-                Open([hole](const glm::dvec3& d, double distance) { return !hole(d, distance); }),
+                Visibility([hole](const glm::dvec3& d, double distance) { return !hole(d, distance); }),
                 part(hole.x0, hole.x1, hole.y0, hole.y1));
         });
         EXPECT_GE(record.within, record.seeds * 9 / 10) << size;
@@ -108,7 +109,7 @@ TEST(ReferenceShadow, ASmallHoleBeforeALight) {
 TEST(ReferenceShadow, AHundredthIsBeyondTheConfidence) {
     const Record record = recordOf(100, lambertian(), [&](Random& random) {
         const double x = random() * 0.5 - 0.5;
-        return std::pair(Open(Screen{-9, x, -9, 9}), 1.02 * part(x, 0.5, -0.5, 0.5));
+        return std::pair(Visibility(Screen{-9, x, -9, 9}), 1.02 * part(x, 0.5, -0.5, 0.5));
     });
     EXPECT_LE(record.within, record.seeds / 4);
 }
@@ -117,7 +118,7 @@ TEST(ReferenceShadow, LightsWithoutExtentAreSeenOrNot) {
     std::vector<Light> lights{lightOf(LightKind::point, {0, 0, 2}), lightOf(LightKind::spot, {0, 0, 2}),
                               lightOf(LightKind::directional, {0, 0, 0})};
     std::vector<double> asked;
-    const Open record = [&](const glm::dvec3& d, double distance) {
+    const Visibility record = [&](const glm::dvec3& d, double distance) {
         EXPECT_NEAR(d.z, 1, 1e-15);
         asked.push_back(distance);
         return asked.size() != 2;

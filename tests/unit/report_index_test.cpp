@@ -2,7 +2,7 @@
 // Several comparisons in one report: a line each, failing ones first, and the rest once it is asked for.
 #include "compare/report/html.h"
 #include "compare/report/report.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
 

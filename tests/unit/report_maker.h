@@ -2,8 +2,8 @@
 // Small reports that a test makes, and how their pages are read.
 #pragma once
 
-#include "compare/diff.h"
 #include "compare/report/report.h"
+#include "compare/verdict/comparison.h"
 #include "shared/contract/debug_mode.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
     return frames;
 }
 
-inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureMarks>> marks = {}) {
+inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureChecks>> marks = {}) {
     const std::vector<Requirements> needs(frames.size());
     return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, std::move(marks));
 }

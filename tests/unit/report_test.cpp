@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What a report leaves: files, keys, escapes, and that nothing of others is touched.
 #include "compare/report/report.h"
-#include "compare/report/files.h"
+#include "compare/files/data_uri.h"
+#include "compare/files/frame_exr.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output.h"
+#include "compare/report/frame_files.h"
 #include "compare/report/json.h"
-#include "compare/report/text.h"
+#include "compare/report/titles.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "tests/unit/files.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/requirements.h"
 
-#include "compare/undrawn.h"
+#include "compare/render/left_out.h"
 
 #include <gtest/gtest.h>
 
@@ -196,16 +196,16 @@ TEST(Requirements, AreaLightsAreModelledDiscsOfSunsAndEnvironmentsLeftOut) {
 
 TEST(Requirements, APathSaysWhatLightItLeavesOut) {
     Requirements needs;
-    EXPECT_TRUE(undrawnLight(Path::deferred, needs).empty());
+    EXPECT_TRUE(leftOutLight(Path::deferred, needs).empty());
     needs.rect_lights = needs.tube_lights = 1;
     needs.sun_discs = 1;
     needs.environment = "sky.exr";
     const std::vector<std::string> expected{
         "1 sun's disc: not drawn by deferred yet: the reference has it",
         "environment sky.exr: not drawn by deferred yet: the reference has it"};
-    EXPECT_EQ(undrawnLight(Path::deferred, needs), expected);
-    EXPECT_EQ(undrawnLight(Path::forward_plus, needs).size(), 2u);
-    EXPECT_TRUE(undrawnLight(Path::reference, needs).empty()) << "it draws all";
+    EXPECT_EQ(leftOutLight(Path::deferred, needs), expected);
+    EXPECT_EQ(leftOutLight(Path::forward_plus, needs).size(), 2u);
+    EXPECT_TRUE(leftOutLight(Path::reference, needs).empty()) << "it draws all";
 }
 
 // Counted by mesh, however many primitives it has; a target of weight 0 moves nothing.
@@ -242,11 +242,11 @@ TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     EXPECT_EQ(line(after, "skins and morph targets").why,
               "1 skinned mesh, 1 morphed: no path poses them yet; the reference does");
     EXPECT_EQ(
-        undrawnMotion(Path::deferred, r),
+        leftOutMotion(Path::deferred, r),
         std::vector<std::string>{"1 skinned mesh, 1 morphed: drawn undeformed by deferred yet: the reference "
                                  "poses them in mode scene"});
-    EXPECT_TRUE(undrawnMotion(Path::reference, r).empty());
-    EXPECT_TRUE(undrawnMotion(Path::deferred, of(plainScene())).empty());
+    EXPECT_TRUE(leftOutMotion(Path::reference, r).empty());
+    EXPECT_TRUE(leftOutMotion(Path::deferred, of(plainScene())).empty());
 }
 
 TEST(Requirements, LinesSayWhy) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tolerance files: what they may say, what they decide, and the line where they are wrong.
-#include "compare/rules.h"
+#include "compare/verdict/rules.h"
+#include "shared/text/wildcard.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/tangents.h"
+#include "shared/scene/model/tangents.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

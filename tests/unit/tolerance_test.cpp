@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The derived bounds against the encodings themselves, redone here in double from the G-buffer's description,
 // and against the table of measured figures.
-#include "compare/tolerance.h"
-#include "compare/diff.h"
+#include "compare/verdict/tolerance.h"
+#include "compare/verdict/comparison.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a sweep leaves: table, CSV, JSON, plots and page.
-#include "compare/command_line.h"
+#include "compare/cli/command_line.h"
 #include "compare/plot/log_axis.h"
 #include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which Settings a sweep draws.
-#include "compare/tradeoff/plan.h"
+#include "compare/tradeoff/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 namespace diptych {
 namespace {
 
-SweepPlan usualPlan(const Settings& given = {}) {
+SweepRows usualPlan(const Settings& given = {}) {
     return planSweep(given, usualGrids(given));
 }
 
-std::vector<std::string> wordsOfRows(const SweepPlan& plan, const Settings& given = {}) {
+std::vector<std::string> wordsOfRows(const SweepRows& plan, const Settings& given = {}) {
     std::vector<std::string> words;
     for (const Settings& row : plan.rows) words.push_back(inWords(choicesOf(row, given)));
     return words;
@@ -25,7 +25,7 @@ bool holds(const std::vector<std::string>& all, const std::string& one) {
     return std::ranges::count(all, one) > 0;
 }
 
-std::vector<std::string> reasonsOf(const SweepPlan& plan, const std::string& option) {
+std::vector<std::string> reasonsOf(const SweepRows& plan, const std::string& option) {
     std::vector<std::string> reasons;
     for (const SweepSkip& skip : plan.skips)
         for (const Choice& choice : skip.tried)
@@ -33,8 +33,8 @@ std::vector<std::string> reasonsOf(const SweepPlan& plan, const std::string& opt
     return reasons;
 }
 
-TEST(TradeoffPlan, TheDefaultStandsFirstAndNothingTwice) {
-    const SweepPlan plan = usualPlan();
+TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
+    const SweepRows plan = usualPlan();
     ASSERT_FALSE(plan.rows.empty());
     EXPECT_EQ(plan.rows.front(), Settings());
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
@@ -45,9 +45,9 @@ TEST(TradeoffPlan, TheDefaultStandsFirstAndNothingTwice) {
 }
 
 // Whatever Settings there are: each swept value of each is a row of each path, or a skip with a reason.
-TEST(TradeoffPlan, EveryValueOfEverySettingIsDrawnOrHasAReason) {
+TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
     const Settings given;
-    const SweepPlan plan = usualPlan(given);
+    const SweepRows plan = usualPlan(given);
     std::size_t tried = 0;
     Settings::fields(given, [&](const Field& field, const auto&) {
         for (const std::string& value : sweptValues(given, field.option)) {
@@ -71,7 +71,7 @@ TEST(TradeoffPlan, EveryValueOfEverySettingIsDrawnOrHasAReason) {
     EXPECT_GT(tried, 50u);
 }
 
-TEST(TradeoffPlan, OneAtATimeAndPairsButNotTheProduct) {
+TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
     const std::vector<std::string> rows = wordsOfRows(usualPlan());
     for (const char* row :
          {"forward_plus", "deferred", "deferred, gbuffer full", "forward_plus, size 320x180",
@@ -80,8 +80,8 @@ TEST(TradeoffPlan, OneAtATimeAndPairsButNotTheProduct) {
     EXPECT_FALSE(holds(rows, "forward_plus, prepass off, size 320x180")) << "no declared pair";
 }
 
-TEST(TradeoffPlan, WhatAPathDoesNotReadIsSaidOnce) {
-    const SweepPlan plan = usualPlan();
+TEST(TradeoffSweep, WhatAPathDoesNotReadIsSaidOnce) {
+    const SweepRows plan = usualPlan();
     const std::vector<std::string> gbuffer = reasonsOf(plan, "gbuffer"), prepass = reasonsOf(plan, "prepass");
     EXPECT_EQ(gbuffer, (std::vector<std::string>(2, "forward_plus has no G-buffer"))) << "compact and full";
     EXPECT_EQ(prepass, (std::vector<std::string>(2, "deferred has no depth pre-pass"))) << "on and off";
@@ -89,20 +89,20 @@ TEST(TradeoffPlan, WhatAPathDoesNotReadIsSaidOnce) {
     EXPECT_FALSE(holds(rows, "forward_plus, gbuffer full"));
 }
 
-TEST(TradeoffPlan, TheReferenceIsNoRow) {
-    const SweepPlan plan = usualPlan();
+TEST(TradeoffSweep, TheReferenceIsNoRow) {
+    const SweepRows plan = usualPlan();
     EXPECT_EQ(reasonsOf(plan, "path").front(), "is what the others are measured against");
     for (const Settings& row : plan.rows) EXPECT_NE(row.path, Path::reference);
 }
 
-TEST(TradeoffPlan, ReferenceSamplesReachNoRow) {
+TEST(TradeoffSweep, ReferenceSamplesReachNoRow) {
     Settings given;
     given.spp = 64;
     given.reference_mode = ReferenceMode::scene;
     for (const Settings& row : usualPlan(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
 }
 
-TEST(TradeoffPlan, SizesArePartsOfTheGivenOne) {
+TEST(TradeoffSweep, SizesArePartsOfTheGivenOne) {
     Settings given;
     given.size = {641, 3};
     const std::vector<std::string> expected{"160x1", "321x2", "481x2"};
@@ -114,9 +114,9 @@ TEST(TradeoffPlan, SizesArePartsOfTheGivenOne) {
     EXPECT_THROW(static_cast<void>(sweptValues(given, "gamma")), std::runtime_error);
 }
 
-TEST(TradeoffPlan, AGridIsItsProduct) {
+TEST(TradeoffSweep, AGridIsItsProduct) {
     const Settings given;
-    const SweepPlan plan =
+    const SweepRows plan =
         planSweep(given, {{{"path", {"deferred", "forward_plus"}}, {"size", {"64x36", "32x18"}}}, {}});
     const std::vector<std::string> expected{"deferred, size 64x36", "deferred, size 32x18",
                                             "forward_plus, size 64x36", "forward_plus, size 32x18",
@@ -125,13 +125,13 @@ TEST(TradeoffPlan, AGridIsItsProduct) {
     EXPECT_TRUE(plan.skips.empty());
 }
 
-TEST(TradeoffPlan, OneThatIsNotReadIsDrawnWithoutAndSaid) {
-    const SweepPlan plan = planSweep({}, {{{"gbuffer", {"compact", "full"}}}});
+TEST(TradeoffSweep, OneThatIsNotReadIsDrawnWithoutAndSaid) {
+    const SweepRows plan = planSweep({}, {{{"gbuffer", {"compact", "full"}}}});
     EXPECT_EQ(wordsOfRows(plan), std::vector<std::string>{"forward_plus"});
     EXPECT_EQ(plan.skips.size(), 2u);
 }
 
-TEST(TradeoffPlan, NothingToDrawIsAnError) {
+TEST(TradeoffSweep, NothingToDrawIsAnError) {
     try {
         planSweep({}, {{{"shadows", {"pcf"}}}});
         FAIL();
@@ -140,13 +140,13 @@ TEST(TradeoffPlan, NothingToDrawIsAnError) {
     }
 }
 
-TEST(TradeoffPlan, TooManyCombinationsAreRefusedBeforeTheyAreMade) {
+TEST(TradeoffSweep, TooManyCombinationsAreRefusedBeforeTheyAreMade) {
     Grid grid;
     for (int i = 0; i < 12; ++i) grid.push_back({"size", std::vector<std::string>(10, "8x8")});
     EXPECT_THROW(planSweep({}, {grid}), std::runtime_error);
 }
 
-TEST(TradeoffPlan, SkipsOfOneReasonAreOneLine) {
+TEST(TradeoffSweep, SkipsOfOneReasonAreOneLine) {
     const std::vector<SweepSkip> skips{
         {{{"path", "deferred"}, {"assign", "tiled"}}, "--assign tiled is not built yet; use every"},
         {{{"path", "forward_plus"}, {"assign", "tiled"}}, "--assign tiled is not built yet; use every"},
@@ -162,7 +162,7 @@ TEST(TradeoffPlan, SkipsOfOneReasonAreOneLine) {
     EXPECT_EQ(groups[2].tried, std::vector<std::string>{"deferred, msaa 4, size 9x9"});
 }
 
-TEST(TradeoffPlan, DeclaredPairsAndUnreadSettingsExist) {
+TEST(TradeoffSweep, DeclaredPairsAndUnreadSettingsExist) {
     const Settings usual;
     std::set<std::string> options{"*"};
     Settings::fields(usual, [&](const Field& field, const auto&) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/view.h"
+#include "shared/scene/motion/bounds.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

@@ -3,7 +3,7 @@
 // where the specular lobe of shaders/lib/brdf.glsl has changed; the file belongs at shared/light/ltc.exr.
 #include "shared/image/exr.h"
 #include "shared/light/fit/fit.h"
-#include "shared/light/ltc_file.h"
+#include "shared/light/ltc.h"
 
 #include <fmt/format.h>
 

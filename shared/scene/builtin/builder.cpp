@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/builtin/builder.h"
 
-#include "shared/scene/axes.h"
+#include "shared/scene/model/axes.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/scene/builtin/shapes.h"
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <glm/ext/matrix_transform.hpp>
 

@@ -2,7 +2,7 @@
 // Scenes that need no file: the same on every machine, made from numbers.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // What builtin.cpp lists; each function makes one scene, README.md says what it is for.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <cstdint>
 

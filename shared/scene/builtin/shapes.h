@@ -4,7 +4,7 @@
 // tangent) points towards falling v, to the top of the image, as a glTF normal texture wants it.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <functional>
 #include <vector>

@@ -3,7 +3,7 @@
 // the same work. Do not change one without renaming the scene.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
-#include "shared/scene/rig.h"
+#include "shared/scene/lights/rig.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
-#include "shared/scene/rig.h"
+#include "shared/scene/lights/rig.h"
 
 #include <fmt/format.h>
 

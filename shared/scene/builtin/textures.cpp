@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/builtin/textures.h"
 
-#include "shared/scene/rig.h"
+#include "shared/scene/lights/rig.h"
 
 #include <algorithm>
 #include <cmath>

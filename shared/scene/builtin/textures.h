@@ -3,7 +3,7 @@
 // normal maps take an exactly rounded square root), and so are the same bytes on every machine.
 #pragma once
 
-#include "shared/scene/scene.h"
+#include "shared/scene/model/scene.h"
 
 #include <array>
 #include <cstdint>

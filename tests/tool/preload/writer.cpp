@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // report_writer old|new|check FOLDER: one of two reports written as compare writes it, or what is there made
 // good as compare does before it draws. Without a device, so that a test can run it hundreds of times.
-#include "compare/output.h"
+#include "compare/files/output.h"
 #include "compare/report/report.h"
 #include "tests/unit/report_maker.h"
 

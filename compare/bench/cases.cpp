@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/cases.h"
+
+#include "shared/scene/builtin/builtin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+std::vector<std::string> wordsOf(const std::string& list, std::string_view option) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        words.push_back(list.substr(begin, end - begin));
+        if (words.back().empty())
+            throw std::runtime_error(fmt::format("{} '{}': an empty value between commas", option, list));
+        begin = end + 1;
+    }
+    return words;
+}
+
+// Values of one of the Settings, each once, in the order given.
+template <class T>
+std::vector<T> valuesOf(const std::string& list, std::string_view option, std::string_view setting,
+                        T Settings::*member) {
+    std::vector<T> values;
+    for (const std::string& word : wordsOf(list, option)) {
+        Settings settings;
+        try {
+            set(settings, setting, word);
+        } catch (const std::runtime_error&) {
+            throw std::runtime_error(
+                fmt::format("{} {}: takes {}, separated by commas", option, word, acceptedValues(setting)));
+        }
+        if (std::ranges::find(values, settings.*member) == values.end()) values.push_back(settings.*member);
+    }
+    return values;
+}
+
+template <class T>
+std::vector<T> all() {
+    std::vector<T> values;
+    for (const auto& [value, name] : enumNames<T>()) values.push_back(value);
+    return values;
+}
+
+constexpr std::string_view prefix = "builtin:";
+
+// "builtin:spheres" of "builtin:spheres?lights=64"; empty where the scene takes no such parameter.
+std::string sceneOfLights(const std::string& scene) {
+    if (!scene.starts_with(prefix)) return {};
+    const std::string name = scene.substr(prefix.size(), scene.find('?') - prefix.size());
+    const std::vector<BuiltinName> names = builtinNames();
+    const auto builtin = std::ranges::find(names, name, &BuiltinName::name);
+    if (builtin == names.end() || !builtin->parameter.starts_with("lights=")) return {};
+    return std::string(prefix) + name;
+}
+
+// The scene and the Settings with so many lights.
+void putLights(std::uint32_t count, std::string& scene, Settings& settings) {
+    const std::string parametric = sceneOfLights(scene);
+    if (!parametric.empty() && settings.lights.empty()) {
+        scene = fmt::format("{}?lights={}", parametric, count);
+        return;
+    }
+    if (const std::size_t braces = settings.lights.find("{}"); braces != std::string::npos)
+        settings.lights.replace(braces, 2, fmt::format("{}", count));
+    else if (settings.lights.empty())
+        settings.lights = count > 0 ? fmt::format("point:{}", count) : "";
+    else
+        throw std::runtime_error(
+            fmt::format("--lights {}: --light-counts says how many; leave one out, or put {{}} where the "
+                        "count is to stand",
+                        settings.lights));
+}
+
+}  // namespace
+
+std::vector<Path> benchPaths(const std::string& words) {
+    const std::vector<Path> paths = valuesOf(words, "--paths", "path", &Settings::path);
+    if (std::ranges::count(paths, Path::reference) > 0)
+        throw std::runtime_error("--paths reference: is no path to be timed; it has deferred, forward_plus");
+    return paths;
+}
+
+std::vector<Assignment> benchAssignments(const std::string& words) {
+    return valuesOf(words, "--assign", "assign", &Settings::assign);
+}
+
+std::vector<Size> benchSizes(const std::string& words) {
+    return valuesOf(words, "--sizes", "size", &Settings::size);
+}
+
+std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
+    std::vector<std::uint32_t> counts;
+    for (const std::string& word : wordsOf(words, "--light-counts")) {
+        std::uint32_t count = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+        if (error != std::errc() || end != word.data() + word.size() || count > 0x7fffffffu)
+            throw std::runtime_error(fmt::format(
+                "--light-counts {}: whole numbers from 0 to 2147483647, separated by commas", word));
+        counts.push_back(count);
+    }
+    std::ranges::sort(counts);
+    counts.erase(std::ranges::unique(counts).begin(), counts.end());
+    return counts;
+}
+
+BenchCases planBench(const std::string& scene, const Settings& given, const BenchOptions& options) {
+    const std::vector<Path> paths =
+        options.paths.empty() ? std::vector{Path::deferred, Path::forward_plus} : options.paths;
+    const std::vector<Assignment> assignments = options.assign.empty() ? all<Assignment>() : options.assign;
+    const std::vector<Size> sizes = options.sizes.empty() ? std::vector{given.size} : options.sizes;
+    std::vector<std::optional<std::uint32_t>> counts(options.light_counts.begin(),
+                                                     options.light_counts.end());
+    if (counts.empty()) counts.emplace_back();
+
+    BenchCases plan;
+    const auto skip = [&](const BenchSkip& skipped) {
+        const auto same = [&](const BenchSkip& s) {
+            return s.path == skipped.path && s.assign == skipped.assign && s.reason == skipped.reason;
+        };
+        if (std::ranges::none_of(plan.skips, same)) plan.skips.push_back(skipped);
+    };
+    for (const std::optional<std::uint32_t>& count : counts) {
+        BenchGroup group{count, scene, {}};
+        Settings lit = given;
+        if (count) putLights(*count, group.scene, lit);
+        for (const Size& size : sizes)
+            for (const Assignment assign : assignments)
+                for (const Path path : paths) {
+                    Settings settings = lit;
+                    settings.path = path;
+                    settings.assign = assign;
+                    settings.size = size;
+                    if (const auto problem = settings.problem())
+                        skip({path, assign, std::nullopt, std::nullopt, *problem});
+                    else
+                        group.settings.push_back(settings);
+                }
+        if (!group.settings.empty()) plan.groups.push_back(std::move(group));
+    }
+    if (plan.groups.empty())
+        throw std::runtime_error(
+            fmt::format("nothing to time: {}: {}", skipName(plan.skips.front()), plan.skips.front().reason));
+    return plan;
+}
+
+std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, double>> measured,
+                                  std::uint32_t lights) {
+    if (measured.size() < 2) return std::nullopt;
+    const auto& [n0, ms0] = measured[measured.size() - 2];
+    const auto& [n1, ms1] = measured[measured.size() - 1];
+    const double slope = std::max(0.0, (ms1 - ms0) / (static_cast<double>(n1) - static_cast<double>(n0)));
+    return ms1 + slope * (static_cast<double>(lights) - static_cast<double>(n1));
+}
+
+std::string modeName(Path path, Assignment assign) {
+    return fmt::format("{}, {}", nameOf(path), nameOf(assign));
+}
+
+std::string skipName(const BenchSkip& skip) {
+    std::string name = modeName(skip.path, skip.assign);
+    if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);
+    if (skip.lights) name += fmt::format(", {} lights", *skip.lights);
+    return name;
+}
+
+}  // namespace diptych

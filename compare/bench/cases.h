@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Which Settings a benchmark times side by side, and which it does not and why.
+#pragma once
+
+#include "shared/frame/settings.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+// As asked for; an empty list is what its comment says.
+struct BenchOptions {
+    std::vector<Path> paths;                  // both
+    std::vector<Assignment> assign;           // all
+    std::vector<Size> sizes;                  // --size
+    std::vector<std::uint32_t> light_counts;  // the scene's own lights; ascending
+    double max_ms = 2000;                     // a frame that takes longer is not repeated
+    bool frames = true, kernels = true;
+};
+
+// Words of the command line, separated by commas. Throw std::runtime_error naming the option and the word.
+std::vector<Path> benchPaths(const std::string& words);
+std::vector<Assignment> benchAssignments(const std::string& words);
+std::vector<Size> benchSizes(const std::string& words);
+std::vector<std::uint32_t> benchLightCounts(const std::string& words);  // each once, ascending
+
+// Settings of one scene that are timed in turn, so that a device that slows down does so for all alike.
+struct BenchGroup {
+    std::optional<std::uint32_t> lights;  // as asked for
+    std::string scene;                    // as loadScene() takes it
+    std::vector<Settings> settings;
+};
+
+struct BenchSkip {
+    Path path = Path::deferred;
+    Assignment assign = Assignment::every;
+    std::optional<Size> size;             // nothing: none
+    std::optional<std::uint32_t> lights;  // nothing: none
+    std::string reason;
+};
+
+struct BenchCases {
+    std::vector<BenchGroup> groups;  // by light count
+    std::vector<BenchSkip> skips;
+};
+
+// Light counts are put into a built-in scene that takes ?lights=N, into a `--lights` whose name holds {}, or
+// else into a seeded rig of point lights. Throws std::runtime_error where both a count and other lights were
+// asked for, and where nothing is left to time.
+BenchCases planBench(const std::string& scene, const Settings& given, const BenchOptions& options);
+
+// What a frame will take with `lights`, ms: on the line through the last two of (lights, ms), ascending, and
+// no less than the last. Nothing where there are not two.
+std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, double>> measured,
+                                  std::uint32_t lights);
+
+// "forward_plus, clustered"
+std::string modeName(Path path, Assignment assign);
+// "forward_plus, every, 640x360, 1024 lights"
+std::string skipName(const BenchSkip& skip);
+
+}  // namespace diptych

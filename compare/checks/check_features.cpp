@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "compare/checks/check_features.h"
+
+#include "shared/scene/model/material_slots.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+constexpr const char* slotNames[gpu::SLOT_COUNT] = {
+    "base colour", "metallic-roughness", "normal",          "occlusion",
+    "emission",    "specular",           "specular colour", "lightmap"};
+
+const Primitive& primitiveOf(const Scene& scene, const Instance& instance) {
+    return scene.meshes[static_cast<std::size_t>(instance.mesh)]
+        .primitives[static_cast<std::size_t>(instance.primitive)];
+}
+const Material& materialOf(const Scene& scene, const Primitive& primitive) {
+    return scene.materials[static_cast<std::size_t>(primitive.material)];
+}
+const TextureSlot& slotOf(const Material& material, std::size_t slot) {
+    return material.*materialSlots[slot].texture;
+}
+const Texture& textureOf(const Scene& scene, const TextureSlot& slot) {
+    return scene.textures[static_cast<std::size_t>(slot.texture)];
+}
+const TextureImage& imageOf(const Scene& scene, const TextureSlot& slot) {
+    return scene.images[static_cast<std::size_t>(textureOf(scene, slot).image)];
+}
+
+// use(slot number, slot) for each one that is read.
+template <class Use>
+void forEachSlot(const Material& material, const Use& use) {
+    for (std::size_t s = 0; s < materialSlots.size(); ++s)
+        if (readsSlot(material, s)) use(s, slotOf(material, s));
+}
+
+// "Base colour and normal: TEXT" for the slots that share a text, one after the other. `textOf` an empty one:
+// the slot is left out.
+template <class TextOf>
+std::string bySlot(const Material& material, const TextOf& textOf) {
+    std::vector<std::pair<std::string, std::string>> groups;  // text, slots
+    forEachSlot(material, [&](std::size_t s, const TextureSlot& slot) {
+        const std::string text = textOf(slot);
+        if (text.empty()) return;
+        const auto same = std::ranges::find(groups, text, &std::pair<std::string, std::string>::first);
+        if (same == groups.end())
+            groups.emplace_back(text, slotNames[s]);
+        else
+            same->second += fmt::format(" and {}", slotNames[s]);
+    });
+    std::string out;
+    for (const auto& [text, slots] : groups)
+        out += fmt::format("{}{}: {}", out.empty() ? "" : "; ", slots, text);
+    if (!out.empty() && out[0] >= 'a') out[0] = static_cast<char>(out[0] - 'a' + 'A');
+    return out;
+}
+
+// ---- texture transforms ------------------------------------------------------------------------------
+
+// KHR_texture_transform's numbers back from the matrix; a mirroring one is told as a negative second scale.
+std::string transformOf(const TextureSlot& slot) {
+    if (!isTransformed(slot)) return {};
+    const double determinant = slot.u.x * slot.v.y - slot.u.y * slot.v.x;
+    const double sx = std::hypot(slot.u.x, slot.v.x);
+    const double sy = std::copysign(std::hypot(slot.u.y, slot.v.y), determinant);
+    const double angle = sx > 0 ? std::atan2(0 - slot.v.x, slot.u.x) : std::atan2(slot.u.y, slot.v.y);
+    // 1e-6: what sines and cosines leave of a number that the file has exactly.
+    const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6; };
+    std::string out;
+    const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
+    if (differ(slot.u.z, 0) || differ(slot.v.z, 0))
+        add(fmt::format("offset {:.4g} {:.4g}", slot.u.z, slot.v.z));
+    if (differ(angle, 0)) add(fmt::format("turned {:.4g}\u00b0", glm::degrees(angle)));
+    if (differ(sx, 1) || differ(sy, 1)) add(fmt::format("scaled {:.4g} \u00d7 {:.4g}", sx, sy));
+    return out.empty() ? "all but untransformed" : out;
+}
+
+// ---- samplers ----------------------------------------------------------------------------------------
+
+// Of the coordinates that the slot reads its texture at.
+std::pair<glm::dvec2, glm::dvec2> rangeOf(const Primitive& primitive, const TextureSlot& slot) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const glm::vec2& uv : primitive.texcoords[slot.texcoord]) {
+        const glm::dvec2 at(slot.u.x * uv.x + slot.u.y * uv.y + slot.u.z,
+                            slot.v.x * uv.x + slot.v.y * uv.y + slot.v.z);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    return {low, high};
+}
+
+// Whether the coordinates pass the texture's edge, by more than rounding, and then do not repeat.
+bool isWrapped(Wrap wrap, double low, double high) {
+    return wrap != Wrap::repeat && low <= high && (low < -1e-4 || high > 1 + 1e-4);
+}
+std::string wrapWords(Wrap wrap, const char* axes) {
+    return fmt::format("beyond its edge {} along {}",
+                       wrap == Wrap::mirrored_repeat ? "mirrored copies" : "stripes of its last texels",
+                       axes);
+}
+
+std::string samplingOf(const Scene& scene, const Primitive& primitive, const TextureSlot& slot) {
+    const Sampler& sampler = textureOf(scene, slot).sampler;
+    std::string out;
+    const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
+    if (sampler.wrap_s != Wrap::repeat || sampler.wrap_t != Wrap::repeat) {
+        const auto [low, high] = rangeOf(primitive, slot);
+        const bool u = isWrapped(sampler.wrap_s, low.x, high.x), v = isWrapped(sampler.wrap_t, low.y, high.y);
+        if (u && v && sampler.wrap_s == sampler.wrap_t) {
+            add(wrapWords(sampler.wrap_s, "u and v"));
+        } else {
+            if (u) add(wrapWords(sampler.wrap_s, "u"));
+            if (v) add(wrapWords(sampler.wrap_t, "v"));
+        }
+    }
+    if (!sampler.magnify_linear) add("enlarged texels are sharp squares");
+    return out;
+}
+
+bool isDeep(const Scene& scene, const TextureSlot& slot) {
+    return imageOf(scene, slot).deep();
+}
+
+template <class Texel>
+float leastAlphaOf(const std::vector<Texel>& rgba) {
+    Texel least = std::numeric_limits<Texel>::max();
+    for (std::size_t i = 3; least > 0 && i < rgba.size(); i += 4) least = std::min(least, rgba[i]);
+    return static_cast<float>(least) / static_cast<float>(std::numeric_limits<Texel>::max());
+}
+
+// Whether flat normals can be told from smooth ones.
+bool isBent(const Primitive& primitive) {
+    return std::ranges::any_of(primitive.normals,
+                               [&](const glm::vec3& n) { return n != primitive.normals.front(); });
+}
+
+bool isMirrored(const Instance& instance) {
+    return glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+}
+
+}  // namespace
+
+// ---- which -------------------------------------------------------------------------------------------
+
+CheckFeatures featuresOf(const Scene& scene, const Primitive& primitive) {
+    CheckFeatures features = 0;
+    const auto add = [&](CheckFeature feature, bool is) {
+        if (is) features |= bitOf(feature);
+    };
+    const Material& m = materialOf(scene, primitive);
+    forEachSlot(m, [&](std::size_t, const TextureSlot& slot) {
+        add(CheckFeature::texture_transform, isTransformed(slot));
+        add(CheckFeature::second_texcoord, slot.texcoord == 1);
+        add(CheckFeature::sampler, !samplingOf(scene, primitive, slot).empty());
+        add(CheckFeature::deep_image, isDeep(scene, slot));
+    });
+    add(CheckFeature::orientation, readsSlot(m, gpu::SLOT_base_color) || readsSlot(m, gpu::SLOT_emissive));
+    add(CheckFeature::normal_map, readsSlot(m, gpu::SLOT_normal));
+    add(CheckFeature::vertex_colors,
+        std::ranges::any_of(primitive.colors, [](const glm::vec4& c) { return c != glm::vec4(1); }));
+    add(CheckFeature::alpha_mask, m.alpha_mode == AlphaMode::mask);
+    add(CheckFeature::blend, m.alpha_mode == AlphaMode::blend);
+    add(CheckFeature::double_sided, m.double_sided);
+    add(CheckFeature::unlit, m.unlit);
+    add(CheckFeature::morph, !primitive.targets.empty());
+    add(CheckFeature::flat, primitive.flat && !m.unlit && isBent(primitive));
+    return features;
+}
+
+CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeatures features) {
+    if (isMirrored(instance)) {
+        features |= bitOf(CheckFeature::mirrored);
+        features &= ~bitOf(CheckFeature::orientation);  // what is pictured may well be mirrored
+    }
+    if (scene.nodes[static_cast<std::size_t>(instance.node)].skin >= 0 &&
+        !primitiveOf(scene, instance).joint_sets.empty())
+        features |= bitOf(CheckFeature::skin);
+    return features;
+}
+
+// ---- what is seen ------------------------------------------------------------------------------------
+
+// No texel and no vertex makes the alpha of the primitive smaller than that.
+float CheckSentences::leastAlpha(const Primitive& primitive) {
+    const Material& m = materialOf(scene_, primitive);
+    float least = m.base_color.a;
+    if (!primitive.colors.empty())
+        least *= std::ranges::min(primitive.colors, {}, [](const glm::vec4& c) { return c.a; }).a;
+    if (!readsSlot(m, gpu::SLOT_base_color)) return least;
+    const auto [known, isNew] = least_alpha_.emplace(textureOf(scene_, m.base_color_texture).image, 1.0f);
+    if (isNew) {
+        const TextureImage& image = imageOf(scene_, m.base_color_texture);
+        known->second = image.rgba16.empty() ? leastAlphaOf(image.rgba) : leastAlphaOf(image.rgba16);
+    }
+    return least * known->second;
+}
+
+std::string CheckSentences::ofMask(const Primitive& primitive) {
+    const float cutoff = materialOf(scene_, primitive).alpha_cutoff;
+    return leastAlpha(primitive) >= cutoff
+               ? fmt::format("Masked at {:.3g}, but its alpha is nowhere below: nothing is cut out.", cutoff)
+               : fmt::format(
+                     "The cut-out follows the outline of what is pictured (alpha {:.3g}); what is "
+                     "behind shows through.",
+                     cutoff);
+}
+
+std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
+    const Primitive& primitive = primitiveOf(scene_, instance);
+    const Material& m = materialOf(scene_, primitive);
+    switch (feature) {
+        case CheckFeature::texture_transform:
+            return bySlot(m, transformOf) +
+                   ". What is pictured there (arrows, frames, seams) falls into place.";
+        case CheckFeature::second_texcoord:
+            return bySlot(m,
+                          [&](const TextureSlot& slot) -> std::string {
+                              if (slot.texcoord != 1) return {};
+                              return primitive.texcoords[1].empty()
+                                         ? "one texel all over, as TEXCOORD_1 is missing"
+                                         : "laid out by TEXCOORD_1";
+                          }) +
+                   ". It fits the surface, neither stretched nor torn.";
+        case CheckFeature::sampler:
+            return bySlot(m, [&](const TextureSlot& slot) { return samplingOf(scene_, primitive, slot); }) +
+                   ".";
+        case CheckFeature::normal_map:
+            return fmt::format(
+                "Bumps rise out of the surface, lit from the side of the lights as flat parts beside "
+                "them are ({}).",
+                primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
+        case CheckFeature::vertex_colors:
+            return "The vertices' colours tint it: gradients are smooth, and ticks, not crosses, stand out.";
+        case CheckFeature::alpha_mask:
+            return ofMask(primitive);
+        case CheckFeature::blend:
+            return "See-through in the file, drawn opaque here: its whole shape is filled.";
+        case CheckFeature::double_sided:
+            return "Seen from behind it is there too, and lit by the lights on that side.";
+        case CheckFeature::mirrored:
+            return "Mirrored by its node: its outside is seen, not its inside, and bumps and light agree "
+                   "with its "
+                   "neighbours'.";
+        case CheckFeature::unlit:
+            return "Flat colour, without shading or highlight, whatever the lights do.";
+        case CheckFeature::deep_image:
+            return bySlot(m,
+                          [&](const TextureSlot& slot) -> std::string {
+                              return isDeep(scene_, slot) ? "over 8 bits a component" : "";
+                          }) +
+                   ". Gradients run without steps.";
+        case CheckFeature::skin:
+            return "Stands in bind pose, whole: no vertex strays.";
+        case CheckFeature::morph:
+            return fmt::format("Drawn without its {} morph target{}: the mesh as modelled.",
+                               primitive.targets.size(), primitive.targets.size() == 1 ? "" : "s");
+        case CheckFeature::flat:
+            return "The mesh has no normals: its triangles are flat, with hard edges between them.";
+        case CheckFeature::orientation:
+            return "What is pictured stands upright and is not mirrored: letters can be read.";
+    }
+    return {};
+}
+
+}  // namespace diptych

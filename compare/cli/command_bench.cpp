@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/bench.h"
+#include "compare/cli/commands.h"
+#include "compare/files/output.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+// Frames of one kernel where --runs says less: its slope is that of the fastest two.
+constexpr int fewestKernelRuns = 15;
+
+std::filesystem::path folderOf(const Options& options) {
+    const Output output = outputOf(options.out.empty() ? "diptych-bench" : options.out);
+    if (output.kind != OutputKind::folder)
+        throw std::runtime_error(
+            fmt::format("-o {}: a benchmark is a folder; give a name without ending", output.path.string()));
+    checkReplaceable(output, benchMark, options.force);
+    return output.path;
+}
+
+void checkOptions(const Options& options) {
+    if (options.scenes.size() != 1)
+        throw std::runtime_error(
+            fmt::format("{}: a benchmark is of one scene; run it once for each", options.scenes[1]));
+    if (options.cameras.size() != 1)
+        throw std::runtime_error("--camera: a benchmark is of one camera; run it once for each");
+    if (options.runs < 1) throw std::runtime_error("--runs 0: a benchmark needs times; 1 or more");
+    if (options.settings.path == Path::reference)
+        throw std::runtime_error("--path reference: is no path to be timed; use another");
+}
+
+BenchCases planOf(const Options& options, const BenchOptions& bench) {
+    if (!bench.frames) return {};
+    Settings given = options.settings;
+    given.camera = options.cameras.front();
+    return planBench(options.scenes.front(), given, bench);
+}
+
+// --path X is --paths X where that says nothing.
+BenchOptions benchOptions(const Options& options) {
+    BenchOptions bench = options.bench;
+    if (bench.paths.empty() && options.path_given) bench.paths = {options.settings.path};
+    return bench;
+}
+
+}  // namespace
+
+int runBench(const Options& options) {
+    checkOptions(options);
+    const BenchOptions asked = benchOptions(options);
+    const BenchCases plan = planOf(options, asked);
+    const std::filesystem::path folder = folderOf(options);
+    if (options.debug_given) note(options, "--debug is not used: a benchmark makes no picture");
+    if (!options.channels.empty()) note(options, "--channels is not used: a benchmark makes no channels");
+
+    Progress progress(progressOutput(options));
+    Device device(deviceOptions(options));
+    say(options, "on " + device.info().name);
+    Bench bench{options.scenes.front(),
+                options.settings,
+                asked,
+                reportDevice(device),
+                options.runs,
+                {},
+                plan.skips,
+                {}};
+    const bool prints = !options.json && !options.quiet;
+    const auto print = [&](const std::string& text) {
+        if (!prints || std::ferror(stdout)) return;
+        progress.wipe();
+        fmt::print("{}", text);
+        std::fflush(stdout);
+    };
+    const Stage whole(progress, bench.scene);
+    const double groups = static_cast<double>(plan.groups.size()) + (asked.kernels ? 0.5 : 0.0);
+    for (std::size_t i = 0; i < plan.groups.size(); ++i) {
+        const BenchGroup& group = plan.groups[i];
+        const double from = static_cast<double>(i) / groups, to = static_cast<double>(i + 1) / groups;
+        const double read = from + 0.1 * (to - from);
+        const Scene scene = loadShown(group.scene, options.settings, whole.part(from, read));
+        const std::size_t first = bench.rows.size();
+        measureGroup(device, group, scene, bench, whole.part(read, to));
+        print(benchTable(bench, first));
+    }
+    if (asked.kernels)
+        bench.kernels =
+            measureKernels(device, std::max(options.runs, fewestKernelRuns),
+                           whole.part(static_cast<double>(plan.groups.size()) / groups, 1).about("kernels"));
+    checkValidation(device);
+    const std::string json = writeBench(bench, folder, options.force);
+    progress.wipe();
+    if (options.json) fmt::print("{}", json);
+    print(benchEnd(bench) + (folder / "index.html").string() + "\n");
+    return 0;
+}
+
+}  // namespace diptych

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices) {
+    nlohmann::ordered_json json{{"schema", 1}, {"devices", nlohmann::ordered_json::array()}};
+    for (const DeviceInfo& device : devices) {
+        nlohmann::ordered_json facts = nlohmann::ordered_json::array();
+        for (const DeviceFact& fact : device.facts)
+            facts.push_back({{"what", fact.what},
+                             {"there", fact.there},
+                             {"required", fact.required},
+                             {"note", fact.note}});
+        json["devices"].push_back({{"index", device.index},
+                                   {"name", device.name},
+                                   {"driver", device.driver},
+                                   {"type", device.type},
+                                   {"api_version", device.api_version},
+                                   {"usable", device.usable()},
+                                   {"facts", facts}});
+    }
+    return json;
+}
+
+void print(const DeviceInfo& device) {
+    fmt::print("{}  {} ({}, {}, Vulkan {}){}\n", device.index, device.name, device.type, device.driver,
+               device.api_version, device.usable() ? "" : ": cannot be used");
+    for (const DeviceFact& fact : device.facts)
+        fmt::print("     {:<3}  {:<38} {}{}\n", fact.there ? "yes" : "no", fact.what, fact.note,
+                   fact.required && !fact.there ? " (required)" : "");
+}
+
+}  // namespace
+
+int runDevices(const Options& options) {
+    refuseOut(options);
+    std::vector<DeviceInfo> devices = listDevices();
+    if (!options.device.empty()) {
+        const DeviceInfo chosen = Device({options.device, options.validate}).info();
+        std::erase_if(devices, [&](const DeviceInfo& device) { return device.index != chosen.index; });
+    }
+    for (DeviceInfo& device : devices) {
+        if (!device.usable()) continue;
+        Device opened({std::to_string(device.index), options.validate});
+        for (DeviceFact& fact : opened.probe()) device.facts.push_back(std::move(fact));
+        checkValidation(opened);
+    }
+    if (options.json)
+        fmt::print("{}\n",
+                   jsonOf(devices).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    else if (!options.quiet)
+        for (const DeviceInfo& device : devices) print(device);
+    return 0;
+}
+
+}  // namespace diptych

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// From the words of the command line to what is asked for.
+#pragma once
+
+#include "compare/cli/options.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// `words` as the shell gives them, without the program's name. Every option of the tool's contract parses;
+// throws std::runtime_error, one line, for a usage error and for what is not built yet.
+Options parseCommandLine(const std::vector<std::string>& words);
+
+}  // namespace diptych

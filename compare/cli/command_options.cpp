@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/command_options.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+const Command commands[] = {
+    {"compare", "Draws a scene through both paths and compares every channel: table, pictures, verdict",
+     "diptych compare helmet.glb --lights point:32 -o helmet-report", true},
+    {"render", "Draws one Frame: an EXR with every channel, and a PNG",
+     "diptych render helmet.glb --path deferred --debug normals -o normals.png", true},
+    {"diff", "Compares any two EXR, PNG, HDR or PFM images, whoever rendered them",
+     "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference", true},
+    {"tradeoff", "Draws a scene under many Settings: time against error of each, and the Pareto front",
+     "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff", true},
+    {"choose", "The path and Settings for an error budget or a time budget",
+     "diptych choose helmet.glb --max-ms 8", false},
+    {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
+     false},
+    {"plan", "What a scene needs modelled, what is left out and why; passes and bytes",
+     "diptych plan helmet.glb --gbuffer compact", true},
+    {"view", "A window with both paths live", "diptych view helmet.glb", false},
+    {"bench", "Frame and pass times of several Settings side by side",
+     "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9", true},
+    {"devices", "Vulkan devices and what each can and cannot do here", "diptych devices", true},
+};
+
+const char* const pixel_group = "What may change a pixel (a value that is not built yet is refused by name)";
+const char* const picture_group = "Channels and pictures";
+const char* const output_group = "Output";
+const char* const selection_group = "What counts";
+const char* const device_group = "Device and timing";
+const char* const later_group = "Not built yet";
+
+// An option of the contract that cannot be done yet.
+void addLater(CLI::App& app, ParsedOptions& said, const std::string& option, const std::string& type,
+              const std::string& help) {
+    app.add_option_function<std::string>(
+           option,
+           [&said, option](const std::string& value) { said.not_built.push_back(option + " " + value); },
+           help)
+        ->type_name(type)
+        ->group(later_group);
+}
+
+void addSettings(CLI::App& app, ParsedOptions& said, const std::string& except = "") {
+    app.option_defaults()->group(pixel_group);
+    const Settings usual;
+    Settings::fields(usual, [&](const Field& field, const auto&) {
+        const std::string option(field.option);
+        if (option == "camera" || option == except) return;
+        const std::string value = valueOf(usual, option);
+        app.add_option_function<std::string>(
+               "--" + option,
+               [&said, option](const std::string& words) { said.settings.emplace_back(option, words); },
+               std::string(field.help) + (value.empty() ? "" : " (" + value + ")"))
+            ->type_name(acceptedValues(option));
+    });
+    app.add_option(
+           "--camera", said.cameras,
+           "index, name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\"; may be given several times")
+        ->type_name("CAMERA")
+        ->allow_extra_args(false);
+    app.add_option("--settings", said.settings_file,
+                   "any of these as JSON, as every report prints them; applied first")
+        ->type_name("FILE.json");
+    app.add_option("--frames", said.frames, "frames of an animation (1)")->type_name("N");
+    app.add_option("--fps", said.fps, "their rate (30)")->type_name("F");
+}
+
+void addPicture(CLI::App& app, Options& options, ParsedOptions& said) {
+    app.option_defaults()->group(picture_group);
+    app.add_option("--debug", said.debug, "the channel that the picture shows (lit)")
+        ->type_name("NAME|NUMBER");
+    app.add_flag(
+        "--heat", options.heat,
+        "the picture shows how many lights each pixel evaluates, with a legend, whatever --debug says");
+    app.add_option("--channels", said.channels, "the channels to make, separated by commas (all)")
+        ->type_name("NAME|NUMBER,...");
+    CLI::Option* exposure =
+        app.add_option("--exposure", options.picture.exposure, "factor on the radiance, pictures only")
+            ->type_name("F");
+    app.add_option("--ev100", options.picture.ev100, "or exposure value at ISO 100")
+        ->type_name("F")
+        ->excludes(exposure);
+    app.add_flag_callback(
+        "--no-tonemap", [&options] { options.picture.tonemap = false; }, "clip instead, pictures only");
+}
+
+void addOutput(CLI::App& app, Options& options) {
+    app.option_defaults()->group(output_group);
+    app.add_flag("--json", options.json, "the result as JSON on stdout, and nothing else there");
+    CLI::Option* quiet = app.add_flag("-q,--quiet", options.quiet, "print only errors");
+    app.add_flag("-v,--verbose", options.verbose, "say on stderr what is being done")->excludes(quiet);
+}
+
+void addFiles(CLI::App& app, Options& options, const std::string& usual) {
+    app.option_defaults()->group(output_group);
+    app.add_option("-o,--out", options.out, usual)->type_name("DIR|FILE");
+    app.add_flag("--force", options.force, "replace what diptych did not write, too");
+}
+
+// Which pixels count.
+void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& said) {
+    app.option_defaults()->group(selection_group);
+    app.add_option("--mask", selection.mask, "compare only where this picture is at least half white")
+        ->type_name("FILE");
+    app.add_option("--ids", selection.ids, "compare only these materials of the reference")
+        ->type_name("ID,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--ignore-edges", selection.ignore_edges,
+                   "leave out what is within N pixels of another object")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000));
+    app.add_option("--crop", said.crop, "compare only this rectangle, from the top left")
+        ->type_name("X,Y,WxH");
+}
+
+void addTolerances(CLI::App& app, Options& options) {
+    app.option_defaults()->group(selection_group);
+    app.add_option("--tolerances", options.tolerances,
+                   "rules of what may differ, see compare/tolerances.schema.json")
+        ->type_name("FILE.json");
+}
+
+void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& said) {
+    app.option_defaults()->group(selection_group);
+    app.add_option("--metric", said.metric,
+                   "the figure that decides: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)")
+        ->type_name("NAME");
+    app.add_option("--tolerance", said.tolerance, "the most that passes; psnr and ssim: the least (identity)")
+        ->type_name("T");
+    app.add_option("--warn", diff.warn, "what is beyond it is warned of")->type_name("T");
+    app.add_option("--failing", diff.failing,
+                   "instead of --metric: this share of pixels may have errors above the tolerance")
+        ->type_name("SHARE")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--channels", diff.channels, "names of what is compared, * and ? allowed (all)")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--map", diff.names, "what another renderer's channels are called here; repeatable")
+        ->type_name("NAME=CHANNEL,...")
+        ->allow_extra_args(false);
+    app.add_option("--blur", diff.blur, "blur both first, standard deviation in pixels (0)")
+        ->type_name("PIXELS")
+        ->check(CLI::Range(0.0, 100.0));
+    app.add_option("--shift", diff.shift, "forgive what moved by up to so many pixels (0)")
+        ->type_name("PIXELS")
+        ->check(CLI::Range(0, 16));
+    app.add_option("--ppd", diff.flip.pixels_per_degree, "FLIP: pixels per degree of the view (67.0206)")
+        ->type_name("F");
+    app.add_option("--start-exposure", diff.flip.start_exposure,
+                   "HDR-FLIP: the darkest exposure, stops (from the reference)")
+        ->type_name("STOPS");
+    app.add_option("--stop-exposure", diff.flip.stop_exposure, "HDR-FLIP: the brightest exposure, stops")
+        ->type_name("STOPS");
+    app.add_option("--exposures", diff.flip.exposures, "HDR-FLIP: how many between them")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
+}
+
+// What is timed; every list is separated by commas.
+void addBench(CLI::App& app, ParsedOptions& said) {
+    app.option_defaults()->group("What is timed");
+    app.add_option("--paths", said.bench_paths, "the paths (deferred,forward_plus)")->type_name("PATH,...");
+    app.add_option("--assign", said.bench_assign, "the assignments (all that can be drawn)")
+        ->type_name(acceptedValues("assign") + ",...");
+    app.add_option("--sizes", said.bench_sizes, "picture sizes (--size)")->type_name("WxH,...");
+    app.add_option(
+           "--light-counts", said.light_counts,
+           "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "
+           "seeded rig (the scene's own)")
+        ->type_name("N,...");
+    app.add_option("--max-ms", said.max_ms,
+                   "a frame that takes longer is not repeated, nor tried with more lights (2000)")
+        ->type_name("T");
+    app.add_option("--kernels", said.kernels,
+                   "one light at one pixel beside hand-written AVX2: on, off, or only (on)")
+        ->type_name("on|off|only");
+}
+
+void addDevice(CLI::App& app, Options& options) {
+    app.option_defaults()->group(device_group);
+    app.add_option("--device", options.device, "index or part of a name, see diptych devices (a GPU first)")
+        ->type_name("INDEX|NAME");
+    app.add_flag("--validate", options.validate, "with Vulkan validation; any message is a failure");
+}
+
+}  // namespace
+
+std::span<const Command> allCommands() {
+    return commands;
+}
+
+void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& said) {
+    if (command == "devices") {
+        addSettings(app, said);
+        addPicture(app, options, said);
+        addDevice(app, options);
+        addFiles(app, options, "refused: devices writes no file, --json prints one");
+        return addOutput(app, options);
+    }
+
+    if (command == "diff") {
+        app.add_option("images", options.scenes, "reference and test image")
+            ->type_name("A B")
+            ->expected(2)
+            ->required();
+        addDiff(app, options.diff, said);
+        addSelection(app, options.diff.selection, said);
+        addTolerances(app, options);
+        addFiles(
+            app, options,
+            "X.exr: errors of every channel; X.png: of the one that decides; else a folder for a report; "
+            "without it nothing is written");
+        return addOutput(app, options);
+    }
+
+    app.add_option("scene", options.scenes, "glTF files, or builtin:NAME (builtin:gallery)")
+        ->type_name("SCENE...");
+    addSettings(app, said, command == "bench" ? "assign" : "");
+    addPicture(app, options, said);
+    addDevice(app, options);
+    app.add_option("--runs", options.runs, "timed frames; 0 measures no time (5)")->type_name("N");
+
+    if (command == "compare") {
+        addFiles(app, options, "folder of the report (diptych-report)");
+        app.add_option("--baseline", said.baseline,
+                       "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "
+                       "compared (deferred)")
+            ->type_name("PATH|FILE.exr");
+        app.add_flag("--single-file", options.single_file, "embed the pictures in index.html at half size");
+        app.add_flag("--update-baseline", options.update_baseline,
+                     "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
+        addSelection(app, options.selection, said);
+        addTolerances(app, options);
+        app.add_flag("--allow-noise", options.allow_noise,
+                     "GPU: grant what two runs of one path differ by on top of a tolerance");
+        addLater(app, said, "--pixel", "X,Y", "one pixel's whole story");
+    } else if (command == "render") {
+        addFiles(app, options,
+                 "X.exr: every channel; X.png: the picture; else a folder for both (diptych-render)");
+        app.add_flag("--list-scenes", options.list_scenes, "name the built-in scenes and end");
+    } else if (command == "tradeoff") {
+        addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
+        app.add_option("--grid", options.grid,
+                       "the Settings to try: { \"settings\": { \"gbuffer\": [\"compact\", \"full\"], "
+                       "\"size\": [\"1/2\"] } } "
+                       "is every combination, a list of such one after the other (each by itself, and "
+                       "declared pairs)")
+            ->type_name("FILE.json|JSON");
+    } else if (command == "bench") {
+        addFiles(app, options, "folder of the table, the plot and the page (diptych-bench)");
+    } else {
+        addFiles(app, options,
+                 command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
+    }
+    if (command == "bench") addBench(app, said);
+    addOutput(app, options);
+    if (command == "choose") {
+        addLater(app, said, "--max-error", "E", "error budget");
+        addLater(app, said, "--max-ms", "T", "time budget, milliseconds");
+        addLater(app, said, "--max-bytes", "B", "memory budget");
+    } else if (command == "audit") {
+        addLater(app, said, "--quantity", "NAME,...", "what to push");
+        addLater(app, said, "--require", "NAME=MAGNITUDE", "how far each must go");
+    }
+}
+
+}  // namespace diptych

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What every command is called and understands, for the command line's parser.
+#pragma once
+
+#include "compare/cli/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+// name, what it does, an example, and whether it can be run
+struct Command {
+    std::string name, does, example;
+    bool built;
+};
+std::span<const Command> allCommands();
+
+// What was said, before it has a meaning.
+struct ParsedOptions {
+    std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
+    std::vector<std::string> cameras;
+    std::string settings_file, channels, debug;
+    std::string baseline = "deferred", crop, metric;
+    std::optional<double> tolerance;
+    std::vector<std::string> not_built;  // options that parse but cannot be done
+    int frames = 1;
+    double fps = 30;
+    std::string bench_paths, bench_assign, bench_sizes, light_counts, kernels = "on";
+    double max_ms = 2000;
+};
+
+// Everything that `command` understands; the parser fills `options` and `said`.
+void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& said);
+
+}  // namespace diptych

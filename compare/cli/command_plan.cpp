@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/path_plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ScenePlan {
+    std::string scene;
+    Requirements needs;
+    std::vector<Requirements::Line> lines;
+    std::vector<std::string> notes;  // what was read otherwise than the file says
+    std::vector<PathPlan> paths;
+};
+
+// What the scene needs, in words; the sun that the tool adds to an unlit scene is not the scene's.
+std::vector<Requirements::Line> linesOf(const SceneView& view) {
+    std::vector<Requirements::Line> lines = view.needs.lines();
+    if (view.default_sun)
+        for (Requirements::Line& line : lines)
+            if (line.what == "directional lights")
+                line.why = "the default sun, added because the scene has no light";
+    return lines;
+}
+
+Json jsonOf(const ScenePlan& plan) {
+    Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
+    for (const auto& line : plan.lines)
+        (line.modelled ? modelled : leftOut).push_back({{"what", line.what}, {"why", line.why}});
+    for (const PathPlan& path : plan.paths)
+        paths.push_back({{"path", path.path},
+                         {"passes", path.passes},
+                         {"bytes_per_pixel", path.bytes_per_pixel},
+                         {"notes", path.notes}});
+    return {{"scene", plan.scene},
+            {"draws", plan.needs.draws},
+            {"triangles", plan.needs.triangles},
+            {"materials", plan.needs.materials},
+            {"textures", plan.needs.textures},
+            {"lights", plan.needs.lights()},
+            {"modelled", modelled},
+            {"left_out", leftOut},
+            {"notes", plan.notes},
+            {"paths", paths}};
+}
+
+void print(const ScenePlan& plan) {
+    const Requirements& needs = plan.needs;
+    fmt::print("{}: {} draws, {} triangles, {} materials, {} textures, {} lights\n", plan.scene, needs.draws,
+               needs.triangles, needs.materials, needs.textures, needs.lights());
+    for (const bool modelled : {true, false}) {
+        fmt::print("  {}\n", modelled ? "modelled" : "left out");
+        for (const auto& line : plan.lines)
+            if (line.modelled == modelled) fmt::print("    {:<26} {}\n", line.what, line.why);
+    }
+    for (const PathPlan& path : plan.paths) {
+        fmt::print("  {}: {}; {} bytes per pixel\n", path.path, fmt::join(path.passes, " > "),
+                   path.bytes_per_pixel);
+        for (const std::string& line : path.notes) fmt::print("    {}\n", line);
+    }
+    for (const std::string& line : plan.notes) fmt::print("  note: {}\n", line);
+}
+
+}  // namespace
+
+int runPlan(const Options& options) {
+    refuseOut(options);
+    std::vector<Path> paths{Path::deferred, Path::forward_plus};
+    if (options.path_given) paths = {options.settings.path};
+    if (paths.front() == Path::reference)
+        throw std::runtime_error("--path reference: has no passes; plan tells of deferred and forward_plus");
+    const std::vector<Settings> settings = settingsOf(options, paths);
+    Device device(deviceOptions(options));
+    Progress progress(progressOutput(options));
+    Json scenes = Json::array();
+    for (const std::string& name : options.scenes) {
+        const Scene scene = loadShown(name, options.settings, Stage(progress, name));
+        SceneViews views(scene);
+        const SceneView& view = views.at(viewRequest(settings.front()));
+        const ScenePlan result{scene.name, view.needs, linesOf(view), scene.notes,
+                               planPaths(device, views, settings)};
+        progress.wipe();
+        if (options.json)
+            scenes.push_back(jsonOf(result));
+        else if (!options.quiet)
+            print(result);
+    }
+    checkValidation(device);
+    if (options.json)
+        fmt::print("{}\n", Json{{"schema", 1}, {"scenes", scenes}}.dump(2, ' ', false,
+                                                                        Json::error_handler_t::replace));
+    return 0;
+}
+
+}  // namespace diptych

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+#include "compare/files/frame_json.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output_folder.h"
+#include "compare/render/reference_frame.h"
+#include "compare/report/frame_files.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/atomic_file.h"
+#include "shared/scene/builtin/builtin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Output outputIn(const Options& options) {
+    return outputOf(options.out.empty() ? "diptych-render" : options.out);
+}
+
+constexpr const char* single_mark = "frame.json";    // in a folder that holds one Frame
+constexpr const char* several_mark = "frames.json";  // in a folder that holds a folder for each Frame
+
+std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame) {
+    return folder / std::to_string(frame + 1);
+}
+
+// One Frame may replace several and the other way round. Whatever cannot be replaced is said before the
+// first Frame is drawn.
+void checkFolder(const Output& output, std::size_t count, bool force) {
+    const bool single = output.kind != OutputKind::folder || isOurMark(output.path / single_mark);
+    checkReplaceable(output, single ? single_mark : several_mark, force);
+    for (std::size_t i = 0; count > 1 && i < count; ++i)
+        checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_mark, force);
+}
+
+// What an earlier render left, one Frame or several.
+std::vector<std::string> earlierIn(const std::filesystem::path& folder) {
+    std::vector<std::string> names = markedIn(folder, single_mark);
+    if (!isOurMark(folder / several_mark)) return names;
+    names.emplace_back(several_mark);
+    for (std::size_t i = 0; isOurMark(numbered(folder, i) / single_mark); ++i)
+        for (const std::string& name : markedIn(numbered(folder, i), single_mark))
+            names.push_back(fmt::format("{}/{}", i + 1, name));
+    return names;
+}
+
+int listScenes(const Options& options) {
+    Json names = Json::array();
+    for (const BuiltinName& scene : builtinNames()) {
+        const std::string name =
+            "builtin:" + scene.name + (scene.parameter.empty() ? "" : "?" + scene.parameter);
+        names.push_back({{"name", name}, {"shows", scene.shows}, {"for_tests", scene.for_tests}});
+        if (!options.json && !options.quiet) fmt::print("{:<30} {}\n", name, scene.shows);
+    }
+    if (options.json) fmt::print("{}\n", Json{{"schema", 1}, {"scenes", names}}.dump(2));
+    return 0;
+}
+
+// Asked for by name, it must be there; of "all", a path gives what it can.
+void checkChannels(const Options& options) {
+    const auto check = [&](const DebugMode& mode, const char* option) {
+        if (mode.maker == MadeBy::paths_only && options.settings.path == Path::reference)
+            throw std::runtime_error(fmt::format(
+                "{} {}: the reference evaluates every light; --path forward_plus and deferred show it",
+                option, mode.name));
+        if (mode.maker == MadeBy::forward_only && options.settings.path == Path::deferred)
+            throw std::runtime_error(fmt::format(
+                "{} {}: the deferred path's G-buffer does not carry it; --path forward_plus makes it", option,
+                mode.name));
+    };
+    for (const int channel : options.channels) check(debugMode(channel), "--channels");
+    check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");
+}
+
+// What the files need: an EXR the channels asked for; a picture the one that it shows, lit for its exposure,
+// and which pixels are background.
+std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> asked) {
+    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit),
+                   background = static_cast<int>(gpu::DEBUG_material_id);
+    if (kind == OutputKind::exr) return asked;
+    if (kind == OutputKind::png) return {lit, options.shown, background};
+    for (const int needed : {lit, options.shown, background})
+        if (std::ranges::count(asked, needed) == 0) asked.push_back(needed);
+    return asked;
+}
+
+std::string jsonText(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// Where in the command's time drawing ends: writing takes as long as five frames drawn (lavapipe, the gallery
+// at 1280x720 with all channels).
+double drawnShare(const RenderOptions& render) {
+    return framesIn(render) / (framesIn(render) + 5);
+}
+
+std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& settings, Device& device,
+                           KeptReferences& kept, Progress& progress) {
+    const Output output = outputIn(options);
+    RenderOptions render = renderOptions(options);
+    render.keep = [&kept] { return kept.next(); };
+    render.channels = channelsFor(output.kind, options, render.channels);
+    std::vector<Frame> frames;
+    const double drawn = drawnShare(render);
+    const auto scenes = static_cast<double>(options.scenes.size());
+    for (std::size_t i = 0; i < options.scenes.size(); ++i) {
+        const std::string& name = options.scenes[i];
+        say(options, name);
+        const auto done = static_cast<double>(i);
+        const Stage stage = Stage(progress, name).part(drawn * done / scenes, drawn * (done + 1) / scenes);
+        const double loading = loadingShare(name, render, settings.size());
+        const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
+        render.progress = stage.part(loading, 1);
+        for (Frame& frame : renderAll(device, scene, settings, render)) frames.push_back(std::move(frame));
+        checkValidation(device);
+    }
+    return frames;
+}
+
+// Everything or nothing of it. Returns where each Frame is.
+std::vector<std::filesystem::path> writeAll(const Options& options, const std::vector<Frame>& frames,
+                                            Json& result, const ReportDevice& device, const Stage& progress) {
+    const Output output = outputIn(options);
+    const DebugMode& shown = debugMode(options.shown);
+    if (output.kind != OutputKind::folder) {
+        progress.at(0, "write");
+        writeFrame(frames.front(), device, output, shown, options.picture);
+        return {output.path};
+    }
+    const auto earlier = [&] {
+        checkFolder(output, frames.size(), options.force);
+        return earlierIn(output.path);
+    };
+    OutputFolder folder(output.path);
+    std::vector<std::string> files;
+    std::vector<std::filesystem::path> places;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        progress.at(static_cast<double>(i) / static_cast<double>(frames.size()), "write");
+        const std::string inner = frames.size() > 1 ? std::to_string(i + 1) : "";
+        if (!inner.empty()) std::filesystem::create_directory(folder / inner);
+        for (const std::string& name :
+             writeFrameFolder(frames[i], device, folder / inner, shown, options.picture))
+            files.push_back(inner.empty() ? name : inner + "/" + name);
+        places.push_back(inner.empty() ? output.path : output.path / inner);
+        result["frames"][i]["file"] = places.back().string();
+    }
+    if (frames.size() > 1) {
+        writeFile(folder / several_mark, jsonText(result));
+        files.emplace_back(several_mark);
+    }
+    folder.put(files, earlier);
+    return places;
+}
+
+// What was asked for and the path does not read.
+void noteUnread(const Options& options) {
+    const Settings &asked = options.settings, usual;
+    Settings::fields(asked, [&](const Field& field, const auto&) {
+        const std::string_view why = unreadBecause(asked.path, field.option);
+        if (!why.empty() && valueOf(asked, field.option) != valueOf(usual, field.option))
+            note(options, fmt::format("--{} is not used: {}", field.option, why));
+    });
+}
+
+}  // namespace
+
+int runRender(const Options& options) {
+    if (options.list_scenes) return listScenes(options);
+    const std::vector<Settings> settings = settingsOf(options, {options.settings.path});
+    checkChannels(options);
+    noteUnread(options);
+    const Output output = outputIn(options);
+    const std::size_t count = settings.size() * options.scenes.size();
+    if (count > 1 && output.kind != OutputKind::folder)
+        throw std::runtime_error(fmt::format(
+            "-o {}: holds one Frame, and several were asked for; give a folder", output.path.string()));
+    checkFolder(output, count, options.force);
+
+    Progress progress(progressOutput(options));
+    Device device(deviceOptions(options));
+    say(options, "on " + device.info().name);
+    const ReportDevice made = reportDevice(device);
+    Json result{{"schema", 1},
+                {"software", softwareName},
+                {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
+                {"frames", Json::array()}};
+    // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
+    KeptReferences kept(output.path, output.kind == OutputKind::folder);
+    const std::vector<Frame> frames = drawAll(options, settings, device, kept, progress);
+    for (const Frame& frame : frames) {
+        result["frames"].push_back(jsonOf(frame));
+        result["frames"].back()["file"] = output.path.string();
+    }
+    const std::vector<std::filesystem::path> places =
+        writeAll(options, frames, result, made,
+                 Stage(progress, output.path.string()).part(drawnShare(renderOptions(options)), 1));
+    kept.remove();
+    progress.wipe();
+    for (std::size_t i = 0; i < frames.size() && !options.json && !options.quiet; ++i) {
+        const Frame& frame = frames[i];
+        fmt::print("{}: {}, {}x{}{}\n", places[i].string(), frame.scene, frame.settings.size.width,
+                   frame.settings.size.height,
+                   frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
+        for (const std::string& line : frame.notes) fmt::print("  note: {}\n", line);
+    }
+    if (options.json) fmt::print("{}", jsonText(result));
+    return 0;
+}
+
+}  // namespace diptych

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+#include "compare/files/our_files.h"
+#include "compare/files/output.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/left_out.h"
+#include "compare/render/reference_frame.h"
+#include "compare/run/interruption.h"
+#include "compare/run/version.h"
+#include "compare/tradeoff/grid.h"
+#include "compare/tradeoff/measure.h"
+#include "compare/tradeoff/sweep_state.h"
+#include "compare/tradeoff/tradeoff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ranges>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::filesystem::path folderOf(const Options& options) {
+    const Output output = outputOf(options.out.empty() ? "diptych-tradeoff" : options.out);
+    if (output.kind != OutputKind::folder)
+        throw std::runtime_error(
+            fmt::format("-o {}: a tradeoff is a folder; give a name without ending", output.path.string()));
+    checkReplaceable(output, tradeoffMark, options.force);
+    return output.path;
+}
+
+void checkOptions(const Options& options) {
+    if (options.scenes.size() != 1)
+        throw std::runtime_error(
+            fmt::format("{}: a tradeoff is of one scene; run it once for each", options.scenes[1]));
+    if (options.runs < 1) throw std::runtime_error("--runs 0: a tradeoff needs times; 1 or more");
+    if (options.settings.path == Path::reference)
+        throw std::runtime_error("--path reference: is what the others are measured against; use another");
+    if (const auto problem = referenceSettings(options.settings).problem())
+        throw std::runtime_error(*problem);
+}
+
+// All that a row depends on beside its Settings. The truth's pixels stand for the scene's contents, whatever
+// files they come from; the file's size and time for what is not in view.
+Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFrames& truth) {
+    const std::string& scene = options.scenes.front();
+    std::error_code error;
+    Json file = nullptr;
+    if (const auto size = std::filesystem::file_size(scene, error); !error)
+        file = {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
+    return {{"schema", 1},
+            {"software", softwareName},
+            {"commit", commitName()},
+            {"scene", scene},
+            {"file", file},
+            {"truth", fingerprint(truth)},
+            {"settings", Json::parse(toJson(tradeoff.reference))},
+            {"cameras", options.cameras},
+            {"exposure", truth.exposure.factor},
+            {"tonemap", truth.exposure.tonemap},
+            {"runs", options.runs},
+            {"device", tradeoff.device.name},
+            {"driver", tradeoff.device.driver}};
+}
+
+// What a row takes, in pixels drawn: for a progress line.
+double weightOf(const Settings& settings) {
+    return static_cast<double>(settings.size.width) * settings.size.height;
+}
+
+// Timed frames of a row when it is drawn; the others follow once all are.
+int firstVisit(const Options& options) {
+    return (options.runs + 1) / 2;
+}
+
+class Sweep {
+public:
+    Sweep(const Options& options, const SweepRows& plan)
+        : options_(options),
+          plan_(plan),
+          folder_(folderOf(options)),
+          references_(folder_, true),
+          progress_(progressOutput(options)),
+          device_(deviceOptions(options)) {
+        say(options, "on " + device_.info().name);
+        tradeoff_.scene = options.scenes.front();
+        tradeoff_.cameras = options.cameras;
+        tradeoff_.given = options.settings;
+        tradeoff_.reference = referenceSettings(options.settings);
+        tradeoff_.device = reportDevice(device_);
+        tradeoff_.runs = options.runs;
+        tradeoff_.skips = plan.skips;
+    }
+
+    int run() {
+        const RenderOptions render = renderOptions(options_);
+        const double loading =
+            loadingShare(tradeoff_.scene, render, plan_.rows.size() * options_.cameras.size());
+        const Stage stage(progress_, tradeoff_.scene);
+        const Scene scene = loadShown(tradeoff_.scene, options_.settings, stage.part(0, loading));
+        tradeoff_.notes = scene.notes;
+        stage.at(loading, "upload");
+        SceneViews views(scene);
+        Renderer renderer(device_, views);
+        tradeoff_.cost.reading = msSince(start_);
+        const double truthDone = loading + (1 - loading) / static_cast<double>(plan_.rows.size() + 1);
+        const Clock::time_point uploaded = Clock::now();
+        RenderOptions drawing = render;
+        drawing.progress = stage.part(loading, truthDone).about(tradeoff_.scene + ": reference");
+        drawing.keep = [this] { return references_.next(); };
+        const ReferenceFrames truth =
+            drawReferenceFrames(renderer, options_.settings, options_.cameras, options_.picture, drawing);
+        tradeoff_.cost.reference = msSince(uploaded);
+        for (const Frame& frame : truth.frames)
+            for (const std::string& line : frame.notes)
+                if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+        noteLeftOut(views.at(viewRequest(options_.settings)).needs);
+        SweepState state(folder_, keyOf(options_, tradeoff_, truth));
+        if (state.isRenewed())
+            note(options_,
+                 "what a sweep that was cut short left is of another scene, device or Settings: anew");
+        sayWhenInterrupted(fmt::format("the rows so far are kept in {}: the same command goes on from there",
+                                       SweepState::folderOf(folder_).string()));
+        const double drawn =
+            truthDone + (0.98 - truthDone) * 0.7;  // captures and errors are in the first visit
+        measure(renderer, truth, state, stage.part(truthDone, drawn));
+        timeAgain(renderer, truth, state, stage.part(drawn, 0.98));
+        checkValidation(device_);
+        stage.at(0.98, "write");
+        tradeoff_.cost.whole = msSince(start_);
+        const std::string json = writeTradeoff(
+            tradeoff_, folder_, state / "", thumbnail(truth.frames.front(), truth.exposure), options_.force);
+        references_.remove();
+        state.remove();
+        progress_.wipe();
+        if (options_.json) fmt::print("{}", json);
+        if (prints()) print(tradeoffEnd(tradeoff_) + (folder_ / "index.html").string() + "\n");
+        return 0;
+    }
+
+private:
+    bool prints() const { return !options_.json && !options_.quiet; }
+
+    void measure(Renderer& renderer, const ReferenceFrames& truth, SweepState& state, const Stage& stage) {
+        const TradeoffTable table(tradeoff_, plan_.rows);
+        double all = 0, done = 0;
+        for (const Settings& row : plan_.rows) all += weightOf(row);
+        if (prints()) print(table.head());
+        for (const Settings& settings : plan_.rows) {
+            const double from = done / all;
+            done += weightOf(settings);
+            std::optional<TradeoffRow> kept = state.find(settings);
+            if (kept) {
+                ++tradeoff_.kept;
+                tradeoff_.rows.push_back(std::move(*kept));
+            } else {
+                RenderOptions render = renderOptions(options_);
+                render.runs = firstVisit(options_);
+                render.progress = stage.part(from, done / all);
+                MeasuredRow measured = measureRow(renderer, settings, truth, render);
+                tradeoff_.cost.drawing += measured.row.drawing_ms;
+                state.keep(measured);
+                tradeoff_.rows.push_back(std::move(measured.row));
+            }
+            if (prints()) print(table.line(tradeoff_, tradeoff_.rows.size() - 1));
+        }
+    }
+
+    // What of the scene's light and motion the rows' paths leave out, which is part of their error.
+    void noteLeftOut(const Requirements& needs) {
+        std::vector<Path> told;
+        for (const Settings& row : plan_.rows) {
+            if (std::ranges::count(told, row.path) > 0) continue;
+            told.push_back(row.path);
+            for (const auto& lines : {leftOutLight(row.path, needs), leftOutMotion(row.path, needs)})
+                for (const std::string& line : lines)
+                    if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+        }
+    }
+
+    // Whoever reads may have gone: what was asked for is the folder, and that is finished.
+    void print(const std::string& line) {
+        if (std::ferror(stdout)) return;
+        progress_.wipe();
+        fmt::print("{}", line);
+        std::fflush(stdout);
+    }
+
+    // The other half of the frames, the last row first: a device that slows down does so for all alike.
+    void timeAgain(Renderer& renderer, const ReferenceFrames& truth, SweepState& state, const Stage& stage) {
+        RenderOptions render = renderOptions(options_);
+        render.runs = options_.runs - firstVisit(options_);
+        if (render.runs == 0) return;
+        double all = 0, done = 0;
+        for (const TradeoffRow& row : tradeoff_.rows) all += weightOf(row.settings);
+        for (TradeoffRow& row : tradeoff_.rows | std::views::reverse) {
+            const double from = done / all;
+            done += weightOf(row.settings);
+            if (row.cameras.front().visits.size() > 1) continue;
+            render.progress = stage.part(from, done / all);
+            const double before = row.drawing_ms;
+            diptych::timeAgain(renderer, row, truth, render);
+            tradeoff_.cost.drawing += row.drawing_ms - before;
+            state.renew(row);
+        }
+    }
+
+    const Options& options_;
+    const SweepRows& plan_;
+    const Clock::time_point start_ = Clock::now();
+    const std::filesystem::path folder_;
+    KeptReferences references_;
+    Progress progress_;
+    Device device_;
+    Tradeoff tradeoff_;
+};
+
+}  // namespace
+
+int runTradeoff(const Options& options) {
+    checkOptions(options);
+    const Settings& given = options.settings;
+    const SweepRows plan =
+        planSweep(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
+    if (options.debug_given) note(options, "--debug is not used: errors are of lit");
+    if (!options.channels.empty()) note(options, "--channels is not used: errors are of lit");
+    return Sweep(options, plan).run();
+}
+
+}  // namespace diptych

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+
+#include "compare/render/reference_frame.h"
+#include "shared/scene/image/environment.h"
+#include "shared/scene/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+
+int runCommand(const Options& options) {
+    constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
+        {"compare", runCompare}, {"render", runRender}, {"diff", runDiff},      {"tradeoff", runTradeoff},
+        {"bench", runBench},     {"plan", runPlan},     {"devices", runDevices}};
+    for (const auto& [name, run] : commands)
+        if (name == options.command) return run(options);
+    throw std::runtime_error(options.command + " is not built yet");
+}
+
+std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths) {
+    std::vector<Settings> all;
+    for (const std::string& camera : options.cameras)
+        for (const Path path : paths) {
+            Settings settings = options.settings;
+            settings.camera = camera;
+            settings.path = path;
+            // Beside the truth a path is not asked for what the truth alone has.
+            if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
+                settings = withoutReference(settings);
+            if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+            all.push_back(path == Path::reference ? referenceSettings(settings) : settings);
+        }
+    return all;
+}
+
+std::optional<ProgressOutput> progressOutput(const Options& options) {
+    return options.quiet ? std::nullopt : std::optional(ProgressOutput::standardError());
+}
+
+RenderOptions renderOptions(const Options& options) {
+    RenderOptions render;
+    render.channels = options.channels;
+    if (render.channels.empty())
+        for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
+    render.asked = render.channels;
+    render.runs = options.runs;
+    render.said = [&options](const std::string& step) { say(options, step); };
+    return render;
+}
+
+DeviceOptions deviceOptions(const Options& options) {
+    return {options.device, options.validate};
+}
+
+ReportDevice reportDevice(const Device& device) {
+    return {device.info().name, device.info().driver, device.info().type};
+}
+
+void refuseOut(const Options& options) {
+    if (!options.out.empty())
+        throw std::runtime_error(fmt::format("-o {}: {} writes no file; {} --json > FILE keeps what it says",
+                                             options.out.string(), options.command, options.command));
+}
+
+void checkValidation(const Device& device) {
+    if (const std::uint64_t count = device.validationMessages(); count > 0)
+        throw std::runtime_error(
+            fmt::format("--validate: {} messages, the first: {}", count, device.firstValidationMessage()));
+}
+
+double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
+    // In frames drawn, roughly: files differ by far, ours are made at once.
+    const double load = scene.starts_with("builtin:") ? 0.1 : 4;
+    return load / (load + framesIn(render) * static_cast<double>(frames));
+}
+
+Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress) {
+    progress.at(0, "read");
+    std::optional<Environment> environment;
+    std::vector<std::string> notes;
+    if (settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
+    Scene scene = loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
+    scene.environment = std::move(environment);
+    std::ranges::move(notes, std::back_inserter(scene.notes));
+    return scene;
+}
+
+void note(const Options& options, const std::string& line) {
+    if (options.quiet) return;
+    wipeProgress();
+    std::fprintf(stderr, "diptych: %s\n", line.c_str());
+}
+
+void say(const Options& options, const std::string& line) {
+    if (options.verbose) note(options, line);
+}
+
+}  // namespace diptych

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The commands of the tool. Each prints its result on stdout, returns the exit code, and throws
+// std::runtime_error, one line, where it could not do what was asked.
+#pragma once
+
+#include "compare/cli/options.h"
+#include "compare/render/renderer.h"
+#include "compare/run/progress.h"
+#include "compare/verdict/comparison.h"
+#include "shared/scene/model/scene.h"
+#include "shared/vulkan/device.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+int runCommand(const Options& options);
+
+int runCompare(const Options& options);
+int runRender(const Options& options);
+int runDiff(const Options& options);
+int runTradeoff(const Options& options);
+int runBench(const Options& options);
+int runPlan(const Options& options);
+int runDevices(const Options& options);
+
+// What the commands share.
+
+// One Settings per camera and path, the paths of one camera side by side. Throws the first problem().
+std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths);
+
+// Standard error, unless they want nothing.
+std::optional<ProgressOutput> progressOutput(const Options& options);
+
+RenderOptions renderOptions(const Options& options);
+DeviceOptions deviceOptions(const Options& options);
+ReportDevice reportDevice(const Device& device);
+
+// Throws where -o was given to a command that writes no file.
+void refuseOut(const Options& options);
+
+// With --validate any message of the layers is a failure: throws how many there were and the first one.
+void checkValidation(const Device& device);
+
+// The share of loading in what a scene takes until `frames` Frames of it are drawn, from 0 to 1.
+double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
+
+// loadScene(), which fills `progress`, under the environment of the settings.
+Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
+
+// A line on stderr, for people: unless they want none; where they asked for more.
+void note(const Options& options, const std::string& line);
+void say(const Options& options, const std::string& line);
+
+}  // namespace diptych

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/command_line.h"
+#include "compare/cli/commands.h"
+#include "compare/run/interruption.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace {
+
+// Everything that goes wrong ends here: one line on stderr, exit code 2.
+int fail(std::string what) {
+    std::ranges::replace(what, '\n', ' ');
+    std::fprintf(stderr, "diptych: %s\n", what.c_str());
+    return 2;
+}
+
+// Who reads stdout has gone: the usual end, as of any program in a pipe. Until here its signal was ignored,
+// so that nothing half written stays behind.
+[[noreturn]] void endOfPipe() {
+    diptych::dieOf(SIGPIPE);
+}
+
+int run(const diptych::Options& options) {
+    if (options.help.empty()) return diptych::runCommand(options);
+    fmt::print("{}", options.help);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        std::signal(SIGPIPE, SIG_IGN);
+        std::signal(SIGXFSZ, SIG_IGN);  // too large a file (ulimit -f) is an error of writing as any other
+        diptych::watchInterruption();
+        const int code = run(diptych::parseCommandLine({argv + std::min(argc, 1), argv + argc}));
+        errno = 0;
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw std::system_error(errno, std::generic_category(), "stdout: cannot be written");
+        return code;
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::broken_pipe) endOfPipe();
+        return fail(error.what());
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory; try a smaller --size, fewer --channels, or one scene at a time");
+    } catch (const std::exception& error) {
+        return fail(error.what());
+    }
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What a command line asks for.
+#pragma once
+
+#include "compare/bench/cases.h"
+#include "compare/picture/picture.h"
+#include "compare/verdict/picture_diff.h"
+#include "compare/verdict/selection.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/frame/settings.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+struct Options {
+    std::string help;     // what to print instead of doing anything: --help, --version
+    std::string command;  // "compare"
+    std::vector<std::string> scenes{"builtin:gallery"};
+    Settings settings;                     // settings.camera is the first of cameras
+    std::vector<std::string> cameras{""};  // one Frame each, of every scene and path
+    bool path_given = false;               // --path stood on the command line
+    Path baseline = Path::deferred;        // compare: the left panel
+    int shown = 0;                         // debug mode of the picture
+    bool debug_given = false;              // --debug stood on the command line
+    bool heat = false;                     // --heat: shown is the light count, whatever --debug says
+    std::vector<int> channels;             // debug modes, ascending; empty: all that can be made
+    int runs = 5;                          // timed frames
+    PictureChoice picture;
+    std::string device;  // index or part of a name
+    bool validate = false;
+    std::filesystem::path out;  // empty: the command's own default
+    bool force = false, json = false, quiet = false, verbose = false;
+    bool single_file = false, list_scenes = false;
+    SelectionOptions selection;           // compare: pixels
+    bool allow_noise = false;             // compare
+    std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
+    bool update_baseline = false;
+    std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
+    PictureDiffOptions diff;           // diff; without rules
+    BenchOptions bench;
+    std::string grid;  // tradeoff: a file or JSON; empty: what is usual
+};
+
+}  // namespace diptych

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/verdict_words.h"
+
+#include "compare/cli/options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <optional>
+
+namespace diptych {
+namespace {
+
+// "--option value" for what is not as usual; numbers with all their digits.
+class Words {
+public:
+    template <class T>
+    void add(const char* option, const T& value, const T& usual) {
+        if (value != usual) put(option, value);
+    }
+    template <class T>
+    void add(const char* option, const std::optional<T>& value) {
+        if (value) put(option, *value);
+    }
+    std::vector<std::string> words;
+
+private:
+    template <class T>
+    void put(const char* option, const T& value) {
+        const std::string text = fmt::format("{}", value);
+        if (text.starts_with('-'))
+            words.push_back(fmt::format("{}={}", option, text));
+        else
+            words.insert(words.end(), {option, text});
+    }
+};
+
+void addSelection(Words& words, const SelectionOptions& selection) {
+    words.add("--mask", selection.mask, std::string());
+    if (!selection.ids.empty())
+        words.words.insert(words.words.end(), {"--ids", fmt::format("{}", fmt::join(selection.ids, ","))});
+    words.add("--ignore-edges", selection.ignore_edges, 0);
+    if (selection.crop)
+        words.words.insert(words.words.end(),
+                           {"--crop", fmt::format("{},{},{}x{}", selection.crop->x, selection.crop->y,
+                                                  selection.crop->width, selection.crop->height)});
+}
+
+}  // namespace
+
+std::vector<std::string> wordsOfWhatCounts(const Options& options) {
+    Words words;
+    words.add("--tolerances", options.tolerances.string(), std::string());
+    if (options.command == "diff") {
+        const PictureDiffOptions &diff = options.diff, usual;
+        words.add("--metric", diff.metric, usual.metric);
+        if (std::isfinite(diff.tolerance)) words.add("--tolerance", diff.tolerance, usual.tolerance);
+        words.add("--warn", diff.warn);
+        words.add("--failing", diff.failing);
+        for (const std::string& name : diff.names) words.words.insert(words.words.end(), {"--map", name});
+        words.add("--blur", diff.blur, 0.0);
+        words.add("--shift", diff.shift, 0);
+        words.add("--ppd", diff.flip.pixels_per_degree, usual.flip.pixels_per_degree);
+        words.add("--start-exposure", diff.flip.start_exposure);
+        words.add("--stop-exposure", diff.flip.stop_exposure);
+        words.add("--exposures", diff.flip.exposures);
+        addSelection(words, diff.selection);
+        return words.words;
+    }
+    words.add("--baseline", options.baseline_file.string(), std::string());
+    addSelection(words, options.selection);
+    if (options.allow_noise) words.words.emplace_back("--allow-noise");
+    return words.words;
+}
+
+}  // namespace diptych

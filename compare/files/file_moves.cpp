@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "compare/files/file_moves.h"
+
+#include "compare/files/our_files.h"
+#include "shared/image/atomic_file.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* begunName = ".diptych.put";  // the folder whose plan is being carried out
+constexpr const char* planName = ".plan.json";
+constexpr const char* oldName = ".old";  // in it: what was replaced, until all is done
+
+bool isThere(const fs::path& path) {
+    return fs::exists(fs::symlink_status(path));
+}
+
+// Moves files and remembers them, to move them back.
+class Moves {
+public:
+    void make(const fs::path& from, const fs::path& to) {
+        makeFolder(to.parent_path());
+        made_.emplace_back(from, to);
+        if (std::rename(from.c_str(), to.c_str()) == 0) return;
+        const int error = errno;
+        made_.pop_back();
+        throw std::runtime_error(writingFailed(to, error));
+    }
+
+    // `to` gets the name `kept` as well, if the file system can, so that it is never missing.
+    void replace(const fs::path& from, const fs::path& to, const fs::path& kept) {
+        makeFolder(kept.parent_path());
+        if (::link(to.c_str(), kept.c_str()) != 0) {
+            make(to, kept);
+            return make(from, to);
+        }
+        made_.emplace_back(to, kept);
+        if (std::rename(from.c_str(), to.c_str()) != 0) throw std::runtime_error(writingFailed(to, errno));
+    }
+
+    bool undo() noexcept {
+        bool all = true;
+        for (; !made_.empty(); made_.pop_back())
+            all = std::rename(made_.back().second.c_str(), made_.back().first.c_str()) == 0 && all;
+        for (; !folders_.empty(); folders_.pop_back()) ::rmdir(folders_.back().c_str());
+        return all;
+    }
+
+private:
+    void makeFolder(const fs::path& folder) {
+        folders_.push_back(folder);
+        if (::mkdir(folder.c_str(), 0777) == 0) return;
+        const int error = errno;
+        folders_.pop_back();
+        if (error == EEXIST) return;
+        if (error != ENOENT) throw std::runtime_error(writingFailed(folder, error));
+        makeFolder(folder.parent_path());
+        makeFolder(folder);
+    }
+
+    std::vector<std::pair<fs::path, fs::path>> made_;
+    std::vector<fs::path> folders_;
+};
+
+std::vector<std::string> removedBy(const FileMoves& plan) {
+    std::vector<std::string> names;
+    for (const std::string& name : plan.earlier)
+        if (std::ranges::count(plan.files, name) == 0) names.push_back(name);
+    return names;
+}
+
+// The folders "1" of removed "1/lit.png", where nothing is left in them.
+void removeEmptied(const fs::path& folder, const FileMoves& plan) {
+    for (const std::string& name : removedBy(plan))
+        if (const fs::path inner = fs::path(name).parent_path(); !inner.empty())
+            ::rmdir((folder / inner).c_str());
+}
+
+std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
+    std::vector<std::string> names;
+    if (json.contains(key) && json[key].is_array())
+        for (const auto& name : json[key])
+            if (name.is_string() && isOurName(name.get<std::string>())) names.push_back(name);
+    return names;
+}
+
+FileMoves readMoves(const fs::path& file) {
+    std::ifstream stream(file);
+    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    if (!json.is_object() || !json.contains("files"))
+        throw std::runtime_error(
+            file.string() + ": left by a program that was killed, and cannot be read; remove its folder");
+    return {namesIn(json, "files"), namesIn(json, "earlier")};
+}
+
+// Everything new is in place. The plan goes after what it speaks of, so that a kill in between leaves what
+// can be carried out again.
+void removeBegun(const fs::path& begun) {
+    std::error_code ignored;
+    std::vector<fs::path> folders;  // what was replaced, and those that files were moved out of
+    for (fs::directory_iterator entry(begun, ignored), end; !ignored && entry != end;
+         entry.increment(ignored))
+        if (entry->is_directory(ignored)) folders.push_back(entry->path());
+    for (const fs::path& folder : folders) fs::remove_all(folder, ignored);
+    fs::remove(begun / planName, ignored);
+    ::rmdir(begun.c_str());
+}
+
+}  // namespace
+
+void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& plan) {
+    writeFile(made.path() / planName,
+              nlohmann::json{{"files", plan.files}, {"earlier", plan.earlier}}.dump());
+    const fs::path begun = folder / begunName;
+    const fs::path temporary = made.path();
+    if (std::rename(temporary.c_str(), begun.c_str()) != 0)
+        throw std::runtime_error(writingFailed(folder, errno));
+    Moves moves;
+    try {
+        for (const std::string& name : plan.files) {
+            if (isThere(folder / name))
+                moves.replace(begun / name, folder / name, begun / oldName / name);
+            else
+                moves.make(begun / name, folder / name);
+        }
+        for (const std::string& name : removedBy(plan))
+            if (fs::is_regular_file(fs::symlink_status(folder / name)))
+                moves.make(folder / name, begun / oldName / name);
+    } catch (...) {
+        // Where not even this can be done the plan stays: the next program carries it out.
+        if (moves.undo()) std::rename(begun.c_str(), temporary.c_str());
+        throw;
+    }
+    removeEmptied(folder, plan);
+    removeBegun(begun);
+}
+
+bool isMoveBegun(const fs::path& folder) {
+    return isThere(folder / begunName);
+}
+
+void finishMoves(const fs::path& folder) {
+    const fs::path begun = folder / begunName;
+    if (!isThere(begun) || ::rmdir(begun.c_str()) == 0) return;
+    const FileMoves plan = readMoves(begun / planName);
+    Moves moves;
+    for (const std::string& name : plan.files)
+        if (isThere(begun / name)) moves.make(begun / name, folder / name);
+    std::error_code error;
+    for (const std::string& name : removedBy(plan))
+        if (fs::is_regular_file(fs::symlink_status(folder / name))) fs::remove(folder / name, error);
+    removeEmptied(folder, plan);
+    removeBegun(begun);
+}
+
+}  // namespace diptych

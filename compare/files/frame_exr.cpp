@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "compare/files/frame_exr.h"
+
+#include "compare/files/frame_json.h"
+#include "compare/files/layers.h"
+#include "compare/files/our_files.h"
+#include "compare/run/version.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/image/exr.h"
+#include "shared/image/picture_file.h"
+#include "shared/text/json.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+using Attributes = std::map<std::string, std::string>;
+
+std::string valueOr(const Attributes& attributes, const char* key, const char* fallback = "") {
+    const auto found = attributes.find(key);
+    return found == attributes.end() ? fallback : oneLine(found->second);
+}
+
+// What our own files say of themselves.
+void readOrigin(const PictureFile& file, Frame& frame) {
+    const Attributes& a = file.attributes;
+    frame.scene = valueOr(a, "scene", "?");
+    frame.origin.device = valueOr(a, "device");
+    frame.origin.driver = valueOr(a, "driver");
+    frame.origin.commit = valueOr(a, "commit");
+    frame.settings = settingsFromJson(a.at("settings"));
+    if (a.contains("camera")) frame.camera = cameraFromJson(parseJson(a.at("camera")));
+}
+
+bool isOurs(const PictureFile& file) {
+    return valueOr(file.attributes, "software") == softwareName && file.attributes.contains("settings");
+}
+
+}  // namespace
+
+void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device) {
+    std::vector<ExrLayerView> layers;
+    for (const auto& [mode, image] : frame.channels)
+        if (frame.isAsked(mode)) layers.push_back({exrChannels(debugMode(mode)), &image});
+    writeExr(file, layers,
+             {{"camera", jsonOf(frame.camera).dump()},
+              {"commit", commitName()},
+              {"device", device.name},
+              {"driver", device.driver},
+              {"scene", frame.scene},
+              {"settings", toJson(frame.settings, -1)},
+              {"software", softwareName}});
+}
+
+Frame frameFromExr(const std::filesystem::path& path) {
+    PictureFile file = readPicture(path);
+    return named(path.string(), [&] {
+        Frame frame;
+        frame.name = "baseline";
+        frame.origin.file = path.string();
+        if (isOurs(file))
+            readOrigin(file, frame);
+        else
+            frame.settings.path = Path::reference;
+        frame.settings.size = {file.width, file.height};
+        std::vector<std::string> others;
+        for (PictureChannel& channel : channelsOf(std::move(file), {})) {
+            const DebugMode* mode = findDebugMode(channel.name);
+            if (mode && mode->name == channel.name && mode->width == channel.image.components)
+                frame.channels[mode->number] = std::move(channel.image);
+            else
+                others.push_back(channel.name);
+        }
+        if (frame.channels.empty())
+            throw std::runtime_error("holds no channel that is called as one of ours");
+        if (!others.empty())
+            frame.notes.push_back(fmt::format("{} of the baseline: not one of our channels, left out",
+                                              oneLine(fmt::format("{}", fmt::join(others, ", ")))));
+        return frame;
+    });
+}
+
+}  // namespace diptych

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "compare/files/frame_json.h"
+
+#include "shared/frame/debug_modes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace diptych {
+
+using Json = nlohmann::ordered_json;
+
+Json finiteOrNull(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json jsonOf(const FrameCamera& camera) {
+    return {{"name", camera.name},
+            {"eye", camera.eye},
+            {"target", camera.target},
+            {"up", camera.up},
+            {"fov_degrees", camera.fov_degrees},
+            {"ymag", camera.ymag},
+            {"near", camera.near},
+            {"far", finiteOrNull(camera.far)}};
+}
+
+FrameCamera cameraFromJson(const nlohmann::json& json) {
+    FrameCamera camera;
+    camera.name = json.value("name", "");
+    const auto vector = [&](const char* key, double(&out)[3]) {
+        const auto values = json.at(key).get<std::array<double, 3>>();
+        std::copy(values.begin(), values.end(), out);
+    };
+    vector("eye", camera.eye);
+    vector("target", camera.target);
+    vector("up", camera.up);
+    camera.fov_degrees = json.value("fov_degrees", 0.0);
+    camera.ymag = json.value("ymag", 0.0);
+    camera.near = json.value("near", 0.0);
+    const auto far = json.find("far");
+    camera.far =
+        far != json.end() && far->is_number() ? far->get<double>() : std::numeric_limits<double>::infinity();
+    return camera;
+}
+
+Json jsonOf(const Frame& frame) {
+    Json passes = Json::array();
+    for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    // A picture of another renderer: nothing is known of how it was drawn.
+    const bool isUnknown = !frame.origin.file.empty() && frame.origin.device.empty();
+    Json noise = Json::object();
+    for (const auto& [mode, of] : frame.noise)
+        noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
+    const FrameTime& time = frame.time;
+    const FrameCounters& counters = frame.counters;
+    return {{"name", frame.name},
+            {"path", isUnknown ? Json(nullptr) : Json(nameOf(frame.settings.path))},
+            {"scene", frame.scene},
+            {"camera", jsonOf(frame.camera)},
+            {"size", {frame.settings.size.width, frame.settings.size.height}},
+            {"settings", isUnknown ? Json(nullptr) : Json::parse(toJson(frame.settings))},
+            {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
+            {"made_in_ms", frame.made_in_ms},
+            {"uncertainty", frame.relative_uncertainty},
+            {"passes", passes},
+            {"bytes",
+             {{"images", frame.bytes.images},
+              {"buffers", frame.bytes.buffers},
+              {"gbuffer_per_pixel", frame.bytes.gbuffer_per_pixel}}},
+            {"counters",
+             {{"nonfinite_pixels", counters.nonfinite_pixels},
+              {"overflowed_lists", counters.overflowed_lists},
+              {"lights", counters.lights},
+              {"unreproduced_pixels", counters.unreproduced_pixels},
+              {"energy_cut", counters.energy_cut}}},
+            {"noise", noise},
+            {"origin",
+             {{"file", frame.origin.file},
+              {"device", frame.origin.device},
+              {"driver", frame.origin.driver},
+              {"commit", frame.origin.commit}}},
+            {"notes", frame.notes}};
+}
+
+}  // namespace diptych

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "compare/files/layers.h"
+
+#include "shared/text/one_line.h"
+#include "shared/text/wildcard.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+namespace {
+
+using Names = std::vector<std::string>;
+
+[[noreturn]] void fail(const std::string& what) {
+    throw std::runtime_error(what);
+}
+
+std::string suffix(const std::string& channel) {
+    const std::size_t dot = channel.rfind('.');
+    return dot == channel.npos ? channel : channel.substr(dot + 1);
+}
+
+// Several components of an image, side by side.
+Image picked(const Image& image, const std::vector<std::size_t>& components) {
+    Image result(image.width, image.height, static_cast<int>(components.size()));
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+        for (std::size_t c = 0; c < components.size(); ++c)
+            result.pixel(i)[c] = image.pixel(i)[components[c]];
+    return result;
+}
+
+const DebugMode* modeOf(const std::string& name, std::size_t width) {
+    const DebugMode* mode = findDebugMode(name);
+    return mode && mode->name == name && static_cast<std::size_t>(mode->width) == width ? mode : nullptr;
+}
+
+ChannelKind kindOf(const std::string& name, const Names& channels, const std::string& type) {
+    if (const DebugMode* mode = modeOf(name, channels.size())) return mode->kind;
+    if (channels.size() == 3) return suffix(channels[0]) == "X" ? ChannelKind::vector : ChannelKind::color;
+    return type == "uint" ? ChannelKind::id : ChannelKind::scalar;
+}
+
+// A layer in pieces that have a meaning each.
+class Splitter {
+public:
+    Splitter(PictureLayer layer, std::vector<PictureChannel>& out) : layer_(std::move(layer)), out_(out) {
+        left_.assign(layer_.channels.size(), true);
+    }
+
+    void split() {
+        take({"R", "G", "B"}, layer_.name.empty() ? "lit" : layer_.name);
+        take({"X", "Y", "Z"}, layer_.name.empty() ? "xyz" : layer_.name);
+        take({"X", "Y"}, layer_.name.empty() ? "xy" : layer_.name);
+        take({"U", "V"}, layer_.name.empty() ? "uv" : layer_.name);
+        if (layer_.name.empty()) takeGrey();
+        const bool alone = layer_.channels.size() == 1;
+        for (std::size_t i = 0; i < left_.size(); ++i)
+            if (left_[i]) put({i}, nameAlone(layer_.channels[i], alone));
+    }
+
+private:
+    PictureLayer layer_;
+    std::vector<PictureChannel>& out_;
+    std::vector<bool> left_;
+
+    // A grey picture's light, with alpha or without: as red, green and blue, so that it meets colours and has
+    // a FLIP.
+    void takeGrey() {
+        for (std::size_t i = 0; i < layer_.channels.size(); ++i)
+            if (left_[i] && layer_.channels[i] == "Y") {
+                PictureChannel channel{"lit", {"Y"}, layer_.sample, ChannelKind::color, {}};
+                channel.image = picked(layer_.image, {i, i, i});
+                left_[i] = false;
+                out_.push_back(std::move(channel));
+            }
+    }
+
+    std::string nameAlone(const std::string& channel, bool alone) const {
+        if (channel == "Z") return "depth";
+        // "roughness.Y" is the whole of roughness.
+        return alone && !layer_.name.empty() ? layer_.name : channel;
+    }
+
+    void take(const Names& suffixes, const std::string& name) {
+        std::vector<std::size_t> components;
+        for (const std::string& wanted : suffixes)
+            for (std::size_t i = 0; i < layer_.channels.size(); ++i)
+                if (left_[i] && suffix(layer_.channels[i]) == wanted) {
+                    components.push_back(i);
+                    break;
+                }
+        if (components.size() == suffixes.size()) put(components, name);
+    }
+
+    void put(const std::vector<std::size_t>& components, const std::string& name) {
+        PictureChannel channel{name, {}, layer_.sample, {}, {}};
+        for (const std::size_t i : components) {
+            channel.channels.push_back(layer_.channels[i]);
+            left_[i] = false;
+        }
+        channel.kind = kindOf(name, channel.channels, channel.type);
+        if (components.size() == 1 && components[0] < layer_.exact.size())
+            channel.exact = std::move(layer_.exact[components[0]]);
+        channel.image = components.size() == layer_.channels.size() && std::ranges::is_sorted(components)
+                            ? std::move(layer_.image)
+                            : picked(layer_.image, components);
+        out_.push_back(std::move(channel));
+    }
+};
+
+// "albedo=diffuse.R,diffuse.G,diffuse.B"
+struct Renaming {
+    std::string name;
+    Names channels;
+};
+
+Renaming renamingOf(const std::string& words) {
+    Renaming renaming;
+    const std::size_t equals = words.find('=');
+    std::istringstream list(equals == words.npos ? "" : words.substr(equals + 1));
+    for (std::string channel; std::getline(list, channel, ',');) renaming.channels.push_back(channel);
+    if (equals == 0 || renaming.channels.empty() || std::ranges::count(renaming.channels, "") > 0)
+        fail(fmt::format("--map {}: is NAME=CHANNEL,CHANNEL,..., e.g. albedo=diffuse.R,diffuse.G,diffuse.B",
+                         words));
+    renaming.name = words.substr(0, equals);
+    return renaming;
+}
+
+// The channels of a renaming as a layer; nothing where the file does not have them all.
+std::optional<PictureChannel> renamed(PictureFile& file, const Renaming& renaming) {
+    struct Place {
+        PictureLayer* layer;
+        std::size_t component;
+    };
+    std::vector<Place> places;
+    for (const std::string& wanted : renaming.channels)
+        for (PictureLayer& layer : file.layers)
+            if (const auto found = std::ranges::find(layer.channels, wanted); found != layer.channels.end()) {
+                places.push_back({&layer, static_cast<std::size_t>(found - layer.channels.begin())});
+                break;
+            }
+    if (places.size() != renaming.channels.size()) return {};
+    PictureChannel channel{renaming.name, renaming.channels, places[0].layer->sample, {}, {}};
+    channel.kind = kindOf(channel.name, channel.channels, channel.type);
+    channel.image = Image(file.width, file.height, static_cast<int>(places.size()));
+    for (std::size_t c = 0; c < places.size(); ++c) {
+        const Image& from = places[c].layer->image;
+        for (std::size_t i = 0; i < from.pixels(); ++i)
+            channel.image.pixel(i)[c] = from.pixel(i)[places[c].component];
+    }
+    return channel;
+}
+
+void remove(PictureFile& file, const Names& channels) {
+    for (PictureLayer& layer : file.layers) {
+        std::vector<std::size_t> kept;
+        for (std::size_t i = 0; i < layer.channels.size(); ++i)
+            if (std::ranges::count(channels, layer.channels[i]) == 0) kept.push_back(i);
+        if (kept.size() == layer.channels.size()) continue;
+        layer.image = picked(layer.image, kept);
+        Names names;
+        for (const std::size_t i : kept) names.push_back(layer.channels[i]);
+        layer.channels = std::move(names);
+    }
+    std::erase_if(file.layers, [](const PictureLayer& layer) { return layer.channels.empty(); });
+}
+
+std::string list(const std::vector<PictureChannel>& channels) {
+    Names names;
+    for (const PictureChannel& channel : channels) names.push_back(channel.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// Two whole numbers that float32 rounds to one are told apart by its next value: the difference is seen, by
+// its size only as far as float32 resolves it.
+void tellApart(const PictureChannel& a, PictureChannel& b) {
+    if (a.exact.empty() && b.exact.empty()) return;
+    const auto valueAt = [](const PictureChannel& c, std::size_t i) {
+        return c.exact.empty() ? double{c.image.data[i]} : static_cast<double>(c.exact[i]);
+    };
+    for (std::size_t i = 0; i < a.image.pixels(); ++i)
+        if (a.image.data[i] == b.image.data[i] && valueAt(a, i) != valueAt(b, i))
+            b.image.data[i] = std::nextafter(b.image.data[i], 0.0f);
+}
+
+Metric metricOf(const std::string& name, const PictureChannel& channel) {
+    const DebugMode* mode = modeOf(name, channel.channels.size());
+    if (mode && (mode->metric == Metric::angular || mode->metric == Metric::exact)) return mode->metric;
+    return channel.kind == ChannelKind::id ? Metric::exact : Metric::absolute;
+}
+
+}  // namespace
+
+std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names) {
+    std::vector<PictureChannel> channels;
+    Names used;
+    for (const std::string& words : names) {
+        const Renaming renaming = renamingOf(words);
+        if (auto channel = renamed(file, renaming)) {
+            used.insert(used.end(), renaming.channels.begin(), renaming.channels.end());
+            channels.push_back(std::move(*channel));
+        }
+    }
+    remove(file, used);
+    for (PictureLayer& layer : file.layers) Splitter(std::move(layer), channels).split();
+    return channels;
+}
+
+void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std::string>& names) {
+    const auto channelsIn = [](const PictureFile& file) {
+        Names all;
+        for (const PictureLayer& layer : file.layers)
+            all.insert(all.end(), layer.channels.begin(), layer.channels.end());
+        return oneLine(fmt::format("{}", fmt::join(all, ", ")));
+    };
+    for (const std::string& words : names) {
+        const Renaming renaming = renamingOf(words);
+        if (!renamed(reference, renaming) && !renamed(test, renaming))
+            fail(fmt::format("--map {}: neither file has these channels; the reference has {}, the test {}",
+                             words, channelsIn(reference), channelsIn(test)));
+    }
+}
+
+MatchedChannels match(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
+                      const std::vector<std::string>& wanted) {
+    MatchedChannels matched;
+    const auto isWanted = [&](const std::string& name) {
+        return wanted.empty() || std::ranges::any_of(wanted, [&](const auto& w) { return matches(w, name); });
+    };
+    const std::string inReference = list(reference), inTest = list(test);
+    for (PictureChannel& a : reference) {
+        if (!isWanted(a.name)) continue;
+        const auto b = std::ranges::find(test, a.name, &PictureChannel::name);
+        if (b == test.end()) {
+            matched.notes.push_back(fmt::format("{} is in the reference alone and was not compared", a.name));
+            continue;
+        }
+        if (a.image.components != b->image.components)
+            fail(fmt::format("{}: {} in the reference and {} in the test; --map says what belongs together",
+                             a.name, fmt::join(a.channels, ","), fmt::join(b->channels, ",")));
+        if (a.type != b->type)
+            matched.notes.push_back(
+                fmt::format("{}: {} in the reference, {} in the test", a.name, a.type, b->type));
+        tellApart(a, *b);
+        const Metric metric = metricOf(a.name, a);
+        matched.channels.push_back(
+            {a.name, a.kind, metric, a.type, b->type, a.channels, std::move(a.image), std::move(b->image)});
+    }
+    for (const PictureChannel& b : test)
+        if (isWanted(b.name) &&
+            std::ranges::find(reference, b.name, &PictureChannel::name) == reference.end())
+            matched.notes.push_back(fmt::format("{} is in the test alone and was not compared", b.name));
+    const auto both = fmt::format("the reference has {}, the test {}", inReference, inTest);
+    for (const std::string& w : wanted)
+        if (std::ranges::none_of(matched.channels, [&](const auto& c) { return matches(w, c.name); }))
+            fail(fmt::format("--channels {}: not in both; {}", w, both));
+    if (matched.channels.empty())
+        fail(fmt::format("no layer is in both: {}; --map gives them one name", both));
+    return matched;
+}
+
+}  // namespace diptych

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "compare/files/our_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Null where the file is not ours.
+nlohmann::json ourJson(const fs::path& file) {
+    std::ifstream stream(file);
+    nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    const auto says = [&](const char* key, const auto& value) {
+        return json.contains(key) && json[key] == value;
+    };
+    return json.is_object() && says("software", softwareName) && says("schema", 1) ? json : nlohmann::json();
+}
+
+bool isPlainName(const fs::path& name) {
+    constexpr const char* endings[] = {".png", ".exr", ".html",      ".xml",       ".json",
+                                       ".csv", ".svg", ".values.js", ".section.js"};
+    return name.filename() == name && std::ranges::any_of(endings, [&](const char* ending) {
+               return name.native().ends_with(ending) && !name.stem().empty() && name.native().front() != '.';
+           });
+}
+
+}  // namespace
+
+// Both stand before the pixels: the EXR attribute (name, type, size, value) and the PNG chunk (size, type,
+// keyword, text), byte for byte as they are written.
+bool isOurPicture(const fs::path& file) {
+    using namespace std::string_literals;
+    std::string head(1 << 16, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(stream.gcount()));
+    const auto says = [&](const std::string& magic, const std::string& software) {
+        return head.starts_with(magic) && head.find(software + softwareName) != std::string::npos;
+    };
+    return says("\x76\x2f\x31\x01"s, "software\0string\0\7\0\0\0"s) ||
+           says("\x89PNG\r\n\x1a\n"s, "\0\0\0\x10tEXtSoftware\0"s);
+}
+
+bool isOurMark(const fs::path& file) {
+    return ourJson(file).is_object();
+}
+
+std::vector<std::string> listedIn(const fs::path& mark) {
+    const nlohmann::json json = ourJson(mark);
+    std::vector<std::string> names;
+    if (json.contains("files") && json["files"].is_array())
+        for (const auto& name : json["files"])
+            if (name.is_string() && isPlainName(name.get<std::string>())) names.push_back(name);
+    return names;
+}
+
+bool isOurName(const fs::path& name) {
+    const std::string folder = name.parent_path().string();
+    return isPlainName(name.filename()) &&
+           std::ranges::all_of(folder, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::vector<std::string> markedIn(const fs::path& folder, const std::string& mark) {
+    if (!isOurMark(folder / mark)) return {};
+    std::vector<std::string> names = listedIn(folder / mark);
+    if (std::ranges::count(names, mark) == 0) names.push_back(mark);
+    return names;
+}
+
+}  // namespace diptych

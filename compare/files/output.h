@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Where a command writes, and what it may replace.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+enum class OutputKind { folder, exr, png };
+
+struct Output {
+    OutputKind kind = OutputKind::folder;
+    std::filesystem::path path;
+};
+
+// By the ending of `out`: .exr, .png, or none for a folder; an existing folder or a name that ends in a slash
+// is one whatever its ending. Throws std::runtime_error naming -o for any other ending.
+Output outputOf(const std::filesystem::path& out);
+
+// ".NAME.what" beside an output: where what is done of it is kept until it is whole.
+std::filesystem::path besideOutput(const std::filesystem::path& out, const std::string& what);
+
+// An EXR or PNG that names diptych as its software, or a folder that is empty or holds `mark`, a JSON file of
+// ours, may be replaced; whatever else is there needs `force`. Throws std::runtime_error naming
+// -o. Files of others in such a folder are left alone. What a killed program left half done in a folder is
+// completed first.
+void checkReplaceable(const Output& output, const std::string& mark, bool force);
+
+}  // namespace diptych

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "compare/files/output_folder.h"
+
+#include "compare/files/file_moves.h"
+#include "compare/files/folder_lock.h"
+
+#include "shared/image/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/xattr.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+namespace diptych {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// "out/" and "out/." are out, and a link is where it leads.
+fs::path nameOf(const fs::path& folder) {
+    fs::path path = fs::absolute(folder).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    return fs::is_symlink(fs::symlink_status(path)) ? fs::weakly_canonical(path) : path;
+}
+
+// Regular files of `ours` and the folders that they need, but for `aside`.
+bool holdsOnly(const fs::path& folder, const std::vector<std::string>& ours, const fs::path& aside) {
+    const std::set<std::string> names(ours.begin(), ours.end());
+    std::set<std::string> folders;
+    for (const std::string& name : ours) folders.insert(fs::path(name).parent_path().string());
+    std::error_code error;
+    fs::recursive_directory_iterator entry(folder, error);
+    for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+        const fs::file_status status = entry->symlink_status(error);
+        if (entry->path() == aside) {
+            entry.disable_recursion_pending();
+            continue;
+        }
+        const std::string name = entry->path().lexically_relative(folder).string();
+        if (!(fs::is_directory(status)      ? folders
+              : fs::is_regular_file(status) ? names
+                                            : std::set<std::string>())
+                 .contains(name))
+            return false;
+    }
+    return !error;
+}
+
+// Access lists and the like, which a new folder would not have. SELinux marks every folder by itself.
+bool hasAttributes(const fs::path& folder) {
+    char names[4096];
+    const ssize_t size = ::llistxattr(folder.c_str(), names, sizeof names);
+    if (size < 0) return errno != ENOTSUP;
+    for (std::string_view rest(names, static_cast<std::size_t>(size)); !rest.empty();) {
+        const std::string_view name = rest.substr(0, rest.find('\0'));
+        if (!name.starts_with("security.")) return true;
+        rest.remove_prefix(name.size() + 1);
+    }
+    return false;
+}
+
+// A new folder can have all that the old one has: owner, group, mode. Not a link, and not where we stand.
+bool likeNew(const fs::path& folder, const fs::path& fresh) {
+    struct stat old {
+    }, made{};
+    std::error_code error;
+    if (::lstat(folder.c_str(), &old) != 0 || ::lstat(fresh.c_str(), &made) != 0) return false;
+    return S_ISDIR(old.st_mode) && old.st_uid == made.st_uid && old.st_gid == made.st_gid &&
+           !hasAttributes(folder) && !fs::equivalent(folder, fs::current_path(error), error) && !error &&
+           ::chmod(fresh.c_str(), old.st_mode & 07777) == 0;
+}
+
+bool isReadOnly(const fs::path& folder) {
+    return ::faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) != 0;
+}
+
+// What somebody else put into a folder of ours while it changed places goes back under its name.
+void rescue(const fs::path& from, const fs::path& to, const std::vector<std::string>& ours) {
+    std::error_code ignored;
+    for (const std::string& name : ours) fs::remove(from / name, ignored);
+    for (const std::string& name : ours)
+        if (const fs::path inner = fs::path(name).parent_path(); !inner.empty())
+            ::rmdir((from / inner).c_str());
+    for (fs::directory_iterator entry(from, ignored), end; !ignored && entry != end; entry.increment(ignored))
+        ::renameat2(AT_FDCWD, entry->path().c_str(), AT_FDCWD, (to / entry->path().filename()).c_str(),
+                    RENAME_NOREPLACE);
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& folder) : folder_(nameOf(folder)) {
+    std::error_code error;
+    fs::create_directories(folder_.parent_path(), error);
+    if (error) throw std::runtime_error(writingFailed(folder, error.value()));
+    const FolderLock lock(folder_);
+    // What killed programs left on either side.
+    temporary_ = std::make_unique<Temporary>(folder_.parent_path(), folder_);
+    if (fs::exists(folder_)) temporary_ = std::make_unique<Temporary>(folder_, folder_);
+    if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
+}
+
+// False, and nothing is changed, where the whole folder cannot be replaced at once.
+bool OutputFolder::exchange(const std::vector<std::string>& earlier) {
+    if (isReadOnly(folder_) || !holdsOnly(folder_, earlier, temporary_->path()) ||
+        !likeNew(folder_, temporary_->path()))
+        return false;
+    const fs::path home = temporary_->path().parent_path(), beside = folder_.parent_path();
+    if (home != beside && !temporary_->moveTo(beside)) return false;
+    if (::renameat2(AT_FDCWD, temporary_->path().c_str(), AT_FDCWD, folder_.c_str(), RENAME_EXCHANGE) == 0) {
+        rescue(temporary_->path(), folder_, earlier);
+        return true;
+    }
+    return false;
+}
+
+void OutputFolder::put(const std::vector<std::string>& files,
+                       const std::function<std::vector<std::string>()>& earlier) {
+    const FolderLock lock(folder_);
+    const auto held = holdTemporaries();
+    finishMoves(folder_);
+    const std::vector<std::string> old = earlier();
+    if (!fs::exists(fs::symlink_status(folder_))) {
+        if (!temporary_->become(folder_)) throw std::runtime_error(writingFailed(folder_, errno));
+        return;
+    }
+    if (exchange(old)) return;
+    if (temporary_->path().parent_path() != folder_ && !temporary_->moveTo(folder_))
+        throw std::runtime_error(writingFailed(folder_, errno));
+    moveFiles(folder_, *temporary_, {files, old});
+}
+
+void finishOutput(const fs::path& folder) {
+    const fs::path path = nameOf(folder);
+    if (!isMoveBegun(path)) return;
+    const FolderLock lock(path);
+    const auto held = holdTemporaries();
+    finishMoves(path);
+}
+
+}  // namespace diptych

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "compare/picture/heat.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace diptych {
+
+namespace {
+
+using Rgb8 = std::array<std::uint8_t, 3>;
+
+// Digits of 3 x 5 pixels, a row of three bits each from the top, with "." and "k".
+constexpr std::string_view glyphs = "0123456789.k";
+constexpr std::array<std::array<unsigned, 5>, 12> rows{{{7, 5, 5, 5, 7},
+                                                        {2, 6, 2, 2, 7},
+                                                        {7, 1, 7, 4, 7},
+                                                        {7, 1, 7, 1, 7},
+                                                        {5, 5, 7, 1, 1},
+                                                        {7, 4, 7, 1, 7},
+                                                        {7, 4, 7, 5, 7},
+                                                        {7, 1, 1, 1, 1},
+                                                        {7, 5, 7, 5, 7},
+                                                        {7, 5, 7, 1, 7},
+                                                        {0, 0, 0, 0, 2},
+                                                        {4, 5, 6, 6, 5}}};
+
+void fill(Image8& image, int left, int top, int width, int height, const Rgb8& color) {
+    for (int y = std::max(top, 0); y < std::min(top + height, image.height); ++y)
+        for (int x = std::max(left, 0); x < std::min(left + width, image.width); ++x)
+            std::copy(color.begin(), color.end(),
+                      image.data.begin() + 3 * (std::ptrdiff_t{y} * image.width + x));
+}
+
+void write(Image8& image, std::string_view words, int left, int top, int size) {
+    for (const char c : words) {
+        const std::size_t glyph = glyphs.find(c);
+        for (int y = 0; y < 5; ++y)
+            for (int x = 0; x < 3; ++x)
+                if ((rows[glyph][static_cast<std::size_t>(y)] >> (2 - x)) & 1)
+                    fill(image, left + x * size, top + y * size, size, size, {255, 255, 255});
+        left += 4 * size;
+    }
+}
+
+std::string words(double count) {
+    return count >= 10000 ? fmt::format("{:g}k", count / 1000) : fmt::format("{:g}", count);
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 3> heatColor(double t) {
+    constexpr std::array<std::array<double, 3>, 6> stops{
+        {{20, 20, 90}, {20, 130, 190}, {40, 190, 90}, {235, 215, 60}, {250, 150, 110}, {255, 255, 255}}};
+    const double at = std::clamp(t, 0.0, 1.0) * (stops.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
+    Rgb8 color{};
+    for (std::size_t c = 0; c < 3; ++c)
+        color[c] = static_cast<std::uint8_t>(
+            std::lround(std::lerp(stops[i][c], stops[i + 1][c], at - static_cast<double>(i))));
+    return color;
+}
+
+double heatTop(double largest) {
+    if (!(largest > 1)) return 1;
+    const double ten = std::pow(10.0, std::floor(std::log10(largest)));
+    for (const double step : {1.0, 2.0, 5.0})
+        if (largest <= step * ten) return step * ten;
+    return 10 * ten;
+}
+
+void drawHeatLegend(Image8& image, double top) {
+    if (image.width < 64 || image.height < 32) return;
+    const int size = std::max(1, image.width / 480);  // of a glyph's pixel
+    const int margin = 3 * size, width = std::min(image.width - 2 * margin, 100 * size), bar = 5 * size;
+    const int left = margin, line = image.height - margin - 5 * size, above = line - 2 * size - bar;
+    fill(image, 0, above - margin, width + 2 * margin, image.height, {0, 0, 0});
+    for (int x = 0; x < width; ++x) fill(image, left + x, above, 1, bar, heatColor((x + 0.5) / width));
+    for (const double part : {0.0, 0.5, 1.0}) {
+        const std::string label = words(part * top);
+        const int wide = static_cast<int>(label.size()) * 4 * size - size;
+        write(image, label, left + static_cast<int>(part * (width - wide)), line, size);
+    }
+}
+
+}  // namespace diptych

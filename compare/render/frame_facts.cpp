@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/frame_facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace diptych {
+
+ViewRequest viewRequest(const Settings& settings) {
+    return {settings.time,        settings.camera, settings.size.width,
+            settings.size.height, settings.lights, settings.seed};
+}
+
+Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& settings) {
+    Frame frame;
+    frame.name = std::string(nameOf(settings.path));
+    frame.scene = scene.name;
+    frame.settings = settings;
+    frame.camera = cameraOf(view.view);
+    frame.background = {scene.background.r, scene.background.g, scene.background.b};
+    frame.notes = scene.notes;
+    frame.counters.lights = view.lights.size();
+    return frame;
+}
+
+FrameCamera cameraOf(const View& view) {
+    FrameCamera camera;
+    camera.name = view.camera.name;
+    const glm::dvec3 eye = view.eye(), target = view.target(), up = view.up();
+    for (int i = 0; i < 3; ++i) {
+        camera.eye[i] = eye[i];
+        camera.target[i] = target[i];
+        camera.up[i] = up[i];
+    }
+    camera.fov_degrees = view.camera.orthographic ? 0.0 : glm::degrees(view.camera.yfov);
+    camera.ymag = view.camera.orthographic ? view.camera.ymag : 0.0;
+    camera.near = view.camera.near;
+    camera.far = view.camera.far;
+    return camera;
+}
+
+std::uint64_t nonfinitePixels(const Image& image) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* p = image.pixel(i);
+        count += !std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); });
+    }
+    return count;
+}
+
+FrameTime timeOf(std::vector<double> ms) {
+    FrameTime time;
+    time.runs = static_cast<int>(ms.size());
+    if (ms.empty()) return time;
+    std::sort(ms.begin(), ms.end());
+    time.min = ms.front();
+    time.max = ms.back();
+    time.median = 0.5 * (ms[(ms.size() - 1) / 2] + ms[ms.size() / 2]);
+    return time;
+}
+
+}  // namespace diptych

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What a Frame says of itself, whoever made it.
+#pragma once
+
+#include "shared/frame/frame.h"
+#include "shared/image/image.h"
+#include "shared/scene/scene_view.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace diptych {
+
+// The view that these Settings ask for.
+ViewRequest viewRequest(const Settings& settings);
+
+// Name, scene, Settings, camera, background and the scene's notes: what is known before anything is drawn.
+Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& settings);
+
+FrameCamera cameraOf(const View& view);
+
+// Pixels with a component that is NaN or infinite.
+std::uint64_t nonfinitePixels(const Image& image);
+
+// Median, least and greatest, ms.
+FrameTime timeOf(std::vector<double> ms);
+
+}  // namespace diptych

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/frame/settings.h"
+#include "shared/scene/scene_view.h"
+#include "shared/vulkan/device.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What a frame would be made of, without drawing it.
+struct PathPlan {
+    std::string path;
+    std::vector<std::string> passes;
+    unsigned bytes_per_pixel = 0;  // attachments that carry geometry: G-buffer and depth; without lit
+    std::vector<std::string> notes;
+};
+std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::vector<Settings>& settings);
+
+}  // namespace diptych

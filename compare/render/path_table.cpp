@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/path_table.h"
+
+#include "deferred/deferred.h"
+#include "forward_plus/forward_plus.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+// The paths, one row each.
+const PathFunctions paths[] = {
+    {Path::deferred, addDeferred, addDeferredCapture,
+     [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; }},
+    {Path::forward_plus, addForwardPlus, addForwardPlusCapture,
+     [](const FrameInputs&) { return std::uint32_t{4}; }},
+};
+
+}  // namespace
+
+const PathFunctions& functionsOf(Path path) {
+    for (const PathFunctions& functions : paths)
+        if (functions.path == path) return functions;
+    throw std::logic_error(fmt::format("--path {} is drawn by no device", nameOf(path)));
+}
+
+}  // namespace diptych

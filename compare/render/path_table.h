@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The two paths, as everything that draws asks for them.
+#pragma once
+
+#include "shared/draw/frame_inputs.h"
+#include "shared/frame/settings.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace diptych {
+
+// What a path is made of.
+struct PathFunctions {
+    Path path;
+    FrameImages (*add)(PassList&, const FrameInputs&);
+    std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, const FrameImages&,
+                                          const CaptureRequest&);
+    std::uint32_t (*bytesPerPixel)(const FrameInputs&);
+};
+// Throws std::logic_error for the reference, which no device draws.
+const PathFunctions& functionsOf(Path path);
+
+}  // namespace diptych

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/prepared_view.h"
+
+#include "compare/render/frame_facts.h"
+#include "compare/render/left_out.h"
+#include "shared/draw/overdraw.h"
+#include "shared/light/cutoff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+gpu::uint listsOf(Assignment assign) {
+    switch (assign) {
+        case Assignment::tiled:
+            return gpu::LISTS_TILED;
+        case Assignment::clustered:
+            return gpu::LISTS_CLUSTERED;
+        case Assignment::every:
+        case Assignment::per_object:
+            break;
+    }
+    return gpu::LISTS_NONE;
+}
+
+std::optional<std::uint32_t> objectPixelLights(const Settings& settings) {
+    if (settings.assign != Assignment::per_object) return std::nullopt;
+    return static_cast<std::uint32_t>(settings.pixel_lights);
+}
+
+GpuLights lightsOf(const std::vector<Light>& lights, const View& view, const Settings& settings) {
+    GpuLights result = gpuLights(withCutoff(lights, double{settings.light_cutoff}), view.eye());
+    result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
+    return result;
+}
+
+// A workgroup a cell suits a GPU's wide groups; lavapipe runs them eight threads at a time and tests every
+// light in every cell (README, "Many lights").
+ListKernel kernelOf(LightKernel kernel, const Device& device) {
+    if (kernel == LightKernel::automatic)
+        return device.info().isCpu() ? ListKernel::scatter : ListKernel::gather;
+    return kernel == LightKernel::scatter ? ListKernel::scatter : ListKernel::gather;
+}
+
+}  // namespace
+
+SharedResources::SharedResources(Device& d, const Scene& scene)
+    : uploader(d),
+      geometry(d, uploader, scene),
+      materials(d, uploader, scene),
+      layouts(d, materials.layout()),
+      pipelines(d, layouts.pipeline) {
+    uploader.flush();
+}
+
+PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneView& seen,
+                           const Settings& settings)
+    : scene(seen),
+      lights(lightsOf(scene.lights, scene.view, settings)),
+      draws(makeDrawList(scene.pose, shared.geometry, shared.materials, scene.view)),
+      buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
+              {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
+              objectPixelLights(settings)),
+      gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
+      inputs{device,
+             shared.layouts,
+             shared.pipelines,
+             shared.geometry,
+             shared.materials,
+             draws,
+             buffers.draws(),
+             buffers.set(),
+             buffers.carriedNothing(),
+             buffers.lists(),
+             sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
+             gbuffer,
+             settings.prepass != Switch::off} {
+    buffers.lists().specialise(inputs.variant);
+    if (device.info().isCpu()) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
+    const LightLists& lists = buffers.lists();
+    const ObjectLightBuffers& objects = buffers.objects();
+    inputs.variant.set(gpu::FEATURE_object_lights, objects.features());
+    inputs.light_groups = lists.any()               ? lists.grid().all_end
+                          : objects.features() != 0 ? objects.longest()
+                                                    : lights.local();
+    if (settings.path == Path::forward_plus && settings.prepass == Switch::automatic) decidePrepass(settings);
+}
+
+void PreparedView::decidePrepass(const Settings& settings) {
+    if (settings.assign == Assignment::tiled) return;
+    const LightLists& lists = buffers.lists();
+    const gpu::LightGrid& grid = lists.grid();
+    const std::uint64_t atPixel =
+        lists.any() ? std::uint64_t{grid.capacity} * grid.width / grid.lists : lights.local();
+    const PrepassChoice choice =
+        choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
+                                      static_cast<std::uint32_t>(settings.size.height)),
+                      static_cast<double>(atPixel + lights.directional), inputs.device.info().isCpu());
+    inputs.prepass = choice.on;
+    notes.push_back(choice.because);
+}
+
+PreparedFrame::PreparedFrame(Device& device, SharedResources& shared, const SceneView& scene,
+                             const Settings& settings)
+    : path(functionsOf(settings.path)),
+      view(device, shared, scene, settings),
+      passes(device, static_cast<std::uint32_t>(settings.size.width),
+             static_cast<std::uint32_t>(settings.size.height)),
+      images(path.add(passes, view.inputs)) {}
+
+void checkSize(const Device& device, const Size& size) {
+    const auto limit = static_cast<int>(std::min(device.limits().maxImageDimension2D, 1u << 24));
+    if (size.width > limit || size.height > limit)
+        throw std::runtime_error(fmt::format("--size {}x{}: {} draws up to {}x{}", size.width, size.height,
+                                             device.info().name, limit, limit));
+}
+
+Frame describedFrame(const PreparedFrame& prepared, const SharedResources& shared, const Scene& scene,
+                     const Settings& settings) {
+    const SceneView& seen = prepared.view.scene;
+    Frame frame = describedFrame(scene, seen, settings);
+    for (const std::string& note : shared.materials.notes()) frame.notes.push_back(note);
+    std::ranges::move(leftOutLight(settings.path, seen.needs), std::back_inserter(frame.notes));
+    std::ranges::move(leftOutMotion(settings.path, seen.needs), std::back_inserter(frame.notes));
+    for (const std::string& note : prepared.view.notes) frame.notes.push_back(note);
+    frame.counters.lights = prepared.view.lights.count();
+    frame.counters.energy_cut = energyCut(scene, seen.pose, seen.lights, double{settings.light_cutoff});
+    return frame;
+}
+
+FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
+    return {prepared.passes.imageBytes() + shared.materials.imageBytes(),
+            shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes(),
+            prepared.path.bytesPerPixel(prepared.view.inputs)};
+}
+
+std::vector<Image> readImages(PassList& passes, const std::vector<PassList::ReadBack>& requests) {
+    std::vector<std::vector<float>> data = passes.readBack(requests);
+    std::vector<Image> images(requests.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        images[i].width = static_cast<int>(passes.width());
+        images[i].height = static_cast<int>(passes.height());
+        images[i].components = requests[i].components;
+        images[i].data = std::move(data[i]);
+    }
+    return images;
+}
+
+Image readLit(PreparedFrame& prepared) {
+    return std::move(readImages(prepared.passes, {{prepared.images.lit, 3}}).front());
+}
+
+}  // namespace diptych

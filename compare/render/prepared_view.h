@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What drawing a scene takes, made up front: what all Settings share, and one view of the scene under one
+// Settings, ready to be drawn again and again.
+#pragma once
+
+#include "compare/render/path_table.h"
+#include "shared/draw/frame_inputs.h"
+#include "shared/frame/frame.h"
+#include "shared/scene/scene_view.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// What all Settings share: uploaded and compiled once.
+struct SharedResources {
+    SharedResources(Device& device, const Scene& scene);
+    Uploader uploader;
+    Geometry geometry;
+    Materials materials;
+    Layouts layouts;
+    Pipelines pipelines;
+};
+
+// One view of the scene under one Settings, ready for passes. It does not outlive what it is made of.
+class PreparedView {
+public:
+    PreparedView(Device& device, SharedResources& shared, const SceneView& scene, const Settings& settings);
+    PreparedView(const PreparedView&) = delete;
+    PreparedView& operator=(const PreparedView&) = delete;
+
+    std::vector<std::string> notes;  // what was decided for this view
+    const SceneView& scene;
+    GpuLights lights;
+    DrawList draws;
+    FrameBuffers buffers;
+    GBufferLayout gbuffer;
+    FrameInputs inputs;
+
+private:
+    // Tiles are bounded by depth, so they need it first.
+    void decidePrepass(const Settings& settings);
+};
+
+// A PreparedView with its passes, images and pipelines: all that running it again needs.
+struct PreparedFrame {
+    PreparedFrame(Device& device, SharedResources& shared, const SceneView& scene, const Settings& settings);
+
+    const PathFunctions& path;
+    PreparedView view;
+    PassList passes;
+    FrameImages images;
+};
+
+// Throws std::runtime_error naming --size where the device draws no picture so large.
+void checkSize(const Device& device, const Size& size);
+
+// What is known of the Frame before it is drawn: names, Settings, camera, lights, notes of the scene.
+Frame describedFrame(const PreparedFrame& prepared, const SharedResources& shared, const Scene& scene,
+                     const Settings& settings);
+FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared);
+
+// lit as the last run left it, row 0 on top, R, G, B.
+Image readLit(PreparedFrame& prepared);
+std::vector<Image> readImages(PassList& passes, const std::vector<PassList::ReadBack>& requests);
+
+}  // namespace diptych

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/reference_frame.h"
+
+#include "compare/files/output.h"
+#include "compare/metrics/channel.h"
+#include "compare/reference/reference.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/left_out.h"
+#include "compare/run/interruption.h"
+#include "compare/run/version.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <system_error>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), background = static_cast<int>(gpu::DEBUG_material_id);
+
+// The uncertainty that 99.9 % of the surface's pixels keep to, relative to the pixel.
+double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverage& covered) {
+    const PixelError error(Metric::relative, ChannelKind::color, image, covered);
+    std::vector<double> all;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        if (!covered.covered[i]) continue;
+        const float* p = image.pixel(i);
+        const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+        all.push_back(double{uncertainty.pixel(i)[0]} / std::max(largest, error.floor()));
+    }
+    if (all.empty()) return 0;
+    const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(all.size()))) - 1;
+    std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(rank));
+    return all[rank];
+}
+
+}  // namespace
+
+Settings referenceSettings(const Settings& settings) {
+    Settings truth;
+    truth.path = Path::reference;
+    truth.size = settings.size;
+    truth.camera = settings.camera;
+    truth.time = settings.time;
+    truth.env = settings.env;
+    truth.ibl_intensity = settings.ibl_intensity;
+    truth.ambient = settings.ambient;
+    truth.lights = settings.lights;
+    truth.seed = settings.seed;
+    truth.shadows = settings.shadows;
+    truth.haze = settings.haze;
+    truth.spp = settings.spp;
+    truth.reference_mode = settings.reference_mode;
+    return truth;
+}
+
+Settings withoutReference(const Settings& settings) {
+    const Settings usual;
+    Settings path = settings;
+    path.spp = usual.spp;
+    path.reference_mode = usual.reference_mode;
+    return path;
+}
+
+Settings surfaceSettings(const Settings& settings) {
+    const Settings usual;
+    Settings surfaces = withoutReference(referenceSettings(settings));
+    surfaces.path = Path::forward_plus;
+    surfaces.prepass = Switch::on;
+    surfaces.gbuffer = GBufferEncoding::full;  // the geometric normal is not packed either
+    surfaces.shadows = usual.shadows;
+    surfaces.env = usual.env;
+    surfaces.ibl_intensity = usual.ibl_intensity;
+    surfaces.ambient = usual.ambient;
+    return surfaces;
+}
+
+bool isReferenceFrame(const Frame& frame) {
+    return frame.settings.path == Path::reference &&
+           (frame.origin.file.empty() || !frame.origin.device.empty());
+}
+
+Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
+                         const Frame* surfaces, const RenderOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string step = settings.reference_mode == ReferenceMode::surface
+                                 ? "reference: shade every surface"
+                                 : "reference: trace every pixel";
+    const reference::Request request{
+        .scene = scene,
+        .pose = view.pose,
+        .view = view.view,
+        .lights = view.lights,
+        .environment_factor = double{settings.ibl_intensity},
+        .ambient = {double{settings.ambient.r}, double{settings.ambient.g}, double{settings.ambient.b}},
+        .shadows = settings.shadows != Shadows::off,
+        .mode = settings.reference_mode,
+        .samples = settings.spp,
+        .surfaces = surfaces ? &surfaces->channels : nullptr,
+        .keep = options.keep ? options.keep() : fs::path(),
+        .program = commitName(),
+        .progress = [&](double fraction) { options.progress.at(fraction, step); }};
+    reference::Picture picture = reference::draw(request);
+
+    Frame frame = describedFrame(scene, view, settings);
+    if (surfaces)
+        std::ranges::move(leftOutMotion(Path::forward_plus, view.needs), std::back_inserter(frame.notes));
+    frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
+    frame.channels = std::move(picture.channels);
+    frame.asked = options.asked;
+    if (!picture.uncertainty.empty()) {
+        frame.relative_uncertainty =
+            uncertaintyOf(picture.uncertainty, frame.channels.at(lit), coverage(frame, frame));
+        frame.uncertainty = std::move(picture.uncertainty);
+        frame.notes.push_back(fmt::format(
+            "reference: lit is known to {:.2g} of itself with a confidence of 95 %, at 99.9 % of the pixels",
+            frame.relative_uncertainty));
+    }
+    std::erase_if(frame.channels, [&](const auto& entry) {
+        return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;
+    });
+    frame.made_in_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() +
+        (surfaces ? surfaces->made_in_ms : 0);
+    return frame;
+}
+
+fs::path KeptReferences::next() {
+    files_.push_back(besideOutput(output_, fmt::format("reference-{}", files_.size() + 1)));
+    std::error_code ignored;  // what cannot be made is said by who writes there
+    if (is_folder_ && files_.back().has_parent_path())
+        fs::create_directories(files_.back().parent_path(), ignored);
+    sayWhenInterrupted(
+        fmt::format("what is done of the reference is kept in {}: the same command goes on from there",
+                    files_.back().string()));
+    return files_.back();
+}
+
+void KeptReferences::remove() {
+    sayWhenInterrupted({});
+    std::error_code ignored;
+    for (const fs::path& file : files_) fs::remove(file, ignored);
+}
+
+}  // namespace diptych

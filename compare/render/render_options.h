@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What is asked of a Frame that is made of Settings.
+#pragma once
+
+#include "compare/run/progress.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+struct RenderOptions {
+    // Debug modes; a forward-only one is left out of a deferred Frame. Empty: it is timed, and nothing else.
+    std::vector<int> channels;
+    std::vector<int> asked;        // of these, Frame::asked; empty: all
+    int runs = 5;                  // timed frames; 0: no times, no profile
+    bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding
+    bool twice = false;            // every channel once more, for Frame::noise
+    std::function<void(const std::string&)> said;  // called before each step with a word on it, for -v
+    Stage progress;                                // of renderAll()
+    // Where a reference keeps what is done of it, asked once for each; it stays there. Empty: nowhere.
+    std::function<std::filesystem::path()> keep{};
+};
+
+// What making one Frame takes, in the time of drawing one frame: for a progress line.
+double framesIn(const RenderOptions& options);
+
+}  // namespace diptych

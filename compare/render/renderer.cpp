@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/renderer.h"
+
+#include "compare/metrics/channel.h"
+#include "compare/reference/reference.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "compare/render/reference_frame.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+constexpr double captureFrames = 3;  // a capture of all channels; measured, lavapipe
+
+class FrameMaker {
+public:
+    FrameMaker(Device& device, SharedResources& shared, SceneViews& views, const Settings& settings,
+               const RenderOptions& options)
+        : device_(device),
+          shared_(shared),
+          scene_(views.scene()),
+          settings_(settings),
+          options_(options),
+          drawn_(device, shared, views.at(viewRequest(settings)), settings) {}
+
+    Frame make() {
+        const auto start = std::chrono::steady_clock::now();
+        frame_ = describedFrame(drawn_, shared_, scene_, settings_);
+        drawTimed();
+        lit_ = readLit(drawn_);
+        frame_.counters.overflowed_lists = drawn_.view.buffers.lists().overflowed();
+        frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
+        if (!options_.channels.empty()) capture();
+        frame_.asked = options_.asked;
+        frame_.made_in_ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        return std::move(frame_);
+    }
+
+private:
+    void say(const std::string& step) const {
+        if (options_.said) options_.said(frame_.name + ": " + step);
+    }
+    // Before something that takes about as long as `frames` timed frames do.
+    void step(const std::string& what, double frames = 1) {
+        options_.progress.at(framesDone_ / framesIn(options_), frame_.name + ": " + what);
+        framesDone_ += frames;
+    }
+    bool asked(int mode) const {
+        return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
+    }
+
+    // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
+    void drawTimed() {
+        PassList& passes = drawn_.passes;
+        say("draw");
+        step("first frame");
+        passes.run();
+        std::vector<double> ms;
+        for (int i = 0; i < options_.runs; ++i) {
+            step(fmt::format("frame {} of {}", i + 1, options_.runs));
+            ms.push_back(passes.run());
+        }
+        frame_.time = timeOf(std::move(ms));
+        step("time of each pass");
+        if (options_.runs > 0)
+            for (const PassMs& pass : passes.profile(0, passes.size()))
+                frame_.passes.push_back({pass.name, pass.ms});
+        frame_.bytes = bytesOf(drawn_, shared_);
+    }
+
+    // lit, to be held against the timed one, and every channel asked for that this path can make.
+    CaptureRequest captureRequest() const {
+        CaptureRequest request;
+        request.modes = {lit};
+        for (const int mode : options_.channels)
+            if (mode != lit &&
+                (settings_.path == Path::forward_plus || debugMode(mode).maker != MadeBy::forward_only))
+                request.modes.push_back(mode);
+        if (options_.through_gbuffer && settings_.path == Path::forward_plus)
+            for (const int mode : litModes)
+                if (asked(mode)) request.through_gbuffer.push_back(mode);
+        return request;
+    }
+
+    // Every channel, over what the timed frame left; lit itself stays the timed pipeline's.
+    void capture() {
+        PassList& passes = drawn_.passes;
+        say("capture");
+        step("capture channels", captureFrames);
+        const std::size_t first = passes.size();
+        const std::vector<CapturedImage> captured =
+            drawn_.path.capture(passes, drawn_.view.inputs, drawn_.images, captureRequest());
+        std::vector<PassList::ReadBack> requests;
+        for (const CapturedImage& c : captured) requests.push_back({c.image, debugMode(c.mode).width});
+        const auto read = [&] {
+            passes.run(first, passes.size());
+            return readImages(passes, requests);
+        };
+        std::vector<Image> channels = read();
+        for (std::size_t i = 0; i < captured.size(); ++i)
+            (captured[i].through_gbuffer ? frame_.through_gbuffer : frame_.channels)[captured[i].mode] =
+                std::move(channels[i]);
+        frame_.counters.unreproduced_pixels =
+            unequalPixels(frame_.channels[lit], lit_, device_.info().isCpu() ? 0 : gpuUlps);
+        frame_.channels[lit] = std::move(lit_);
+        if (options_.twice) {
+            say("once more");
+            step("draw once more", 2);
+            passes.run(0, first);
+            addNoise(lit, readLit(drawn_));
+            step("capture once more", captureFrames);
+            channels = read();
+            for (std::size_t i = 0; i < captured.size(); ++i)
+                if (!captured[i].through_gbuffer && captured[i].mode != lit)
+                    addNoise(captured[i].mode, channels[i]);
+        }
+        if (!asked(lit)) frame_.channels.erase(lit);
+    }
+
+    // The second run of a channel against the first.
+    void addNoise(int number, const Image& again) {
+        const Image& first = frame_.channels.at(number);
+        ChannelNoise noise{unequalPixels(first, again, 0), 0};
+        const DebugMode& mode = debugMode(number);
+        if (noise.pixels > 0)
+            noise.max = channelStats(mode.metric, mode.kind, first, again, everyPixel(first.pixels())).max;
+        frame_.noise[number] = noise;
+    }
+
+    static constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
+
+    Device& device_;
+    SharedResources& shared_;
+    const Scene& scene_;
+    const Settings& settings_;
+    const RenderOptions& options_;
+    double framesDone_ = 0;
+    PreparedFrame drawn_;
+    Frame frame_;
+    Image lit_;
+};
+
+}  // namespace
+
+double framesIn(const RenderOptions& options) {
+    return 2 + options.runs + (options.twice ? 2 + 2 * captureFrames : captureFrames);
+}
+
+struct Renderer::State {
+    Device& device;
+    std::unique_ptr<SceneViews> own_views;  // where none were given
+    SceneViews& views;
+    SharedResources shared;
+};
+
+struct PreparedFrames::State {
+    SharedResources& shared;
+    std::vector<std::unique_ptr<PreparedFrame>> frames;
+    std::vector<Frame> described;
+};
+
+Renderer::Renderer(Device& device, SceneViews& views)
+    : state_(new State{device, nullptr, views, SharedResources(device, views.scene())}) {}
+Renderer::Renderer(Device& device, const Scene& scene) {
+    auto views = std::make_unique<SceneViews>(scene);
+    SceneViews& all = *views;
+    state_.reset(new State{device, std::move(views), all, SharedResources(device, scene)});
+}
+Renderer::~Renderer() = default;
+
+Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
+    checkSize(state_->device, settings.size);
+    if (settings.path == Path::reference) return drawReference(settings, options);
+    return FrameMaker(state_->device, state_->shared, state_->views, settings, options).make();
+}
+
+// The reference, over what forward+ captures where that is asked for.
+Frame Renderer::drawReference(const Settings& settings, const RenderOptions& options) {
+    const Scene& scene = state_->views.scene();
+    const SceneView& view = state_->views.at(viewRequest(settings));
+    if (settings.reference_mode == ReferenceMode::scene)
+        return drawReferenceFrame(scene, view, settings, nullptr, options);
+    RenderOptions capture;
+    capture.channels = reference::surfaceChannels();
+    capture.runs = 0;
+    capture.said = options.said;
+    const Frame surfaces =
+        FrameMaker(state_->device, state_->shared, state_->views, surfaceSettings(settings), capture).make();
+    return drawReferenceFrame(scene, view, settings, &surfaces, options);
+}
+
+std::size_t Renderer::pipelines() const {
+    return state_->shared.pipelines.count();
+}
+
+PreparedFrames Renderer::prepare(std::span<const Settings> settings) {
+    auto state = std::make_unique<PreparedFrames::State>(PreparedFrames::State{state_->shared, {}, {}});
+    SceneViews& views = state_->views;
+    for (const Settings& s : settings) {
+        checkSize(state_->device, s.size);
+        state->frames.push_back(
+            std::make_unique<PreparedFrame>(state_->device, state_->shared, views.at(viewRequest(s)), s));
+        const PreparedFrame& prepared = *state->frames.back();
+        state->described.push_back(describedFrame(prepared, state_->shared, views.scene(), s));
+        state->described.back().bytes = diptych::bytesOf(prepared, state_->shared);
+    }
+    return PreparedFrames(std::move(state));
+}
+
+PreparedFrames::PreparedFrames(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PreparedFrames::PreparedFrames(PreparedFrames&&) noexcept = default;
+PreparedFrames::~PreparedFrames() = default;
+
+std::size_t PreparedFrames::size() const {
+    return state_->frames.size();
+}
+
+double PreparedFrames::draw(std::size_t i) {
+    return state_->frames.at(i)->passes.run();
+}
+
+std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
+    PassList& passes = state_->frames.at(i)->passes;
+    std::vector<PassTime> times;
+    for (const PassMs& pass : passes.profile(0, passes.size())) times.push_back({pass.name, pass.ms});
+    return times;
+}
+
+Image PreparedFrames::lit(std::size_t i) {
+    return readLit(*state_->frames.at(i));
+}
+
+std::uint64_t PreparedFrames::overflowedLists(std::size_t i) const {
+    return state_->frames.at(i)->view.buffers.lists().overflowed();
+}
+
+const Frame& PreparedFrames::described(std::size_t i) const {
+    return state_->described.at(i);
+}
+
+std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
+                             const RenderOptions& options) {
+    for (const Settings& s : settings) checkSize(device, s.size);
+    options.progress.at(0, "upload");
+    Renderer renderer(device, views);
+    RenderOptions each = options;
+    std::vector<Frame> frames;
+    const auto count = static_cast<double>(settings.size());
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        const auto done = static_cast<double>(i);
+        each.progress = options.progress.part(done / count, (done + 1) / count);
+        frames.push_back(renderer.draw(settings[i], each));
+    }
+    return frames;
+}
+
+std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
+                             const RenderOptions& options) {
+    SceneViews views(scene);
+    return renderAll(device, views, settings, options);
+}
+
+}  // namespace diptych

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// From a scene and Settings to Frames, on one device.
+#pragma once
+
+#include "compare/render/render_options.h"
+#include "shared/frame/frame.h"
+#include "shared/scene/scene_view.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+class Device;
+
+// Frames of one scene, ready to be drawn again and again and in any order: going from one to another uploads
+// nothing and makes no pipeline, only what a frame itself makes (light lists) is made anew. It outlives
+// neither its Renderer nor the scene.
+class PreparedFrames {
+public:
+    PreparedFrames(PreparedFrames&&) noexcept;
+    ~PreparedFrames();
+
+    std::size_t size() const;
+    // One whole frame, ms, as FrameTime has it. The first one of each may take longer: drivers compile then.
+    double draw(std::size_t i);
+    // Each pass timed by itself, over another frame.
+    std::vector<PassTime> profile(std::size_t i);
+    // lit of the frame drawn last, W x H x 3.
+    Image lit(std::size_t i);
+    // Light lists of that frame that found no room.
+    std::uint64_t overflowedLists(std::size_t i) const;
+    // What is known without drawing: Settings, camera, lights, bytes, notes.
+    const Frame& described(std::size_t i) const;
+
+private:
+    friend class Renderer;
+    struct State;
+    explicit PreparedFrames(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+// Frames of one scene, one after another as they are asked for: everything is uploaded once for all of them
+// and every pipeline is compiled once, and a view of the scene is made once for all that is drawn of it.
+// Device and scene or views outlive it. Throws std::runtime_error: one line.
+class Renderer {
+public:
+    Renderer(Device& device, SceneViews& views);
+    Renderer(Device& device, const Scene& scene);  // with views of its own
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    Frame draw(const Settings& settings, const RenderOptions& options);
+
+    // Of the two paths; all their images at once. Throws std::runtime_error as draw() does.
+    PreparedFrames prepare(std::span<const Settings> settings);
+    // How many pipelines there are by now.
+    std::size_t pipelines() const;
+
+private:
+    Frame drawReference(const Settings& settings, const RenderOptions& options);
+
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+// One Frame per Settings, in order, by one Renderer.
+std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
+                             const RenderOptions& options);
+std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
+                             const RenderOptions& options);
+
+}  // namespace diptych

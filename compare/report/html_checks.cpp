@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// What a person must look at: links, and what each leads to, cut out of the pictures that are there already.
+#include "compare/report/html.h"
+#include "compare/report/titles.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych {
+namespace {
+
+// Part of the picture, in pixels.
+struct Region {
+    double x, y, width, height;
+};
+
+// Around the box with a third of it to spare, as wide for its height as the picture, within it, enlarged up
+// to eight times.
+Region regionAround(const PixelBox& box, const Size& size) {
+    const double width = size.width, height = size.height;
+    const double share =
+        std::clamp(1.35 * std::max((box.x1 - box.x0) / width, (box.y1 - box.y0) / height), 1.0 / 8, 1.0);
+    const Region region{0, 0, share * width, share * height};
+    const auto place = [](int from, int to, double extent, double most) {
+        return std::clamp(0.5 * (from + to) - 0.5 * extent, 0.0, most - extent);
+    };
+    return {place(box.x0, box.x1, region.width, width), place(box.y0, box.y1, region.height, height),
+            region.width, region.height};
+}
+
+class Section {
+public:
+    Section(const Report& report, const ReportLayout& layout, std::size_t index)
+        : comparison_(report.comparisons[index]),
+          left_(report.baseline(comparison_)),
+          right_(report.test(comparison_)),
+          layout_(layout),
+          pictures_(layout.pictures[index]),
+          index_(index),
+          lit_(channelOr(gpu::DEBUG_lit, anyChannel())),
+          dark_(channelOr(gpu::DEBUG_albedo, lit_)) {
+        for (std::size_t i = 0; i < index; ++i) first_ += countOf(report.comparisons[i]);
+    }
+
+    std::string html() const {
+        if (comparison_.marks.empty()) return {};
+        std::string views, rows;
+        std::size_t number = first_;
+        for (const FeatureChecks& feature : comparison_.marks) {
+            rows += rowsOf(feature, number);
+            for (const VisualCheck& mark : feature.marks) views += view(feature, mark, number++);
+        }
+        return fmt::format(
+            "<section class=\"marks\" id=\"eye-{}\"><h2>To check by eye</h2>\n"
+            "<p class=\"soft\">Here both paths can be wrong alike, and no comparison shows it. Each place "
+            "leads to "
+            "its picture.</p>\n{}<div class=\"views\">{}</div>\n"
+            "<div class=\"box scroll\"><table><tr><th>feature</th><th>right "
+            "if</th><th>places</th></tr>\n{}</table>"
+            "</div></section>\n",
+            index_, sources(), views, rows);
+    }
+
+private:
+    static std::size_t countOf(const Comparison& comparison) {
+        std::size_t count = 0;
+        for (const FeatureChecks& feature : comparison.marks) count += feature.marks.size();
+        return count;
+    }
+
+    bool hasBoth(std::size_t channel) const {
+        return !pictures_[channel].baseline.empty() && !pictures_[channel].test.empty();
+    }
+    // The channel that has the number, or `other` where it was not compared.
+    std::size_t channelOr(gpu::uint mode, std::size_t other) const {
+        for (std::size_t i = 0; i < pictures_.size(); ++i)
+            if (comparison_.channels[i].mode->number == static_cast<int>(mode) && hasBoth(i)) return i;
+        return other;
+    }
+    std::size_t anyChannel() const {
+        for (std::size_t i = 0; i < pictures_.size(); ++i)
+            if (hasBoth(i)) return i;
+        return npos;
+    }
+
+    // Where no light falls the base colour still shows what there is to see.
+    std::size_t channelFor(const VisualCheck& mark) const { return isDark(mark.box) ? dark_ : lit_; }
+
+    // Whether under a tenth of the box reaches a hundredth of white in the picture of lit.
+    bool isDark(const PixelBox& box) const {
+        const auto lit = left_.channels.find(gpu::DEBUG_lit);
+        if (lit == left_.channels.end()) return false;
+        const double least = 0.01 / pictures_[lit_].scale.exposure.factor;
+        const auto step = [](int extent) { return std::max(extent / 32, 1); };  // a thousand pixels will do
+        int bright = 0, looked = 0;
+        for (int y = box.y0; y < box.y1; y += step(box.y1 - box.y0))
+            for (int x = box.x0; x < box.x1; x += step(box.x1 - box.x0), ++looked)
+                bright += std::max({lit->second.at(x, y, 0), lit->second.at(x, y, 1),
+                                    lit->second.at(x, y, 2)}) >= least;
+        return bright * 10 < looked;
+    }
+
+    // Each picture stands in the page once; every view uses it.
+    std::string sources() const {
+        if (lit_ == npos) return {};
+        std::string images;
+        const auto add = [&](std::size_t channel) {
+            for (const char side : {'a', 'b'})
+                images += fmt::format(
+                    "<image id=\"{}\" width=\"{}\" height=\"{}\" href=\"{}\"/>", idOf(channel, side),
+                    left_.settings.size.width, left_.settings.size.height,
+                    layout_.source(side == 'a' ? pictures_[channel].baseline : pictures_[channel].test));
+        };
+        add(lit_);
+        if (dark_ != lit_) add(dark_);
+        return fmt::format(
+            "<svg class=\"sources\" width=\"0\" height=\"0\" aria-hidden=\"true\"><defs>{}</defs></svg>\n",
+            images);
+    }
+    std::string idOf(std::size_t channel, char side) const {
+        return fmt::format("eye-{}-{}-{}", index_, comparison_.channels[channel].mode->name, side);
+    }
+
+    std::string panel(std::size_t channel, char which, const Frame& frame, const VisualCheck& mark) const {
+        const Region r = regionAround(mark.box, frame.settings.size);
+        const auto edge = [&](const char* style) {
+            return fmt::format("<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", style,
+                               mark.box.x0, mark.box.y0, mark.box.x1 - mark.box.x0,
+                               mark.box.y1 - mark.box.y0);
+        };
+        return fmt::format(
+            "<div class=\"stage {}\"><svg viewBox=\"{:.7g} {:.7g} {:.7g} {:.7g}\" role=\"img\" "
+            "aria-label=\"{}\">"
+            "<use href=\"#{}\"/>{}{}</svg><span class=\"tag\">{}</span></div>",
+            which == 'a' ? "left" : "right", r.x, r.y, r.width, r.height,
+            markup(frame.name + ": " + mark.name), idOf(channel, which), edge("under"), edge("edge"),
+            markup(channel == lit_
+                       ? frame.name
+                       : fmt::format("{} \u00b7 {}", frame.name, comparison_.channels[channel].mode->name)));
+    }
+
+    std::string step(std::size_t number, const char* word) const {
+        const bool there = number >= first_ && number < first_ + countOf(comparison_);
+        return there ? fmt::format("<a href=\"#mark-{}\">{}</a>", number, word) : "";
+    }
+
+    std::string view(const FeatureChecks& feature, const VisualCheck& mark, std::size_t number) const {
+        if (lit_ == npos) return {};
+        const std::size_t channel = channelFor(mark);
+        // Enlarged over twice in a panel of half the page, a pixel is worth seeing as one.
+        const bool near = regionAround(mark.box, left_.settings.size).width < 320;
+        return fmt::format(
+            "<figure class=\"box view{}\" id=\"mark-{}\"><div class=\"pair side\">{}{}</div>"
+            "<figcaption><span><b>{}</b> {}</span><span class=\"walk\">{} {}</span>"
+            "<span class=\"legend mono\">{} \u00b7 pixels {}, {} to {}, {}{}</span></figcaption></figure>\n",
+            near ? " near" : "", number, panel(channel, 'a', left_, mark), panel(channel, 'b', right_, mark),
+            feature.feature, markup(mark.what), number > 0 ? step(number - 1, "previous") : "",
+            step(number + 1, "next"), markup(mark.where), mark.box.x0, mark.box.y0, mark.box.x1 - 1,
+            mark.box.y1 - 1,
+            channel == lit_ ? "" : " \u00b7 no light falls there, so its base colour is shown");
+    }
+
+    // A place with a name that an earlier one of its row has is told by a number.
+    struct Place {
+        std::string name, links;
+        int count = 0;
+    };
+    struct Row {
+        std::string what;
+        std::vector<Place> places;
+    };
+
+    std::string link(const VisualCheck& mark, std::size_t number, const std::string& text) const {
+        return lit_ != npos ? fmt::format("<a href=\"#mark-{}\" title=\"{}\">{}</a>", number,
+                                          markup(mark.where), markup(text))
+                            : fmt::format("<span title=\"{}\">{}</span>", markup(mark.where), markup(text));
+    }
+
+    // One row for all marks of a feature that are right alike.
+    std::string rowsOf(const FeatureChecks& feature, std::size_t number) const {
+        std::vector<Row> rows;
+        for (const VisualCheck& mark : feature.marks) {
+            auto row = std::ranges::find(rows, mark.what, &Row::what);
+            if (row == rows.end()) row = rows.insert(row, {mark.what, {}});
+            auto place = std::ranges::find(row->places, mark.name, &Place::name);
+            if (place == row->places.end()) place = row->places.insert(place, {mark.name, {}});
+            place->links +=
+                link(mark, number++, ++place->count == 1 ? mark.name : std::to_string(place->count));
+        }
+        std::string head =
+            fmt::format("<tr><td><b>{}</b><br><span class=\"soft\">{}</span></td>", feature.feature,
+                        feature.found > feature.marks.size()
+                            ? fmt::format("the {} largest of {}", feature.marks.size(), feature.found)
+                            : fmt::format("{}", feature.found));
+        std::string out;
+        for (const Row& row : rows) {
+            std::string places;
+            for (const Place& place : row.places)
+                places += "<span class=\"place\">" + place.links + "</span> ";
+            out += fmt::format("{}<td class=\"wide\">{}</td><td class=\"wide places\">{}</td></tr>\n", head,
+                               markup(row.what), places);
+            head = "<tr class=\"more\"><td></td>";
+        }
+        return out;
+    }
+
+    const Comparison& comparison_;
+    const Frame &left_, &right_;
+    const ReportLayout& layout_;
+    const std::vector<ChannelPictures>& pictures_;  // per channel
+    std::size_t index_, lit_, dark_;                // dark_: what is shown where lit is black
+    std::size_t first_ = 0;                         // the number of its first mark
+    static constexpr std::size_t npos = ~std::size_t{0};
+};
+
+}  // namespace
+
+std::string checksSection(const Report& report, const ReportLayout& layout, std::size_t index) {
+    return Section(report, layout, index).html();
+}
+
+}  // namespace diptych

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/picture_diff_report.h"
+
+#include "compare/files/our_files.h"
+#include "compare/picture/picture.h"
+#include "compare/run/command_text.h"
+#include "shared/image/exr.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+// What decides: the first of those that came out worst.
+const PictureChannelDiff& deciding(const PictureDiff& diff) {
+    return **std::ranges::max_element(diff.channels, {}, [](const auto& c) { return c->decision.level; });
+}
+
+// The channels as debug modes that are in no table: their names lie in the PictureDiff.
+std::vector<DebugMode> modesOf(const PictureDiff& diff) {
+    std::vector<DebugMode> modes;
+    for (const auto& channel : diff.channels) {
+        const MatchedChannel& pair = channel->pair;
+        const DebugMode* known = findDebugMode(pair.name);
+        const bool ours = known && known->name == pair.name && known->width == pair.reference.components;
+        DebugMode mode{.number = ours ? known->number : 1000 + static_cast<int>(modes.size()),
+                       .name = pair.name,
+                       .width = pair.reference.components,
+                       .metric = pair.metric,
+                       .kind = pair.kind,
+                       .maker = MadeBy::both,
+                       .shows = ours ? known->shows : std::string_view(pair.reference_type)};
+        const bool color = pair.kind == ChannelKind::color && mode.width == 3;
+        if (channel->display && color)
+            mode.shown = Shown::display;
+        else if (color && (!ours || known->metric == Metric::relative))
+            mode.shown = Shown::radiance;
+        else if (!ours && pair.kind != ChannelKind::id)
+            mode.shown = Shown::normalised;
+        modes.push_back(mode);
+    }
+    return modes;
+}
+
+// Takes the pictures: nothing is measured after this.
+Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test) {
+    Frame frame;
+    frame.name = test ? "test" : "reference";
+    frame.origin.file = test ? diff.test : diff.reference;
+    frame.scene = std::filesystem::path(frame.origin.file).filename().string();
+    frame.settings.size = {diff.width, diff.height};
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        diff.channels[i]->measurement.reset();
+        MatchedChannel& pair = diff.channels[i]->pair;
+        frame.channels[modes[i].number] = std::move(test ? pair.test : pair.reference);
+    }
+    return frame;
+}
+
+ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel, const DebugMode& mode) {
+    ChannelDiff row;
+    row.mode = &mode;
+    row.stats = channel.measurement->stats();
+    row.flip = (*channel.measurement)({"flip", 0});
+    row.tolerance = {boundOn(channel.rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
+                     channel.rule.because};
+    row.rule = fmt::format("{}: {}", channel.rule.origin, wordsOf(channel.rule.fail));
+    (channel.decision.level == Level::warn ? row.warning : row.reason) = channel.decision.reason;
+    if (DecidingErrors errors = decidingErrors(diff, channel); !errors.name.empty()) {
+        row.shown_error = std::make_shared<Image>(std::move(errors.image));
+        row.shown_error_name = errors.name;
+        row.shown_error_top = errors.top;
+    }
+    row.stats.worst_x = channel.worst_x;
+    row.stats.worst_y = channel.worst_y;
+    row.figures = channel.measurement->all();
+    row.verdict = channel.decision.level == Level::fail ? Verdict::fail : Verdict::pass;
+    return row;
+}
+
+void writeFolder(PictureDiff& diff, const Output& output, const ReportOptions& options,
+                 const std::vector<std::string>& words) {
+    const std::vector<DebugMode> modes = modesOf(diff);
+    Report report;
+    Comparison& comparison = report.comparisons.emplace_back();
+    comparison.test = 1;
+    comparison.coverage = *diff.coverage;
+    comparison.notes = diff.notes;
+    comparison.command = with({"diff", diff.reference, diff.test}, words);
+    for (std::size_t i = 0; i < modes.size(); ++i)
+        comparison.channels.push_back(channelOf(diff, *diff.channels[i], modes[i]));
+    for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, modes, test));
+    writeReport(report, output.path, options);
+}
+
+}  // namespace
+
+void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
+                      const std::vector<std::string>& words) {
+    if (output.kind == OutputKind::folder) return writeFolder(diff, output, options, words);
+    if (output.kind == OutputKind::exr) {
+        std::vector<Image> errors;
+        for (const auto& channel : diff.channels) errors.push_back(decidingErrors(diff, *channel).image);
+        std::vector<ExrLayerView> layers;
+        for (std::size_t i = 0; i < errors.size(); ++i)
+            layers.push_back({{diff.channels[i]->pair.name + ".Y"}, &errors[i]});
+        writeExr(output.path, layers,
+                 {{"software", softwareName}, {"reference", diff.reference}, {"test", diff.test}});
+        return;
+    }
+    const PictureChannelDiff& channel = deciding(diff);
+    const DecidingErrors errors = decidingErrors(diff, channel);
+    writePng(output.path, errorPicture(errors.image, errors.top));
+}
+
+}  // namespace diptych

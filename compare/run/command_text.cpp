@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "compare/run/command_text.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace diptych {
+namespace {
+
+bool isPlain(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-+=:,./@%").find(c) != std::string_view::npos;
+}
+
+// In single quotes where the shell would see more in it than a word; a quote itself stands outside of them.
+std::string shellWord(const std::string& word) {
+    if (!word.empty() && std::ranges::all_of(word, isPlain)) return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        if (c == '\'')
+            quoted += "'\\''";
+        else
+            quoted += c;
+    return quoted + "'";
+}
+
+}  // namespace
+
+std::vector<std::string> wordsOf(const std::string& command, const std::string& scene,
+                                 const Settings& settings) {
+    std::vector<std::string> words{command};
+    const Settings usual;
+    Settings::fields(settings, [&](const Field& field, const auto&) {
+        const std::string value = valueOf(settings, field.option);
+        if (value == valueOf(usual, field.option) || (command == "compare" && field.option == "path")) return;
+        const std::string option = "--" + std::string(field.option);
+        if (value.starts_with('-')) return words.push_back(option + "=" + value);
+        words.push_back(option);
+        words.push_back(value);
+    });
+    if (scene.starts_with('-')) words.emplace_back("--");  // a file's name, no option
+    words.push_back(scene);
+    return words;
+}
+
+std::vector<std::string> with(std::vector<std::string> words, const std::string& option,
+                              const std::string& value) {
+    words.insert(words.begin() + 1,
+                 {option, value});  // before the scene, after which "--" may have ended options
+    return words;
+}
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.begin() + 1, more.begin(), more.end());
+    return words;
+}
+
+std::string shellLine(const std::vector<std::string>& words) {
+    std::string line = "diptych";
+    for (const std::string& word : words) line += " " + shellWord(word);
+    return line;
+}
+
+std::string commandOf(const std::string& command, const std::string& scene, const Settings& settings) {
+    return shellLine(wordsOf(command, scene, settings));
+}
+
+}  // namespace diptych

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+constexpr std::string_view each = "*";
+
+std::vector<std::string> sweptOptions() {
+    std::vector<std::string> options;
+    const Settings usual;
+    Settings::fields(usual, [&](const Field& field, const auto&) {
+        if (!field.sweep.empty()) options.emplace_back(field.option);
+    });
+    return options;
+}
+
+std::pair<std::string, std::vector<std::string>> axis(const Settings& given, std::string_view option) {
+    return {std::string(option), sweptValues(given, option)};
+}
+
+// Every combination of the values of what is paired with each other Setting: from there those are tried.
+void addStarts(const Settings& given, std::vector<Settings>& starts) {
+    starts.push_back(given);
+    for (const SweepPair& pair : sweepPairs) {
+        if (pair.b != each) continue;
+        const std::vector<Settings> before = starts;
+        for (const Settings& start : before)
+            for (const std::string& value : sweptValues(given, pair.a)) {
+                Settings other = start;
+                set(other, pair.a, value);
+                if (std::ranges::count(starts, other) == 0 && other.path != Path::reference &&
+                    !readSettings(other).problem())
+                    starts.push_back(other);
+            }
+    }
+}
+
+bool isCrossedWithEach(std::string_view option) {
+    return std::ranges::any_of(sweepPairs,
+                               [&](const SweepPair& pair) { return pair.b == each && pair.a == option; });
+}
+
+class Planner {
+public:
+    explicit Planner(const Settings& given) : given_(given) {}
+
+    void add(const std::vector<Choice>& choices) {
+        Settings asked = given_;
+        for (const auto& [option, value] : choices) set(asked, option, value);
+        const std::vector<Choice> tried = changed(asked);
+        if (asked.path == Path::reference)
+            return skip({{"path", "reference"}}, "is what the others are measured against");
+        for (const auto& [option, value] : tried)
+            if (const std::string_view why = unreadBecause(asked.path, option); !why.empty())
+                skip({{"path", std::string(nameOf(asked.path))}, {option, value}}, std::string(why));
+        const Settings row = readSettings(asked);
+        if (const auto problem = row.problem()) return skip(tried, *problem);
+        if (std::ranges::count(plan_.rows, row) == 0) plan_.rows.push_back(row);
+    }
+    SweepRows done() { return std::move(plan_); }
+
+private:
+    std::vector<Choice> changed(const Settings& asked) const {
+        std::vector<Choice> choices;
+        Settings::fields(asked, [&](const Field& field, const auto&) {
+            const std::string value = valueOf(asked, field.option);
+            if (field.option == "path" || value != valueOf(given_, field.option))
+                choices.emplace_back(field.option, value);
+        });
+        return choices;
+    }
+    // ParsedOptions once: not again of what holds more choices than those that were the reason.
+    void skip(const std::vector<Choice>& tried, const std::string& reason) {
+        const auto covers = [&](const SweepSkip& skip) {
+            return skip.reason == reason && std::ranges::all_of(skip.tried, [&](const Choice& choice) {
+                       return std::ranges::count(tried, choice) > 0;
+                   });
+        };
+        if (std::ranges::none_of(plan_.skips, covers)) plan_.skips.push_back({tried, reason});
+    }
+
+    const Settings& given_;
+    SweepRows plan_;
+};
+
+// As an odometer counts, the last Setting the fastest.
+void addProduct(const Grid& grid, Planner& planner) {
+    std::vector<std::size_t> at(grid.size(), 0);
+    for (std::size_t digit = 1; digit > 0;) {
+        std::vector<Choice> choices;
+        for (std::size_t i = 0; i < grid.size(); ++i)
+            choices.emplace_back(grid[i].first, grid[i].second[at[i]]);
+        planner.add(choices);
+        for (digit = grid.size(); digit > 0; at[--digit] = 0)
+            if (++at[digit - 1] < grid[digit - 1].second.size()) break;
+    }
+}
+
+}  // namespace
+
+std::vector<Grid> usualGrids(const Settings& given) {
+    std::vector<Settings> starts;
+    addStarts(given, starts);
+    // The start in words, and the axes beside it that it does not fix.
+    const auto from = [&](const Settings& start) {
+        Grid grid;
+        for (const SweepPair& pair : sweepPairs)
+            if (pair.b == each) grid.push_back({std::string(pair.a), {valueOf(start, pair.a)}});
+        return grid;
+    };
+    std::vector<Grid> grids;
+    for (const Settings& start : starts) grids.push_back(from(start));
+    for (const std::string& option : sweptOptions())
+        if (isCrossedWithEach(option)) grids.push_back({axis(given, option)});
+    for (const Settings& start : starts)
+        for (const std::string& option : sweptOptions()) {
+            if (isCrossedWithEach(option)) continue;
+            grids.push_back(from(start));
+            grids.back().push_back(axis(given, option));
+        }
+    for (const Settings& start : starts)
+        for (const SweepPair& pair : sweepPairs) {
+            if (pair.b == each || !unreadBecause(start.path, pair.a).empty() ||
+                !unreadBecause(start.path, pair.b).empty())
+                continue;
+            grids.push_back(from(start));
+            for (const std::string_view option : {pair.a, pair.b})
+                grids.back().push_back(axis(given, option));
+        }
+    return grids;
+}
+
+SweepRows planSweep(const Settings& given, const std::vector<Grid>& grids) {
+    double combinations = 0;
+    for (const Grid& grid : grids) {
+        double product = 1;
+        for (const auto& [option, values] : grid) product *= static_cast<double>(values.size());
+        combinations += product;
+    }
+    if (combinations > static_cast<double>(mostCombinations))
+        throw std::runtime_error(
+            fmt::format("--grid: {:.4g} combinations, and one sweep tries up to {}; divide it into several",
+                        combinations, mostCombinations));
+    Planner planner(given);
+    for (const Grid& grid : grids) addProduct(grid, planner);
+    SweepRows plan = planner.done();
+    if (plan.rows.empty())
+        throw std::runtime_error(plan.skips.empty() ? "--grid: asks for nothing"
+                                                    : fmt::format("nothing to sweep: {}: {}",
+                                                                  inWords(plan.skips.front().tried),
+                                                                  plan.skips.front().reason));
+    return plan;
+}
+
+std::vector<Choice> choicesOf(const Settings& row, const Settings& given) {
+    std::vector<Choice> choices{{"path", std::string(nameOf(row.path))}};
+    Settings::fields(row, [&](const Field& field, const auto&) {
+        const std::string value = valueOf(row, field.option);
+        if (field.option != "path" && value != valueOf(given, field.option) &&
+            unreadBecause(row.path, field.option).empty())
+            choices.emplace_back(field.option, value);
+    });
+    return choices;
+}
+
+std::string inWords(const std::vector<Choice>& choices) {
+    std::string words;
+    for (const auto& [option, value] : choices)
+        words += (words.empty() ? "" : ", ") + (option == "path" ? value : option + " " + value);
+    return words;
+}
+
+}  // namespace diptych

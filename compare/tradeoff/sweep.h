@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Which Settings a sweep draws, and which it does not and why.
+#pragma once
+
+#include "shared/frame/settings.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+// A Setting by its option, and a value in words for set().
+using Choice = std::pair<std::string, std::string>;
+
+// Every combination of these values of these Settings; of none, the given Settings alone.
+using Grid = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+struct SweepSkip {
+    std::vector<Choice> tried;
+    std::string reason;
+};
+
+struct SweepRows {
+    std::vector<Settings> rows;  // each picture once, in the order in which it was first asked for
+    std::vector<SweepSkip> skips;
+};
+
+// What is tried where nobody says what: of each path that can be drawn each Setting that it reads by itself,
+// and the pairs of sweepPairs.
+std::vector<Grid> usualGrids(const Settings& given);
+
+// Combinations without meaning, or that cannot be drawn, are skips; a value that its path does not read is
+// one, too, and the row is drawn without it. Throws std::runtime_error where nothing is left to draw, or more
+// than mostCombinations are asked for.
+SweepRows planSweep(const Settings& given, const std::vector<Grid>& grids);
+inline constexpr std::size_t mostCombinations = 10'000;
+
+// Skips of one reason: which values of which Settings, or which combinations, in words.
+struct SkipGroup {
+    std::string reason;
+    std::vector<std::string> tried;  // "assign tiled|clustered"
+};
+std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
+
+// What a row has otherwise than `given`, the path first and always.
+std::vector<Choice> choicesOf(const Settings& row, const Settings& given);
+std::string inWords(const std::vector<Choice>& choices);  // "deferred, gbuffer compact"
+
+}  // namespace diptych

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/baseline.h"
+
+#include "compare/files/frame_exr.h"
+
+#include "compare/render/reference_frame.h"
+#include "compare/run/version.h"
+#include "compare/verdict/comparison.h"
+#include "shared/image/atomic_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <cstdio>
+#include <stdexcept>
+#include <system_error>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string differing(const Settings& a, const Settings& b) {
+    const auto left = nlohmann::ordered_json::parse(toJson(a)),
+               right = nlohmann::ordered_json::parse(toJson(b));
+    std::vector<std::string> words;
+    for (const auto& [key, value] : left.items())
+        if (key != "path" && value != right.at(key))
+            words.push_back(fmt::format("{} {} (now {})", key, value.dump(), right.at(key).dump()));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+bool sameView(const FrameCamera& a, const FrameCamera& b) {
+    return std::equal(a.eye, a.eye + 3, b.eye) && std::equal(a.target, a.target + 3, b.target) &&
+           std::equal(a.up, a.up + 3, b.up) && a.fov_degrees == b.fov_degrees && a.ymag == b.ymag;
+}
+
+}  // namespace
+
+std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& frame,
+                                            const ReportDevice& device) {
+    std::vector<std::string> lines;
+    const FrameOrigin& origin = baseline.origin;
+    const auto say = [&](const char* what, const std::string& then, const std::string& now) {
+        if (then != now)
+            lines.push_back(
+                fmt::format("baseline: {} {} (now {})", what, then.empty() ? "unknown" : then, now));
+    };
+    if (baseline.settings.path == Path::reference && !isReferenceFrame(baseline)) {
+        lines.push_back("baseline: not written by diptych: scene, camera and Settings are unknown");
+        return lines;
+    }
+    say("commit", origin.commit, commitName());
+    say("device", origin.device, device.name);
+    say("driver", origin.driver, device.driver);
+    say("scene", baseline.scene, frame.scene);
+    if (!sameView(baseline.camera, frame.camera))
+        lines.push_back("baseline: seen from another place or with another lens");
+    Settings now = frame.settings;
+    if (isReferenceFrame(baseline)) {  // of what a path is drawn with it depends on these alone
+        now = referenceSettings(now);
+        now.spp = baseline.settings.spp;
+        now.reference_mode = baseline.settings.reference_mode;
+    }
+    if (const std::string settings = differing(baseline.settings, now); !settings.empty())
+        lines.push_back(fmt::format("baseline: other Settings: {}", settings));
+    return lines;
+}
+
+std::string updateBaseline(const fs::path& file, const Frame& frame, const ReportDevice& device) {
+    const fs::path old = file.string() + ".old";
+    const bool fresh = !fs::exists(file);
+    const auto failed = [](const fs::path& path, int error) {
+        throw std::runtime_error(writingFailed(path, error));
+    };
+    // The new one is whole before any name changes. The old one then has both names until the new one takes
+    // its first: at no moment is there none.
+    Temporary aside(file.parent_path(), file);
+    if (!aside.createFolder()) failed(file, errno);
+    const fs::path made = aside.path() / file.filename(), kept = aside.path() / old.filename();
+    writeFrameExr(made, frame, device);
+    const auto held = holdTemporaries();
+    if (!fresh) {
+        std::error_code error;
+        fs::create_hard_link(file, kept, error);
+        if (error) fs::copy_file(file, kept, error);
+        if (!error) fs::rename(kept, old, error);
+        if (error) failed(old, error.value());
+    }
+    if (std::rename(made.c_str(), file.c_str()) != 0) failed(file, errno);
+    return fresh ? fmt::format("baseline {} written from {}", file.string(), frame.name)
+                 : fmt::format("baseline {} written anew from {}; the old one is {}", file.string(),
+                               frame.name, old.string());
+}
+
+}  // namespace diptych

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/closer_path.h"
+
+#include "compare/verdict/measurement.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace diptych {
+namespace {
+
+PathError standingOf(const DebugMode& mode, const Image& reference, const Image& test,
+                     const Coverage& covered) {
+    PathError standing;
+    standing.stats = channelStats(mode.metric, mode.kind, reference, test, covered);
+    standing.relative_rmse = mode.metric == Metric::relative
+                                 ? standing.stats.rmse
+                                 : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
+    const Measurement measurement(
+        {mode.metric, mode.kind, false, &reference, &test, &covered, &standing.stats});
+    standing.flip = measurement({"flip", 0});
+    return standing;
+}
+
+std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image, 2>& errors,
+                                       const Coverage& covered, const std::vector<std::string>& names) {
+    constexpr std::size_t most = 8;
+    std::map<int, MaterialError> found;
+    for (std::size_t i = 0; i < ids.pixels(); ++i) {
+        if (!covered.covered[i]) continue;
+        const int id = static_cast<int>(ids.pixel(i)[0]);
+        MaterialError& material = found[id];
+        ++material.pixels;
+        for (std::size_t k = 0; k < 2; ++k) material.mean[k] += double{errors[k].data[i]};
+    }
+    std::vector<MaterialError> materials;
+    for (auto& [id, material] : found) {
+        material.id = id;
+        if (id >= 0 && static_cast<std::size_t>(id) < names.size())
+            material.name = names[static_cast<std::size_t>(id)];
+        for (double& mean : material.mean) mean /= static_cast<double>(material.pixels);
+        materials.push_back(material);
+    }
+    // By what they add to the difference of the two means.
+    std::ranges::stable_sort(materials, std::greater{}, [](const MaterialError& m) {
+        const double weight = std::abs(m.mean[0] - m.mean[1]) * static_cast<double>(m.pixels);
+        return std::isnan(weight) ? std::numeric_limits<double>::infinity() : weight;
+    });
+    if (materials.size() > most) materials.resize(most);
+    return materials;
+}
+
+// What the truth is known to, relative to it, over the pixels that count.
+double meanUncertainty(const Frame& truth, const Image& reference, const Coverage& covered) {
+    if (truth.uncertainty.empty() || covered.count == 0) return 0;
+    const PixelError error(Metric::relative, ChannelKind::color, reference, covered);
+    double sum = 0;
+    for (std::size_t i = 0; i < reference.pixels(); ++i) {
+        if (!covered.covered[i]) continue;
+        const float* p = reference.pixel(i);
+        const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+        sum += double{truth.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
+    }
+    // Errors of pixels are independent: their mean is known better by the root of their number.
+    return sum / static_cast<double>(covered.count) / std::sqrt(static_cast<double>(covered.count));
+}
+
+CloserPathChannel channelOf(const DebugMode& mode, const Frame& truth,
+                            const std::array<const Frame*, 2>& paths, const Coverage& covered,
+                            const std::vector<std::string>& names) {
+    const Image& reference = truth.channels.at(mode.number);
+    CloserPathChannel channel;
+    channel.mode = &mode;
+    std::array<Image, 2> errors;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Image& image = paths[k]->channels.at(mode.number);
+        channel.paths[k] = standingOf(mode, reference, image, covered);
+        errors[k] = errorImage(mode.metric, mode.kind, reference, image, covered);
+    }
+    channel.between =
+        standingOf(mode, paths[0]->channels.at(mode.number), paths[1]->channels.at(mode.number), covered);
+    channel.apart = Image(reference.width, reference.height, 1);
+    for (std::size_t i = 0; i < reference.pixels(); ++i) {
+        if (!covered.covered[i]) continue;
+        const float first = errors[0].data[i], second = errors[1].data[i];
+        channel.closer_pixels[0] += first < second;
+        channel.closer_pixels[1] += second < first;
+        channel.even_pixels += first == second;
+        if (first != second) channel.apart.data[i] = first - second;
+    }
+    const double first = channel.paths[0].stats.mean, second = channel.paths[1].stats.mean;
+    // Two means that share most of their error are told apart by no less than the truth's own.
+    const double known = std::max(1e-3 * std::min(first, second), meanUncertainty(truth, reference, covered));
+    if (std::abs(first - second) > known || std::isinf(first) != std::isinf(second)) {
+        channel.nearer = first < second ? 0 : 1;
+        const double least = std::min(first, second);
+        channel.by = least > 0 ? std::max(first, second) / least : std::numeric_limits<double>::infinity();
+    }
+    const auto ids = truth.channels.find(static_cast<int>(gpu::DEBUG_material_id));
+    if (ids != truth.channels.end()) channel.materials = materialsOf(ids->second, errors, covered, names);
+    return channel;
+}
+
+}  // namespace
+
+CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t truth, std::array<std::size_t, 2> paths,
+                        const Coverage& coverage, const std::vector<std::string>& names) {
+    CloserPath nearer{truth, paths, {}};
+    const std::array<const Frame*, 3> all{&frames[truth], &frames[paths[0]], &frames[paths[1]]};
+    for (const int mode : litModes) {
+        if (std::ranges::all_of(
+                all, [&](const Frame* f) { return f->channels.contains(mode) && f->isAsked(mode); }))
+            nearer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));
+    }
+    return nearer;
+}
+
+std::string closerPathLine(const CloserPath& nearer, const CloserPathChannel& channel,
+                           const std::vector<Frame>& frames) {
+    const std::string& truth = frames[nearer.truth].name;
+    if (channel.nearer < 0)
+        return fmt::format("{}: both paths are equally near to the {}, mean errors {:.4g} and {:.4g}",
+                           channel.mode->name, truth, channel.paths[0].stats.mean,
+                           channel.paths[1].stats.mean);
+    const auto near = static_cast<std::size_t>(channel.nearer), far = 1 - near;
+    const auto pixels =
+        static_cast<double>(channel.closer_pixels[0] + channel.closer_pixels[1] + channel.even_pixels);
+    const auto percent = [&](std::uint64_t count) {
+        return pixels > 0 ? 100 * static_cast<double>(count) / pixels : 0;
+    };
+    const std::string times = std::isfinite(channel.by) ? fmt::format("{:.4g} times less", channel.by)
+                              : channel.paths[near].stats.mean == 0 ? "none at all"
+                                                                    : "which is infinite";
+    return fmt::format(
+        "{}: {} is nearer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
+        "pixels ({} at {:.1f} %, even at {:.1f} %)",
+        channel.mode->name, frames[nearer.paths[near]].name, truth, channel.paths[near].stats.mean,
+        channel.paths[far].stats.mean, frames[nearer.paths[far]].name, times,
+        percent(channel.closer_pixels[near]), frames[nearer.paths[far]].name,
+        percent(channel.closer_pixels[far]), percent(channel.even_pixels));
+}
+
+double closerPathTop(const Image& apart) {
+    std::vector<float> sizes;
+    for (const float v : apart.data)
+        if (v != 0 && std::isfinite(v)) sizes.push_back(std::abs(v));
+    if (sizes.empty()) return 1;
+    const auto at = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
+    std::ranges::nth_element(sizes, sizes.begin() + at);
+    return double{sizes[static_cast<std::size_t>(at)]};
+}
+
+// The report's two colours of paths (page.css, --first and --second) over black, by the root of the distance.
+Image8 closerPathPicture(const Image& apart, double top) {
+    constexpr std::array<std::array<double, 3>, 2> color{{{111, 155, 232}, {224, 165, 82}}};
+    Image8 picture{apart.width, apart.height, 3, {}};
+    picture.data.reserve(3 * apart.pixels());
+    for (const float v : apart.data) {
+        const double share = std::isnan(v) ? 0 : std::sqrt(std::min(std::abs(double{v}) / top, 1.0));
+        for (const double c : color[v < 0 ? 0 : 1])
+            picture.data.push_back(static_cast<std::uint8_t>(std::lround(c * share)));
+    }
+    return picture;
+}
+
+}  // namespace diptych

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Two Frames, channel by channel: numbers, tolerance, verdict.
+#pragma once
+
+#include "compare/checks/visual_checks.h"
+#include "compare/metrics/channel.h"
+#include "compare/run/progress.h"
+#include "compare/verdict/closer_path.h"
+#include "compare/verdict/rules.h"
+#include "compare/verdict/selection.h"
+#include "compare/verdict/tolerance.h"
+#include "shared/frame/debug_modes.h"
+#include "shared/frame/frame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+enum class Verdict { pass, fail, forward_only };
+std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only"
+
+struct ChannelDiff {
+    const DebugMode* mode = nullptr;
+    ChannelStats stats;          // meaningless where forward-only
+    std::optional<double> flip;  // mean; of colours
+    Tolerance tolerance;
+    std::optional<std::uint64_t> unexplained_pixels;  // lit channels: what the encoding does not explain
+    std::optional<double> certain_p999;  // against a reference that sampled: beyond what that is known to
+    Verdict verdict = Verdict::pass;
+    std::string reason;   // why it failed; empty otherwise
+    std::string warning;  // what a rule warns of; empty otherwise
+    // What the difference picture shows instead of the metric's errors, what it is called and where its
+    // colours end.
+    std::shared_ptr<const Image> shown_error;
+    std::string shown_error_name;
+    double shown_error_top = 1;
+    std::vector<std::pair<std::string, double>> figures;  // all that are defined
+    std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
+};
+
+struct Comparison {
+    std::size_t baseline = 0, test = 0;  // into Report::frames
+    std::vector<ChannelDiff> channels;   // in ascending number
+    Coverage coverage;
+    std::vector<std::string> failures;  // beside the channels', e.g. a capture that is not the timed frame
+    std::vector<std::string> notes;     // what a reader must know and what is no failure
+    std::vector<std::string> command;   // the words that make this comparison again; --channels may be added
+    std::vector<FeatureChecks> marks;   // what no comparison shows and a person must look at
+
+    bool passed() const;
+};
+
+struct Report {
+    ReportDevice device;
+    std::vector<Frame> frames;
+    std::vector<Comparison> comparisons;
+    std::vector<std::string> first_notes;  // what must be known before any number is read
+    std::vector<CloserPath> nearer;        // with --baseline reference: one per scene and camera
+    double diff_ms = 0;                    // the comparing alone
+
+    bool passed() const;
+    const Frame& baseline(const Comparison& comparison) const { return frames[comparison.baseline]; }
+    const Frame& test(const Comparison& comparison) const { return frames[comparison.test]; }
+};
+
+struct CompareOptions {
+    Path baseline = Path::deferred;  // the left panel
+    std::vector<Rule> rules;         // in place of the derived tolerances, where one names the channel
+    SelectionOptions selection;      // pixels
+    std::vector<std::string>
+        words;                 // of the command line that said the above: commands that repeat it need them
+    bool allow_noise = false;  // on a GPU: what two runs of a path differ by is granted on top
+    Stage progress{};          // of comparing
+};
+
+// frames[test] against frames[baseline] of the report, over their common channels that were asked for; what
+// only one of them has and only forward+ can make is listed as forward-only and never counts. Throws
+// std::runtime_error where the two differ in size or share no channel.
+Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,
+                         const Requirements& needs, const CompareOptions& options = {});
+
+// The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
+// drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `marks`: one per pair, or
+// none.
+Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
+                  const CompareOptions& options = {}, std::vector<std::vector<FeatureChecks>> marks = {});
+
+// The truth as the left panel: frames come three by three, the reference and both paths of one scene and
+// camera; both paths against it, then against each other. `needs`: one entry per frame; `marks` and
+// `materials`, the names of these by id: one per scene and camera.
+Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
+                           ReportDevice device, const CompareOptions& options,
+                           std::vector<std::vector<FeatureChecks>> marks,
+                           const std::vector<std::vector<std::string>>& materials);
+
+// A Frame of earlier as the left panel: both paths against it, then against each other. `mismatches` are said
+// first.
+Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
+                          ReportDevice device, const CompareOptions& options,
+                          const std::vector<std::string>& mismatches);
+
+}  // namespace diptych

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+using Value = std::optional<double>;
+
+// A figure and where its value is.
+struct Row {
+    Figure figure;
+    Value (*value)(const Measurement&);
+};
+
+Value ofFlip(const Measurement& m, double FlipResult::*member) {
+    const HdrFlipResult* flip = m.flip();
+    return flip ? Value((*flip).*member) : Value();
+}
+
+template <double ChannelStats::*member>
+Value stat(const Measurement& m) {
+    return m.stats().*member;
+}
+template <double PlainMetrics::*member>
+Value plain(const Measurement& m) {
+    return m.plain().*member;
+}
+template <double FlipResult::*member>
+Value flip(const Measurement& m) {
+    return ofFlip(m, member);
+}
+template <double PlainMetrics::*member>
+Value angle(const Measurement& m) {
+    return m.isVector() ? Value(m.plain().*member) : Value();
+}
+
+const std::array rows{
+    Row{{"max", false, "largest error, in the channel's metric"}, stat<&ChannelStats::max>},
+    Row{{"mean", false, "mean error, in the channel's metric"}, stat<&ChannelStats::mean>},
+    Row{{"rmse", false, "root of the mean squared error, in the channel's metric"},
+        stat<&ChannelStats::rmse>},
+    Row{{"p99", false, "99th percentile of the error, nearest rank, in the channel's metric"},
+        stat<&ChannelStats::p99>},
+    Row{{"p999", false, "99.9th percentile of the error, nearest rank, in the channel's metric"},
+        stat<&ChannelStats::p999>},
+    Row{{"flip", false, "mean FLIP, 0 to 1 (Andersson et al. 2020; HDR: 2021)"}, flip<&FlipResult::mean>},
+    Row{{"flip_median", false, "weighted median of FLIP"}, flip<&FlipResult::weighted_median>},
+    Row{{"flip_max", false, "largest FLIP"}, flip<&FlipResult::max>},
+    Row{{"mse", false, "mean over components of (t - r)^2"}, plain<&PlainMetrics::mse>},
+    Row{{"mae", false, "mean over components of |t - r|"}, plain<&PlainMetrics::mae>},
+    Row{{"relative_mse", false, "mean of (t - r)^2 / (r^2 + 0.01) (Rousselle et al. 2011)"},
+        plain<&PlainMetrics::relative_mse>},
+    Row{{"relative_max", false, "largest |t - r| / max(|r|, 1e-3 mean)"}, plain<&PlainMetrics::relative_max>},
+    Row{{"relative_mean", false, "mean of |t - r| / max(|r|, 1e-3 mean)"},
+        plain<&PlainMetrics::relative_mean>},
+    Row{{"relative_p99", false, "its 99th percentile"}, plain<&PlainMetrics::relative_p99>},
+    Row{{"relative_p999", false, "its 99.9th percentile"}, plain<&PlainMetrics::relative_p999>},
+    Row{{"psnr", true, "10 log10(peak^2 / mse), dB; peak 1, of linear values the reference's largest"},
+        plain<&PlainMetrics::psnr>},
+    Row{{"ssim", true, "mean structural similarity, at most 1 (Wang et al. 2004)"},
+        [](const Measurement& m) { return m.plain().ssim; }},
+    Row{{"ulp_max", false, "most float32 values between t and r"}, plain<&PlainMetrics::ulp_max>},
+    Row{{"ulp_mean", false, "mean number of float32 values between t and r"}, plain<&PlainMetrics::ulp_mean>},
+    Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&PlainMetrics::angle_max>},
+    Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&PlainMetrics::angle_mean>},
+};
+
+constexpr const char* failing = "failing";
+
+}  // namespace
+
+std::span<const Figure> figures() {
+    static const auto table = [] {
+        std::array<Figure, rows.size()> all{};
+        std::ranges::transform(rows, all.begin(), &Row::figure);
+        return all;
+    }();
+    return table;
+}
+
+const Figure* findFigure(std::string_view name) {
+    const auto found = std::ranges::find(figures(), name, &Figure::name);
+    return found == figures().end() ? nullptr : &*found;
+}
+
+bool Measurement::isVector() const {
+    return pair_.kind == ChannelKind::vector && pair_.reference->components == 3;
+}
+
+std::optional<double> Measurement::operator()(const Quantity& quantity) const {
+    if (quantity.figure == failing) return failingShare(quantity.above);
+    const auto row = std::ranges::find(rows, quantity.figure, [](const Row& r) { return r.figure.name; });
+    return row == rows.end() ? Value() : row->value(*this);
+}
+
+Measured Measurement::asked() const {
+    return [this](const Quantity& quantity) { return (*this)(quantity); };
+}
+
+std::vector<std::pair<std::string, double>> Measurement::all() const {
+    std::vector<std::pair<std::string, double>> values;
+    for (const Row& row : rows)
+        if (const Value value = row.value(*this)) values.emplace_back(row.figure.name, *value);
+    return values;
+}
+
+const ChannelStats& Measurement::stats() const {
+    if (pair_.stats) return *pair_.stats;
+    if (!stats_) {
+        stats_ = channelStats(pair_.metric, pair_.kind, *pair_.reference, *pair_.test, *pair_.coverage);
+        if (pair_.metric == Metric::absolute) {
+            stats_->mean = plain().mae;
+            stats_->rmse = plain().rmse;
+        }
+    }
+    return *stats_;
+}
+
+const PlainMetrics& Measurement::plain() const {
+    if (!plain_)
+        plain_ = plainMetrics(*pair_.reference, *pair_.test, pair_.kind,
+                              pair_.display ? Range::display : Range::linear, *pair_.coverage);
+    return *plain_;
+}
+
+// FLIP's filters reach some pixels beyond the one that they judge: what does not count is a hole in both
+// pictures, so that it cannot be seen from beside it.
+Image Measurement::withHoles(const Image& image) const {
+    Image holed = image;
+    for (std::size_t i = 0; i < holed.pixels(); ++i)
+        if (!pair_.coverage->covered[i])
+            std::fill_n(holed.pixel(i), holed.components, std::numeric_limits<float>::quiet_NaN());
+    return holed;
+}
+
+const HdrFlipResult* Measurement::flip() const {
+    if (pair_.kind != ChannelKind::color || pair_.reference->components != 3) return nullptr;
+    if (!flip_) {
+        HdrFlipOptions options = pair_.flip;
+        options.covered = pair_.coverage->covered;
+        const bool whole = pair_.coverage->count == pair_.reference->pixels();
+        const Image reference = whole ? Image() : withHoles(*pair_.reference),
+                    test = whole ? Image() : withHoles(*pair_.test);
+        const Image &r = whole ? *pair_.reference : reference, &t = whole ? *pair_.test : test;
+        if (pair_.display) {
+            flip_.emplace();
+            static_cast<FlipResult&>(*flip_) = ldrFlip(r, t, options);
+        } else {
+            flip_ = hdrFlip(r, t, options);
+        }
+    }
+    return &*flip_;
+}
+
+double Measurement::failingShare(double above) const {
+    const PixelError error(pair_.metric, pair_.kind, *pair_.reference, *pair_.coverage);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < pair_.reference->pixels(); ++i)
+        if (pair_.coverage->covered[i])
+            count += !(error(pair_.test->pixel(i), pair_.reference->pixel(i)) <= above);
+    return pair_.coverage->count ? static_cast<double>(count) / static_cast<double>(pair_.coverage->count)
+                                 : 0;
+}
+
+Decision decide(const Rule& rule, const Measurement& measurement) {
+    Decision decision = decide(rule, measurement.asked());
+    const std::uint64_t different = measurement.plain().nonfinite_different;
+    if (decision.level != Level::fail && different > 0 && !bounds(rule.fail, failing))
+        decision = {Level::fail, &rule,
+                    fmt::format("{} pixel(s) are NaN or infinite against something else", different)};
+    return decision;
+}
+
+}  // namespace diptych

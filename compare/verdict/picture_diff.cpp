@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/picture_diff.h"
+
+#include "compare/metrics/prefilter.h"
+#include "shared/image/picture_file.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+// IEC 61966-2-1.
+float linearFromSrgb(float v) {
+    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+void makeLinear(PictureFile& file) {
+    for (PictureLayer& layer : file.layers)
+        for (std::size_t i = 0; i < layer.image.data.size(); ++i) {
+            const std::string& channel = layer.channels[i % static_cast<std::size_t>(layer.image.components)];
+            if (!channel.ends_with('A')) layer.image.data[i] = linearFromSrgb(layer.image.data[i]);
+        }
+    file.display_referred = false;
+}
+
+void bringTogether(PictureFile& a, PictureFile& b, PictureDiff& diff) {
+    if (a.width != b.width || a.height != b.height)
+        throw std::runtime_error(
+            fmt::format("{} is {}x{} and {} is {}x{}: only pictures of one size are compared", diff.reference,
+                        a.width, a.height, diff.test, b.width, b.height));
+    if (a.display_referred != b.display_referred) {
+        diff.notes.push_back(fmt::format("{} is {} and was made linear, by the sRGB curve, as the other is",
+                                         a.display_referred ? diff.reference : diff.test,
+                                         a.display_referred ? a.format : b.format));
+        makeLinear(a.display_referred ? a : b);
+    }
+    for (const PictureFile* file : {&a, &b})
+        for (const std::string& note : file->notes)
+            diff.notes.push_back(fmt::format("{}: {}", file == &a ? diff.reference : diff.test, note));
+    diff.width = a.width;
+    diff.height = a.height;
+    diff.display = a.display_referred;
+}
+
+ObjectPlanes objectsOf(const std::vector<PictureChannel>& reference,
+                       const std::vector<PictureChannel>& test) {
+    ObjectPlanes objects;
+    const auto find = [](const std::vector<PictureChannel>& channels, const char* name) {
+        const auto found = std::ranges::find(channels, name, &PictureChannel::name);
+        return found == channels.end() || found->image.components != 1 ? nullptr : &found->image;
+    };
+    for (const int side : {0, 1}) {
+        const auto& channels = side == 0 ? reference : test;
+        objects.ids[side] = find(channels, "material_id");
+        objects.depth[side] = find(channels, "depth");
+    }
+    return objects;
+}
+
+// What the command line says of a channel that no rule names. Colours have a FLIP; what has none is judged by
+// its largest error, unless the figure was asked for.
+Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel) {
+    Rule rule;
+    rule.channel = channel.pair.name;
+    rule.origin = "command line";
+    Quantity quantity{options.metric, 0};
+    if (!options.failing && !(*channel.measurement)(quantity)) {
+        rule.because = fmt::format("{} is not defined for it", quantity.figure);
+        if (options.metric_given) {
+            rule.because += ": not judged";
+            return rule;
+        }
+        quantity.figure = "max";
+    }
+    const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
+    rule.fail = bound(options.tolerance);
+    if (options.failing)
+        rule.fail = {Condition::Kind::bound, {"failing", options.tolerance}, *options.failing, {}};
+    if (options.warn) rule.warn = bound(*options.warn);
+    return rule;
+}
+
+void judge(PictureChannelDiff& channel, const PictureDiffOptions& options) {
+    const Rule* rule = ruleFor(options.rules, channel.pair.name);
+    channel.rule = rule ? *rule : ruleOf(options, channel);
+    channel.decision = decide(channel.rule, *channel.measurement);
+}
+
+void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
+    if (channel.measurement->stats().different == 0) return;
+    const Image errors = decidingErrors(diff, channel).image;
+    const auto most = std::max_element(errors.data.begin(), errors.data.end());
+    if (!(*most > 0)) return;
+    const auto at = static_cast<int>(most - errors.data.begin());
+    channel.worst_x = at % errors.width;
+    channel.worst_y = at / errors.width;
+}
+
+// What is silent otherwise: a NaN in both, a rule that names nothing.
+void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
+    for (const auto& channel : diff.channels) {
+        const ChannelStats& s = channel->measurement->stats();
+        if (s.nonfinite_baseline + s.nonfinite_test > 0)
+            diff.notes.push_back(
+                fmt::format("{}: {} pixel(s) of the reference and {} of the test are NaN or infinite",
+                            channel->pair.name, s.nonfinite_baseline, s.nonfinite_test));
+        if (!channel->rule.because.empty() && channel->rule.origin == "command line")
+            diff.notes.push_back(fmt::format("{}: {}", channel->pair.name, channel->rule.because));
+    }
+    std::vector<std::string> names;
+    for (const auto& channel : diff.channels) names.push_back(channel->pair.name);
+    for (const std::string& line : idleRules(options.rules, names)) diff.notes.push_back(line);
+}
+
+}  // namespace
+
+std::string figureOfMetric(const std::string& name) {
+    static const std::map<std::string, std::string> others{{"relative", "relative_max"},
+                                                           {"angular", "angle_max"},
+                                                           {"angle", "angle_max"},
+                                                           {"ulp", "ulp_max"},
+                                                           {"relmse", "relative_mse"}};
+    if (const auto other = others.find(name); other != others.end()) return other->second;
+    if (findFigure(name)) return name;
+    std::string all;
+    for (const Figure& figure : figures()) all += fmt::format(", {}", figure.name);
+    throw std::runtime_error(
+        fmt::format("--metric {}: no such figure; there are relative, angular, ulp{}", name, all));
+}
+
+DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff& channel) {
+    const MatchedChannel& pair = channel.pair;
+    const auto decides = [&](const char* figure) {
+        return std::ranges::any_of(figures(), [&](const Figure& f) {
+            return f.name.starts_with(figure) && bounds(channel.rule.fail, f.name);
+        });
+    };
+    if (decides("flip") && channel.measurement->flip())
+        return {channel.measurement->flip()->error, "FLIP", 1};
+    const bool relative = decides("relative") && pair.metric == Metric::absolute;
+    const Metric metric = relative ? Metric::relative : pair.metric;
+    Image errors = errorImage(metric, pair.kind, pair.reference, pair.test, *diff.coverage);
+    if (!relative) return {std::move(errors), "", channel.measurement->stats().max};
+    const double top = channel.measurement->plain().relative_max;
+    return {std::move(errors), "relative", top};
+}
+
+bool PictureDiff::passed() const {
+    return std::ranges::none_of(channels, [](const auto& c) { return c->decision.level == Level::fail; });
+}
+
+PictureDiff diffPictures(const std::string& reference, const std::string& test,
+                         const PictureDiffOptions& options) {
+    PictureDiff diff;
+    diff.reference = reference;
+    diff.test = test;
+    options.progress.at(0, "read");
+    PictureFile a, b;
+    // Of two that cannot be read the reference is named, whichever thread was faster.
+    std::exception_ptr failures[2];
+    const auto read = [](PictureFile& file, const std::string& name, std::exception_ptr& failure) {
+        try {
+            file = readPicture(name);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    };
+    tbb::parallel_invoke([&] { read(a, reference, failures[0]); }, [&] { read(b, test, failures[1]); });
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+    diff.reference_format = a.format;
+    diff.test_format = b.format;
+    bringTogether(a, b, diff);
+
+    checkNames(a, b, options.names);
+    std::vector<PictureChannel> left = channelsOf(std::move(a), options.names),
+                                right = channelsOf(std::move(b), options.names);
+    diff.coverage = std::make_unique<Coverage>(
+        everyPixel(static_cast<std::size_t>(diff.width) * static_cast<std::size_t>(diff.height)));
+    select(*diff.coverage, diff.width, diff.height, options.selection, objectsOf(left, right), diff.notes);
+    MatchedChannels matched = match(std::move(left), std::move(right), options.channels);
+    diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
+    for (MatchedChannel& pair : matched.channels) {
+        auto channel = std::make_unique<PictureChannelDiff>();
+        channel->pair = std::move(pair);
+        MatchedChannel& p = channel->pair;
+        if (p.kind != ChannelKind::id) {
+            if (options.blur > 0) {
+                p.reference = blurred(p.reference, options.blur);
+                p.test = blurred(p.test, options.blur);
+            }
+            if (options.shift > 0) p.test = shifted(p.reference, p.test, options.shift);
+        }
+        channel->display = diff.display && p.kind == ChannelKind::color;
+        channel->measurement =
+            std::make_unique<Measurement>(ChannelPair{p.metric, p.kind, channel->display, &p.reference,
+                                                      &p.test, diff.coverage.get(), nullptr, options.flip});
+        diff.channels.push_back(std::move(channel));
+    }
+    constexpr double reading = 0.3;
+    const auto all = static_cast<double>(diff.channels.size());
+    double done = 0;
+    for (auto& channel : diff.channels) {
+        options.progress.at(reading + (1 - reading) * done++ / all, "measure " + channel->pair.name);
+        judge(*channel, options);
+        findWorst(diff, *channel);
+    }
+    if (options.metric_given && options.rules.empty() &&
+        std::ranges::none_of(diff.channels, [&](const auto& channel) {
+            return (*channel->measurement)({options.metric, 0}).has_value();
+        }))
+        throw std::runtime_error(
+            fmt::format("--metric {}: not defined for any channel of these pictures", options.metric));
+    addNotes(diff, options);
+    return diff;
+}
+
+}  // namespace diptych

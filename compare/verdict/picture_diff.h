@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Two picture files from anybody's renderer, channel by channel: figures and a verdict.
+#pragma once
+
+#include "compare/files/layers.h"
+#include "compare/run/progress.h"
+#include "compare/verdict/measurement.h"
+#include "compare/verdict/rules.h"
+#include "compare/verdict/selection.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+struct PictureDiffOptions {
+    std::string metric = "flip";        // the figure that decides where no rule does, figureOfMetric()
+    bool metric_given = false;          // then a channel that has no such figure is not judged
+    double tolerance = 0;               // the most that passes; of psnr and ssim the least
+    std::optional<double> warn;         // what is beyond it is warned of
+    std::optional<double> failing;      // instead: `tolerance` may be exceeded by this share of the pixels
+    std::vector<Rule> rules;            // a rule that names the channel decides instead
+    std::vector<std::string> channels;  // patterns of names; empty: all
+    std::vector<std::string> names;     // --map
+    SelectionOptions selection;
+    double blur = 0;  // standard deviation, pixels
+    int shift = 0;    // pixels
+    HdrFlipOptions flip;
+    Stage progress{};
+};
+
+struct PictureDiff;
+
+// One channel of both pictures with all that is known of it.
+struct PictureChannelDiff {
+    MatchedChannel pair;
+    std::unique_ptr<Measurement> measurement;  // looks into `pair`
+    bool display = false;
+    Rule rule;  // what decided
+    Decision decision;
+    int worst_x = -1, worst_y = -1;  // where the errors that decide are largest; -1: nowhere
+};
+
+// Errors as what decided sees them.
+struct DecidingErrors {
+    Image image;       // W x H x 1
+    std::string name;  // "FLIP", "relative"; empty: of the channel's metric
+    double top = 0;    // the end of their colour map
+};
+DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff& channel);
+
+struct PictureDiff {
+    std::string reference, test;  // file names as they were given
+    std::string reference_format, test_format;
+    int width = 0, height = 0;
+    bool display = false;                // both hold display colours
+    std::unique_ptr<Coverage> coverage;  // where the measurements find it
+    std::vector<std::unique_ptr<PictureChannelDiff>> channels;
+    std::vector<std::string> notes;
+
+    bool passed() const;
+};
+
+// Throws std::runtime_error, one line, where a file cannot be read, sizes differ, or nothing is shared.
+PictureDiff diffPictures(const std::string& reference, const std::string& test,
+                         const PictureDiffOptions& options);
+
+// The figure that --metric NAME stands for: figures() and "relative" (relative_max), "angular" (angle_max),
+// "ulp" (ulp_max). Throws std::runtime_error naming all.
+std::string figureOfMetric(const std::string& name);
+
+}  // namespace diptych

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/rules.h"
+
+#include "shared/image/file_bytes.h"
+#include "shared/text/json.h"
+#include "shared/text/named.h"
+#include "shared/text/wildcard.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* failing = "failing";
+using Presets = std::map<std::string, Json>;
+
+[[noreturn]] void fail(const std::string& what) {
+    throw std::runtime_error(what);
+}
+
+std::string figureNames() {
+    std::string names;
+    for (const Figure& figure : figures()) names += fmt::format("{}, ", figure.name);
+    return names + failing;
+}
+
+double numberOf(const Json& value, const std::string& what) {
+    if (!value.is_number()) fail(fmt::format("{} is {}, not a number", what, oneLine(value.dump(), 60)));
+    return value.get<double>();
+}
+
+Condition bound(const std::string& figure, const Json& value) {
+    const double limit = numberOf(value, figure);
+    if (!(limit >= 0)) fail(fmt::format("{} {} is negative: no error is", figure, limit));
+    return {Condition::Kind::bound, {figure, 0}, limit, {}};
+}
+
+// { "above": error, "share": of the pixels }
+Condition share(const Json& value) {
+    if (!value.is_object() || value.size() != 2 || !value.contains("above") || !value.contains("share"))
+        fail("failing is { \"above\": ERROR, \"share\": 0 to 1 }");
+    const double above = numberOf(value["above"], "above"), most = numberOf(value["share"], "share");
+    if (!(above >= 0)) fail(fmt::format("failing: above {} is negative: no error is", above));
+    if (!(most >= 0 && most <= 1)) fail(fmt::format("failing: share {} is not from 0 to 1", most));
+    return {Condition::Kind::bound, {failing, above}, most, {}};
+}
+
+class ConditionReader {
+public:
+    explicit ConditionReader(const Presets& presets) : presets_(presets) {}
+
+    // Every member of the object but `others`, all of which must hold.
+    Condition read(const Json& object, const std::set<std::string>& others = {}) {
+        if (!object.is_object()) fail(fmt::format("{} is no object of bounds", oneLine(object.dump(), 60)));
+        Condition all{Condition::Kind::all, {}, 0, {}};
+        for (const auto& [key, value] : object.items())
+            if (!others.contains(key)) all.parts.push_back(member(key, value));
+        return all.parts.size() == 1 ? std::move(all.parts.front()) : all;
+    }
+
+private:
+    const Presets& presets_;
+    std::vector<std::string> open_;  // presets that are being read
+
+    Condition member(const std::string& key, const Json& value) {
+        if (key == "all" || key == "any") return group(key, value);
+        if (key == "preset") return preset(value);
+        if (key == failing) return share(value);
+        if (findFigure(key)) return bound(key, value);
+        fail(fmt::format("no such figure {}; there are {}, and all, any, preset", oneLine(key),
+                         figureNames()));
+    }
+
+    Condition group(const std::string& key, const Json& value) {
+        if (!value.is_array() || value.empty()) fail(key + " is no array of bounds");
+        Condition group{key == "all" ? Condition::Kind::all : Condition::Kind::any, {}, 0, {}};
+        for (const Json& part : value) group.parts.push_back(read(part));
+        return group;
+    }
+
+    Condition preset(const Json& value) {
+        if (!value.is_string()) fail("preset is no name");
+        const std::string name = value.get<std::string>();
+        const auto found = presets_.find(name);
+        if (found == presets_.end()) fail(fmt::format("no such preset {}", oneLine(name)));
+        if (std::ranges::count(open_, name))
+            fail(fmt::format("preset {} leads back to itself", oneLine(name)));
+        open_.push_back(name);
+        Condition condition = read(found->second, {"because"});
+        open_.pop_back();
+        return condition;
+    }
+};
+
+std::string textOf(const Json& object, const char* key, const char* what) {
+    const auto at = object.find(key);
+    if (at == object.end() || !at->is_string() || at->get_ref<const std::string&>().empty())
+        fail(fmt::format("has no {}, {}", key, what));
+    return oneLine(at->get<std::string>(), 400);
+}
+
+Rule readRule(const Json& json, const Presets& presets) {
+    if (!json.is_object()) fail("is no object");
+    Rule rule;
+    rule.channel = textOf(json, "channel", "the name or pattern of what it is about");
+    rule.because = textOf(json, "because", "the reason for it");
+    rule.fail = ConditionReader(presets).read(json, {"channel", "because", "warn"});
+    if (json.contains("warn")) rule.warn = ConditionReader(presets).read(json["warn"]);
+    if (rule.fail.kind == Condition::Kind::all && rule.fail.parts.empty() && !rule.warn)
+        fail(fmt::format("bounds nothing; there are {}", figureNames()));
+    return rule;
+}
+
+std::vector<Rule> readDocument(const Json& document, const std::string& name) {
+    if (!document.is_object()) fail("is no object with rules");
+    for (const auto& [key, value] : document.items())
+        if (key != "$schema" && key != "presets" && key != "rules")
+            fail(fmt::format("no such member {}; there are presets and rules", oneLine(key)));
+    Presets presets;
+    if (document.contains("presets")) {
+        if (!document["presets"].is_object()) fail("presets: is no object");
+        presets = document["presets"].get<Presets>();
+    }
+    for (const auto& [key, value] : presets)  // also those that no rule uses
+        named("preset " + oneLine(key), [&] { return ConditionReader(presets).read(Json{{"preset", key}}); });
+    const auto list = document.find("rules");
+    if (list == document.end() || !list->is_array()) fail("has no rules, an array");
+    std::vector<Rule> rules;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        rules.push_back(named(fmt::format("rule {}", i + 1), [&] { return readRule((*list)[i], presets); }));
+        rules.back().origin = fmt::format("{}, rule {}", name, i + 1);
+    }
+    return rules;
+}
+
+// Six digits, and as many more as it takes to differ from `other`.
+std::string shown(double value, double other) {
+    for (int digits = 4; digits < 17; ++digits)
+        if (std::string text = fmt::format("{:.{}g}", value, digits);
+            value == other || text != fmt::format("{:.{}g}", other, digits))
+            return text;
+    return fmt::format("{:.17g}", value);
+}
+
+std::string wordsOf(const Quantity& quantity) {
+    return quantity.figure == failing ? fmt::format("share of pixels above {:g}", quantity.above)
+                                      : quantity.figure;
+}
+
+std::optional<std::string> boundViolation(const Condition& c, const Measured& measured) {
+    const std::optional<double> value = measured(c.quantity);
+    const std::string what = wordsOf(c.quantity);
+    if (!value) return fmt::format("{} is not defined for this channel", what);
+    const Figure* figure = findFigure(c.quantity.figure);
+    if (figure && figure->more_is_better) {
+        if (*value >= c.limit) return {};
+        return fmt::format("{} {} is below {}", what, shown(*value, c.limit), shown(c.limit, *value));
+    }
+    if (*value <= c.limit) return {};
+    return fmt::format("{} {} exceeds {}", what, shown(*value, c.limit), shown(c.limit, *value));
+}
+
+std::string joined(const Condition& condition, const char* word) {
+    std::string text;
+    for (const Condition& part : condition.parts) {
+        const bool inner = part.kind != Condition::Kind::bound;
+        text += fmt::format("{}{}", text.empty() ? "" : word,
+                            inner ? fmt::format("({})", wordsOf(part)) : wordsOf(part));
+    }
+    return text;
+}
+
+}  // namespace
+
+std::optional<std::string> violation(const Condition& condition, const Measured& measured) {
+    if (condition.kind == Condition::Kind::bound) return boundViolation(condition, measured);
+    std::string reasons;
+    for (const Condition& part : condition.parts) {
+        const std::optional<std::string> why = violation(part, measured);
+        if (condition.kind == Condition::Kind::any && !why) return {};
+        if (why)
+            reasons += (reasons.empty()                          ? ""
+                        : condition.kind == Condition::Kind::any ? ", and "
+                                                                 : ", ") +
+                       *why;
+    }
+    if (reasons.empty()) return {};
+    return reasons;
+}
+
+bool bounds(const Condition& condition, std::string_view figure) {
+    return condition.kind == Condition::Kind::bound
+               ? condition.quantity.figure == figure
+               : std::ranges::any_of(condition.parts, [&](const auto& part) { return bounds(part, figure); });
+}
+
+std::optional<double> boundOn(const Condition& condition, std::string_view figure) {
+    if (condition.kind == Condition::Kind::bound)
+        return condition.quantity.figure == figure ? std::optional(condition.limit) : std::nullopt;
+    if (condition.kind == Condition::Kind::any) return {};
+    std::optional<double> least;
+    for (const Condition& part : condition.parts)
+        if (const auto bound = boundOn(part, figure)) least = std::min(*bound, least.value_or(*bound));
+    return least;
+}
+
+std::string wordsOf(const Condition& condition) {
+    if (condition.kind == Condition::Kind::all) return joined(condition, " and ");
+    if (condition.kind == Condition::Kind::any) return joined(condition, " or ");
+    const Figure* figure = findFigure(condition.quantity.figure);
+    return fmt::format("{} {} {:g}", wordsOf(condition.quantity),
+                       figure && figure->more_is_better ? ">=" : "<=", condition.limit);
+}
+
+std::string_view nameOf(Level level) {
+    return level == Level::pass ? "pass" : level == Level::warn ? "warn" : "fail";
+}
+
+Decision decide(const Rule& rule, const Measured& measured) {
+    if (auto why = violation(rule.fail, measured)) return {Level::fail, &rule, *why};
+    if (rule.warn)
+        if (auto why = violation(*rule.warn, measured)) return {Level::warn, &rule, *why};
+    return {Level::pass, &rule, {}};
+}
+
+const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel) {
+    for (std::size_t i = rules.size(); i-- > 0;)
+        if (matches(rules[i].channel, channel)) return &rules[i];
+    return nullptr;
+}
+
+std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels) {
+    std::vector<std::string> lines;
+    for (const Rule& rule : rules)
+        if (std::ranges::none_of(channels, [&](const auto& name) { return matches(rule.channel, name); }))
+            lines.push_back(fmt::format("{}: no channel here is called {}", rule.origin, rule.channel));
+    return lines;
+}
+
+std::vector<Rule> rulesFromJson(std::string_view text, const std::string& name) {
+    return named(
+        name, [&] { return readDocument(parseJson(text), std::filesystem::path(name).filename().string()); });
+}
+
+std::vector<Rule> readRules(const std::filesystem::path& file) {
+    const std::vector<unsigned char> bytes = bytesOf(file);
+    return rulesFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+}
+
+}  // namespace diptych

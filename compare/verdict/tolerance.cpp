@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/tolerance.h"
+
+#include "compare/render/reference_frame.h"
+#include "shared/contract/constants.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
+#include "shared/material/gbuffer_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// Float32 on the way of a number in [0, 1] through packUnorm and unpackUnorm: a product and a sum (half an
+// ULP of 1 each) and a division (2.5 ULP by Vulkan's rules), doubled for a square root and a square.
+constexpr double unormSlack = 8 * 0x1p-24;
+constexpr double sqrtSlack = 2 * unormSlack;
+
+double halfStep(unsigned bits) {
+    return 0.5 / static_cast<double>((1u << bits) - 1);
+}
+
+// x -> x' with sqrt(x) rounded in `bits`: worst where the last step meets 1, 1 - (1 - h)^2.
+double sqrtBound(unsigned bits) {
+    const double h = halfStep(bits);
+    return 2 * h - h * h + sqrtSlack;
+}
+
+struct Bits {
+    unsigned normal, roughness, metallic;
+};
+Bits bitsOf(GBufferEncoding encoding) {
+    if (encoding == GBufferEncoding::compact)
+        return {gpu::COMPACT_NORMAL_BITS, gpu::COMPACT_ROUGHNESS_BITS, gpu::COMPACT_METALLIC_BITS};
+    return {gpu::STANDARD_NORMAL_BITS, gpu::STANDARD_ROUGHNESS_BITS, gpu::STANDARD_METALLIC_BITS};
+}
+
+Tolerance unormTolerance(unsigned bits) {
+    return {halfStep(bits) + unormSlack,
+            fmt::format("half a step of {} bits, 0.5 / {}", bits, (1u << bits) - 1)};
+}
+
+// Of radiance in 9.9.9.e5: emission and lightmaps.
+Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
+    // The largest component has its top bit set, so half a step is at most 0.5 / 256 of it; 1/512 of that
+    // more where rounding moves the exponent. Below 2^-16 the exponent ends and half a step stays 2^-25.
+    constexpr double half = 0.5 / (1u << (gpu::EMISSION_MANTISSA_BITS - 1));
+    const Image& baseline = pair.baseline.channels.at(mode.number);
+    const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
+    const double dark = floor > 0 ? 0x1p-25 / floor : 0;
+    return {std::max(half * (1 + 1.0 / 512), dark),
+            dark > half ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, where it is darkest")
+                        : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
+}
+
+Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair) {
+    if (!pair.needs.emission) return {0, "nothing in the scene emits"};
+    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_emission)
+        return {0, "float32: the scene's emission leaves the range of 9.9.9.e5"};
+    return radianceTolerance(mode, pair);
+}
+
+Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair) {
+    if (!pair.needs.lightmap) return {0, "nothing in the scene has a lightmap"};
+    if (gbufferLayout(pair.of(Path::deferred)->settings.gbuffer, pair.needs).wide_lightmap)
+        return {0, "float32: the scene's lightmaps leave the range of 9.9.9.e5"};
+    return radianceTolerance(mode, pair);
+}
+
+// mix(dielectric F0, albedo, metallic): the worse of the two ends, plus metallic's step times their distance.
+Tolerance specularTolerance(const FramePair& pair, const Bits& bits) {
+    const double albedo = sqrtBound(gpu::ALBEDO_BITS), metallic = halfStep(bits.metallic) + unormSlack;
+    const bool stored = pair.needs.dielectric_specular;
+    const double ends = stored ? std::max(albedo, sqrtBound(gpu::SPECULAR_BITS)) : albedo;
+    const double apart = stored ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
+    return {ends + metallic * apart,
+            fmt::format(
+                "mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step of {} bits, {:.3g})",
+                stored ? " and F0" : "", ends, bits.metallic, metallic)};
+}
+
+// What forward+ shades from a surface that went through the same encoding; nullptr: not drawn.
+const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
+    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
+    const auto found = forward->through_gbuffer.find(mode.number);
+    return found == forward->through_gbuffer.end() ? nullptr : &found->second;
+}
+
+// The encoding's whole effect on this scene, measured within forward+ alone.
+Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
+    const Image* through = throughGBuffer(mode, pair);
+    if (!through)
+        return {0,
+                "forward+ was not drawn through this G-buffer's encoding, so no difference can be explained"};
+    const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
+    const bool deferredIsBaseline = pair.baseline.settings.path == Path::deferred;
+    const ChannelStats effect = channelStats(mode.metric, mode.kind, deferredIsBaseline ? *through : own,
+                                             deferredIsBaseline ? own : *through, pair.coverage);
+    if (effect.infinite > 0)
+        return {0,
+                fmt::format(
+                    "forward+ shading what the G-buffer gives back is a NaN or infinity against a number at "
+                    "{} pixel(s), which explains nothing",
+                    effect.infinite)};
+    const std::string place =
+        effect.worst_x < 0 ? "" : fmt::format(", worst at {},{}", effect.worst_x, effect.worst_y);
+    return {
+        effect.max,
+        fmt::format("forward+ shading what the {} G-buffer gives back moves by up to {:.3g} (mean {:.3g}{}); "
+                    "deferred must equal that {}",
+                    nameOf(pair.of(Path::forward_plus)->settings.gbuffer), effect.max, effect.mean, place,
+                    pair.cpu ? "bit for bit" : "within 16 ULP")};
+}
+
+Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
+    if (encoding == GBufferEncoding::full) return {0, "the full G-buffer carries float32 whole"};
+    if (isLit(mode.number)) return litTolerance(mode, pair);
+    const Bits bits = bitsOf(encoding);
+    switch (mode.number) {
+        case gpu::DEBUG_albedo:
+            return {sqrtBound(gpu::ALBEDO_BITS),
+                    "square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255"};
+        case gpu::DEBUG_normals:
+            return {octahedralBound(bits.normal),
+                    fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
+                                bits.normal)};
+        case gpu::DEBUG_metallic:
+            return unormTolerance(bits.metallic);
+        case gpu::DEBUG_roughness:
+            return unormTolerance(bits.roughness);
+        case gpu::DEBUG_occlusion:
+            return unormTolerance(gpu::OCCLUSION_BITS);
+        case gpu::DEBUG_emission:
+            return emissionTolerance(mode, pair);
+        case gpu::DEBUG_lightmap:
+            return lightmapTolerance(mode, pair);
+        case gpu::DEBUG_specular:
+            return specularTolerance(pair, bits);
+        case gpu::DEBUG_dielectric_f90:
+            if (!pair.needs.dielectric_specular)
+                return {0, "every dielectric has F90 = 1: nothing is stored"};
+            return unormTolerance(gpu::SPECULAR_BITS);
+        case gpu::DEBUG_material_id:
+            return {0, "the index is carried whole"};
+        case gpu::DEBUG_light_count:
+        case gpu::DEBUG_list_overflow:
+            return {0, "one list for both paths, by the same function of pixel and depth"};
+        case gpu::DEBUG_depth:
+        case gpu::DEBUG_position:
+            return {0, "the same function of pixel and depth in both paths"};
+        case gpu::DEBUG_geometric_normal:
+            return {0, "both paths quantise it alike"};
+    }
+    return {0, "nothing is known to lose precision here"};
+}
+
+// gpuUlps of the pixel's largest component in the channel's metric. Relative: that share, for the denominator
+// is no smaller than the component. Absolute: of the largest value there is. Angular: all three components
+// off by so much turn a vector by sqrt(3) times the share. Indices are exact.
+double gpuSlack(const DebugMode& mode, const Image& baseline) {
+    constexpr double share = gpuUlps * 0x1p-23;
+    switch (mode.metric) {
+        case Metric::relative:
+            return share;
+        case Metric::absolute: {
+            float largest = 0;
+            for (const float v : baseline.data)
+                if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+            return share * double{largest};
+        }
+        case Metric::angular:
+            return std::sqrt(3.0) * share * degrees;
+        case Metric::exact:
+            return 0;
+    }
+    return 0;
+}
+
+// What float32 shading may be off of double: DESIGN's figure, of the pixel as its metric has it.
+constexpr double shadingRounding = 1e-4;
+
+// The G-buffer's whole effect on a lit channel, at 99.9 % of the pixels.
+double encodingEffect(const DebugMode& mode, const FramePair& pair) {
+    if (!pair.explaining) return 0;
+    const auto through = pair.explaining->through_gbuffer.find(mode.number);
+    const auto own = pair.explaining->channels.find(mode.number);
+    if (through == pair.explaining->through_gbuffer.end() || own == pair.explaining->channels.end()) return 0;
+    return channelStats(mode.metric, mode.kind, own->second, through->second, pair.coverage).p999;
+}
+
+// The path that is held against the truth loses what its encoding loses, and what its arithmetic does.
+Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
+    const Frame& truth = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
+    const bool packed =
+        path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
+    const bool own = truth.settings.reference_mode == ReferenceMode::scene;
+    Tolerance result;
+    if (isLit(mode.number)) {
+        result = {shadingRounding, "float32 shading against double, 1e-4"};
+        if (const double effect = packed ? encodingEffect(mode, pair) : 0; effect > 0) {
+            result.max += effect;
+            result.because += fmt::format(
+                "; and what forward+ changes by at 99.9 % of the pixels when it shades what the {} G-buffer "
+                "gives "
+                "back, {:.3g}",
+                nameOf(path.settings.gbuffer), effect);
+        }
+        if (!truth.uncertainty.empty())
+            result.because +=
+                "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
+    } else {
+        // Surfaces that are forward+'s own capture.
+        result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
+                        : Tolerance{0, "float32, nothing is packed"};
+        if (mode.number == gpu::DEBUG_geometric_normal && path.settings.gbuffer != GBufferEncoding::full)
+            result = {octahedralBound(path.settings.gbuffer == GBufferEncoding::compact
+                                          ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
+                                          : gpu::STANDARD_NORMAL_BITS),
+                      "both paths pack it alike, octahedral"};
+        if (own && mode.metric != Metric::exact) {
+            result.max += mode.metric == Metric::angular ? shadingRounding * degrees : shadingRounding;
+            result.because += "; and float32 on the way to the pixel, 1e-4";
+        }
+    }
+    if (own)
+        result.because += "; rasterisation and texture filtering are judged, so nothing is granted for them";
+    result.most_pixels = true;
+    return result;
+}
+
+}  // namespace
+
+const Frame* FramePair::of(Path path) const {
+    const bool first = baseline.settings.path == path, second = test.settings.path == path;
+    if (first == second) return nullptr;
+    return first ? &baseline : &test;
+}
+
+// Rounding moves a point of the octahedron |x|+|y|+|z| = 1 by up to (h, h, -2h), h = 0.5 / (2^(bits-1) - 1).
+// At a face's centre, 1 / sqrt(3) from the origin, that is perpendicular to the direction: an angle of
+// sqrt(6) h sqrt(3) = 3 sqrt(2) h. Float32 adds some 8 roundings of 2^-24 to the coordinates before they are
+// rounded, and 10 to the decoded, normalised vector.
+double octahedralBound(unsigned bits) {
+    const double h = 0.5 / static_cast<double>((1u << (bits - 1)) - 1);
+    return degrees * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + 10 * 0x1p-24);
+}
+
+Tolerance tolerance(const DebugMode& mode, const FramePair& pair) {
+    const Frame* deferred = pair.of(Path::deferred);
+    Tolerance result{0, "one path twice: the same function of the same numbers"};
+    if (deferred && pair.of(Path::forward_plus))
+        result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
+    else if (isReferenceFrame(pair.baseline) != isReferenceFrame(pair.test))
+        result = referenceTolerance(mode, pair);
+    else if (pair.baseline.settings.path != pair.test.settings.path)
+        result = {0, "no bound is known between these two paths"};
+    if (!pair.cpu && mode.metric != Metric::exact) {
+        result.max += gpuSlack(mode, pair.baseline.channels.at(mode.number));
+        result.because += fmt::format("; and {} ULP of the pixel's largest component on a GPU", gpuUlps);
+    }
+    return result;
+}
+
+std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
+    if (!isLit(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
+    const Frame& truth = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    if (truth.uncertainty.empty()) return {};
+    // Student's t of 7 degrees of freedom, 99.9 % against the 95 % that is stated: 5.41 / 2.36.
+    constexpr double surer = 2.29;
+    const Image& baseline = pair.baseline.channels.at(mode.number);
+    const Image& test = pair.test.channels.at(mode.number);
+    const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < baseline.pixels(); ++i) {
+        if (!pair.coverage.covered[i]) continue;
+        const float* p = baseline.pixel(i);
+        const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+        const double open = surer * double{truth.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
+        const double e = error(test.pixel(i), p);
+        errors.push_back(e > open ? e - open : std::isnan(e) ? std::numeric_limits<double>::infinity() : 0);
+    }
+    if (errors.empty()) return 0;
+    const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(errors.size()))) - 1;
+    std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
+    return errors[rank];
+}
+
+std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {
+    const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
+    if (!through) return {};
+    return unequalPixels(pair.of(Path::deferred)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
+}
+
+}  // namespace diptych

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/accessor.h"
+
+#include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/value.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+namespace diptych::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+// ---- shapes ------------------------------------------------------------------------------------------
+
+std::size_t componentBytes(int type) {
+    switch (type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 1;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 2;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+// Columns of a matrix begin at multiples of 4 bytes (glTF 2.0, 3.6.2.4); a vector is one column.
+struct Shape {
+    std::size_t columns = 0, rows = 0, component_bytes = 0;
+    std::size_t width() const { return columns * rows; }
+    std::size_t columnStride() const {
+        const std::size_t bytes = rows * component_bytes;
+        return columns > 1 ? (bytes + 3) / 4 * 4 : bytes;
+    }
+    std::size_t bytes() const { return (columns - 1) * columnStride() + rows * component_bytes; }
+    std::size_t at(std::size_t i) const {  // the byte at which component i begins
+        return i / rows * columnStride() + i % rows * component_bytes;
+    }
+};
+
+Shape shapeOf(const tinygltf::Accessor& a, const std::string& who) {
+    const std::size_t component = componentBytes(a.componentType);
+    if (component == 0) fail(who, fmt::format("component type {} is none", a.componentType));
+    switch (a.type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return {1, 1, component};
+        case TINYGLTF_TYPE_VEC2:
+            return {1, 2, component};
+        case TINYGLTF_TYPE_VEC3:
+            return {1, 3, component};
+        case TINYGLTF_TYPE_VEC4:
+            return {1, 4, component};
+        case TINYGLTF_TYPE_MAT2:
+            return {2, 2, component};
+        case TINYGLTF_TYPE_MAT3:
+            return {3, 3, component};
+        case TINYGLTF_TYPE_MAT4:
+            return {4, 4, component};
+        default:
+            fail(who, "its type is neither SCALAR nor VEC nor MAT");
+    }
+}
+
+bool isIndexType(int type) {
+    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+// ---- where elements are ------------------------------------------------------------------------------
+
+struct Elements {
+    const unsigned char* first = nullptr;
+    std::size_t stride = 0, count = 0;
+    const unsigned char* at(std::size_t i) const { return first + i * stride; }
+};
+
+// `count` elements of `size` bytes, `stride` apart, from `offset` in a bufferView on.
+Elements locate(const tinygltf::Model& model, int view, std::size_t offset, std::size_t count,
+                std::size_t size, std::size_t stride, const std::string& who, const char* noun) {
+    const std::span<const unsigned char> bytes = viewBytes(model, view, who);
+    if (stride < size)
+        fail(who,
+             fmt::format("{} of {} bytes, but bufferView {} has a stride of {}", noun, size, view, stride));
+    if (count == 0) return {bytes.data(), stride, 0};
+    if (offset > bytes.size() || size > bytes.size() - offset ||
+        count - 1 > (bytes.size() - offset - size) / stride) {
+        const bool countable = offset <= std::numeric_limits<std::size_t>::max() / 4 &&
+                               count - 1 < std::numeric_limits<std::size_t>::max() / 4 / stride;
+        fail(who, fmt::format("{} {} of {} bytes end at {}, past bufferView {} ({} bytes)", count, noun, size,
+                              countable ? fmt::format("{}", offset + (count - 1) * stride + size)
+                                        : "a number too large",
+                              view, bytes.size()));
+    }
+    return {bytes.data() + offset, stride, count};
+}
+
+template <class T>
+T load(const unsigned char* at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return value;
+}
+
+// Calls use(T{}) with the component type's C++ type.
+template <class Use>
+void withType(int type, const Use& use) {
+    switch (type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return use(std::int8_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return use(std::uint8_t{});
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return use(std::int16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return use(std::uint16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return use(std::uint32_t{});
+        default:
+            return use(float{});
+    }
+}
+
+// glTF 2.0, 3.11: the most negative integer counts as -1 too.
+template <class T>
+float number(const unsigned char* at, bool normalized) {
+    const T value = load<T>(at);
+    if constexpr (std::is_integral_v<T>)
+        if (normalized)
+            return std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max()),
+                            -1.0f);
+    return static_cast<float>(value);
+}
+
+// An accessor whose every element lies inside its bufferView.
+class SoundAccessor {
+public:
+    // `width`: components that the one who asks can use; 0: any number.
+    SoundAccessor(const tinygltf::Model& model, int index, const std::string& asks, const char* noun,
+                  std::size_t width = 0)
+        : file_(find(model, index, asks)),
+          who_(fmt::format("accessor {}", index)),
+          shape_(shapeOf(file_, who_)) {
+        if (width && (shape_.columns != 1 || shape_.rows != width))
+            fail(asks,
+                 fmt::format("{} is not {}", who_, width == 1 ? "SCALAR" : fmt::format("VEC{}", width)));
+        if (file_.bufferView >= 0) {
+            const std::size_t stride = strideOf(model, file_.bufferView);
+            own_ = locate(model, file_.bufferView, file_.byteOffset, file_.count, shape_.bytes(),
+                          stride ? stride : shape_.columns * shape_.columnStride(), who_, noun);
+        } else if (file_.bufferView < -1) {
+            viewBytes(model, file_.bufferView, who_);
+        } else if (file_.count > MAX_ZERO_ELEMENTS) {
+            fail(who_,
+                 fmt::format("{} {} without a bufferView: at most {}", file_.count, noun, MAX_ZERO_ELEMENTS));
+        }
+        if (file_.sparse.isSparse) locateSparse(model);
+    }
+
+    const tinygltf::Accessor& file() const { return file_; }
+    const Shape& shape() const { return shape_; }
+    std::size_t size(const Selection& which) const { return which ? which->size() : file_.count; }
+
+    // put(i, bytes of element which[i]), the sparse elements last. Elements without bytes are 0: not put.
+    template <class Put>
+    void visit(const Selection& which, const Put& put) const {
+        if (own_.first)
+            for (std::size_t i = 0; i < size(which); ++i) put(i, own_.at(which ? (*which)[i] : i));
+        for (std::size_t s = 0; s < sparse_values_.count; ++s) {
+            const std::uint32_t index = sparseIndex(s);
+            if (!which) {
+                put(index, sparse_values_.at(s));
+                continue;
+            }
+            const auto at = std::lower_bound(which->begin(), which->end(), index);
+            if (at != which->end() && *at == index)
+                put(static_cast<std::size_t>(at - which->begin()), sparse_values_.at(s));
+        }
+    }
+
+private:
+    const tinygltf::Accessor& file_;
+    std::string who_;
+    Shape shape_;
+    Elements own_, sparse_indices_, sparse_values_;
+
+    static const tinygltf::Accessor& find(const tinygltf::Model& model, int index, const std::string& asks) {
+        if (checkedIndex(index, model.accessors.size(), asks, "accessor") < 0)
+            fail(asks, "names no accessor");
+        return model.accessors[static_cast<std::size_t>(index)];
+    }
+
+    static std::size_t strideOf(const tinygltf::Model& model, int view) {
+        if (static_cast<std::size_t>(view) >= model.bufferViews.size()) return 0;  // viewBytes refuses it
+        return model.bufferViews[static_cast<std::size_t>(view)].byteStride;
+    }
+
+    void locateSparse(const tinygltf::Model& model) {
+        const auto& sparse = file_.sparse;
+        if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
+            fail(who_, "its sparse count or an offset is negative");
+        if (!isIndexType(sparse.indices.componentType)) fail(who_, "its sparse indices are of no index type");
+        const auto count = static_cast<std::size_t>(sparse.count);
+        const std::size_t indexBytes = componentBytes(sparse.indices.componentType);
+        sparse_indices_ =
+            locate(model, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
+                   count, indexBytes, indexBytes, who_, "sparse indices");
+        sparse_values_ =
+            locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
+                   shape_.bytes(), shape_.columns * shape_.columnStride(), who_, "sparse values");
+        // Ascending without repetition (glTF 2.0, 3.6.2.3), so that no element costs more than two visits.
+        for (std::size_t s = 0; s < count; ++s) {
+            if (sparseIndex(s) >= file_.count)
+                fail(who_, fmt::format("sparse index {} of {} elements", sparseIndex(s), file_.count));
+            if (s > 0 && sparseIndex(s) <= sparseIndex(s - 1))
+                fail(who_, fmt::format("sparse index {} does not ascend: {} after {}", s, sparseIndex(s),
+                                       sparseIndex(s - 1)));
+        }
+    }
+
+    std::uint32_t sparseIndex(std::size_t s) const {
+        const unsigned char* at = sparse_indices_.at(s);
+        switch (file_.sparse.indices.componentType) {
+            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+                return *at;
+            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+                return load<std::uint16_t>(at);
+            default:
+                return load<std::uint32_t>(at);
+        }
+    }
+};
+
+}  // namespace
+
+// ---- what is read ------------------------------------------------------------------------------------
+
+std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int index, const std::string& who) {
+    if (checkedIndex(index, model.bufferViews.size(), who, "bufferView") < 0)
+        fail(who, "names no bufferView");
+    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
+    const std::string name = fmt::format("bufferView {}", index);
+    if (checkedIndex(view.buffer, model.buffers.size(), name, "buffer") < 0) fail(name, "names no buffer");
+    const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(view.buffer)];
+    if (!missing(buffer).empty()) throw std::runtime_error(missing(buffer));
+    const std::vector<unsigned char>& data = buffer.data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+        fail(name, fmt::format("{} bytes from {} on end past buffer {} ({} bytes)", view.byteLength,
+                               view.byteOffset, view.buffer, data.size()));
+    return std::span(data).subspan(view.byteOffset, view.byteLength);
+}
+
+std::size_t soundCount(const tinygltf::Model& model, int accessor, const std::string& who, const char* noun,
+                       std::size_t width) {
+    return SoundAccessor(model, accessor, who, noun, width).file().count;
+}
+
+template <class Vec>
+std::vector<Vec> readVectors(const tinygltf::Model& model, int index, const std::string& asks,
+                             const Selection& which) {
+    constexpr auto width = static_cast<std::size_t>(Vec::length());
+    const SoundAccessor a(model, index, asks, "vertices", width);
+    if (a.file().componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+        fail(asks, fmt::format("accessor {} has component type {}, which no attribute may have", index,
+                               a.file().componentType));
+    std::vector<Vec> result(a.size(which), Vec(0));
+    withType(a.file().componentType, [&](auto sample) {
+        using T = decltype(sample);
+        a.visit(which, [&](std::size_t i, const unsigned char* at) {
+            for (std::size_t c = 0; c < width; ++c)
+                result[i][static_cast<int>(c)] = number<T>(at + c * sizeof(T), a.file().normalized);
+        });
+    });
+    return result;
+}
+
+template std::vector<glm::vec2> readVectors(const tinygltf::Model&, int, const std::string&,
+                                            const Selection&);
+template std::vector<glm::vec3> readVectors(const tinygltf::Model&, int, const std::string&,
+                                            const Selection&);
+template std::vector<glm::vec4> readVectors(const tinygltf::Model&, int, const std::string&,
+                                            const Selection&);
+
+std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& who,
+                                  const Selection& which) {
+    const SoundAccessor a(model, accessor, who, "vertices");
+    if (a.file().componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !a.file().normalized)
+        fail(who, fmt::format("accessor {} has integers that are not normalized", accessor));
+    if (a.file().type != TINYGLTF_TYPE_VEC3) return readVectors<glm::vec4>(model, accessor, who, which);
+    std::vector<glm::vec4> result;
+    result.reserve(a.size(which));
+    for (const glm::vec3& color : readVectors<glm::vec3>(model, accessor, who, which))
+        result.emplace_back(color, 1.0f);
+    return result;
+}
+
+std::vector<glm::u16vec4> readJoints(const tinygltf::Model& model, int index, const std::string& asks,
+                                     const Selection& which) {
+    const SoundAccessor a(model, index, asks, "vertices");
+    const bool bytes = a.file().componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+    if (a.file().type != TINYGLTF_TYPE_VEC4 ||
+        !(bytes || a.file().componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT))
+        fail(asks, fmt::format("accessor {} is not VEC4 of unsigned bytes or shorts", index));
+    std::vector<glm::u16vec4> result(a.size(which), glm::u16vec4(0));
+    a.visit(which, [&](std::size_t i, const unsigned char* at) {
+        for (int c = 0; c < 4; ++c) result[i][c] = bytes ? at[c] : load<std::uint16_t>(at + 2 * c);
+    });
+    return result;
+}
+
+std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int index, const std::string& asks) {
+    const SoundAccessor a(model, index, asks, "indices");
+    if (a.file().type != TINYGLTF_TYPE_SCALAR || !isIndexType(a.file().componentType))
+        fail(asks, fmt::format("accessor {} is not SCALAR of unsigned integers", index));
+    std::vector<std::uint32_t> result(a.file().count, 0);
+    withType(a.file().componentType, [&](auto sample) {
+        using T = decltype(sample);
+        if constexpr (std::is_unsigned_v<T>) {
+            a.visit({}, [&](std::size_t i, const unsigned char* at) { result[i] = load<T>(at); });
+            const auto restart =
+                std::find(result.begin(), result.end(), std::uint32_t(std::numeric_limits<T>::max()));
+            if (restart != result.end())
+                fail(asks, fmt::format("index {} is {}, which would restart the primitive: glTF forbids it",
+                                       restart - result.begin(), *restart));
+        }
+    });
+    return result;
+}
+
+Numbers readNumbers(const tinygltf::Model& model, int index, const std::string& asks) {
+    const SoundAccessor a(model, index, asks, "elements");
+    Numbers result{{}, a.file().count, a.shape().width(), a.file().componentType, a.file().normalized};
+    result.values.assign(result.count * result.width, 0.0f);
+    withType(result.component_type, [&](auto sample) {
+        a.visit({}, [&](std::size_t i, const unsigned char* at) {
+            for (std::size_t c = 0; c < result.width; ++c)
+                result.values[i * result.width + c] =
+                    number<decltype(sample)>(at + a.shape().at(c), result.normalized);
+        });
+    });
+    return result;
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/compression.h"
+
+#include "shared/scene/gltf/draco.h"
+#include "shared/scene/gltf/meshopt.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::gltf {
+
+namespace {
+
+// What a file may decode to: 64 bytes for each byte of its buffers, EXT_meshopt_compression's best (16 equal
+// bytes are 2 bits), and 128 MiB more, for Draco's streams have no such bound. Beyond it many objects share
+// one stream, or a stream claims what it does not hold.
+constexpr std::size_t freeBytes = std::size_t(128) << 20;
+constexpr std::size_t bytesPerByte = 64;
+
+}  // namespace
+
+void decompress(tinygltf::Model& model, const std::vector<bool>& drawn, std::vector<std::string>& notes) {
+    std::size_t held = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers) held += buffer.data.size();
+    const std::size_t limit = freeBytes + bytesPerByte * held;
+
+    std::vector<MeshoptView> views = findMeshopt(model);
+    const std::vector<DracoPrimitive> primitives = findDraco(model, drawn);
+    double claimed = 0;  // a sum of claims: it may pass 64 bits
+    for (const MeshoptView& view : views) claimed += static_cast<double>(view.count * view.stride);
+    for (const DracoPrimitive& primitive : primitives) claimed += dracoCost(model, primitive);
+    if (claimed > static_cast<double>(limit))
+        throw std::runtime_error(
+            fmt::format("its compressed geometry asks for {:.0f} bytes, more than the {} that buffers of {} "
+                        "bytes may decode to",
+                        claimed, limit, held));
+    NoteList found("compressed bufferViews");
+    decodeMeshopt(model, std::move(views), found);
+    found.moveTo(notes);
+    decodeDraco(model, primitives, limit);
+}
+
+}  // namespace diptych::gltf

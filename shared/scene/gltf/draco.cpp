@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/draco.h"
+
+#include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/draco_stream.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+constexpr const char* extensionName = "KHR_draco_mesh_compression";
+
+std::string nameOf(std::size_t mesh, std::size_t primitive) {
+    return fmt::format("mesh {}, primitive {}: {}", mesh, primitive, extensionName);
+}
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+const tinygltf::Accessor& accessorAt(const tinygltf::Model& model, int index) {
+    return model.accessors[static_cast<std::size_t>(index)];
+}
+
+tinygltf::Primitive& primitiveOf(tinygltf::Model& model, const DracoPrimitive& p) {
+    return model.meshes[p.mesh].primitives[p.primitive];
+}
+
+std::size_t componentsOf(const tinygltf::Accessor& a) {
+    return static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(a.type)));
+}
+
+std::size_t elementBytes(const tinygltf::Accessor& a) {
+    const int component = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(a.componentType));
+    return static_cast<std::size_t>(component) * componentsOf(a);
+}
+
+// ---- the extension's rules ---------------------------------------------------------------------------
+
+DracoPrimitive readExtension(const tinygltf::Model& model, const tinygltf::Value& e, std::size_t mesh,
+                             std::size_t index) {
+    const tinygltf::Primitive& primitive = model.meshes[mesh].primitives[index];
+    const std::string who = nameOf(mesh, index);
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP)
+        fail(who, fmt::format("mode {}, neither triangles nor a strip", primitive.mode));
+    DracoPrimitive result{mesh, index, 0, {}, 0};
+    result.view =
+        checkedIndex(indexIn(e, "bufferView", -1, who), model.bufferViews.size(), who, "bufferView");
+    if (result.view < 0) fail(who, "names no bufferView");
+    checkedIndex(primitive.indices, model.accessors.size(), who, "accessor");
+
+    const tinygltf::Value& attributes = e.Get("attributes");
+    if (!attributes.IsObject()) fail(who, "names no attributes");
+    for (const std::string& name : attributes.Keys()) {
+        const auto at = primitive.attributes.find(name);
+        if (at == primitive.attributes.end())
+            fail(who, fmt::format("{}: the primitive has none", oneLine(name)));
+        const std::string whose = who + ": " + name;
+        if (checkedIndex(at->second, model.accessors.size(), whose, "accessor") < 0)
+            fail(whose, "names no accessor");
+        const tinygltf::Accessor& a = accessorAt(model, at->second);
+        if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(a.type)) < 0 ||
+            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(a.componentType)) < 0)
+            fail(whose, fmt::format("accessor {} has no type", at->second));
+        const int id = indexIn(attributes, name.c_str(), 0, who);
+        result.attributes.push_back({name, static_cast<std::uint32_t>(id), at->second});
+        if (result.attributes.size() == 1) result.vertices = a.count;
+        if (a.count != result.vertices)
+            fail(whose, fmt::format("{} vertices, but {} has {}", a.count, result.attributes[0].name,
+                                    result.vertices));
+    }
+    return result;
+}
+
+// ---- decoding ----------------------------------------------------------------------------------------
+
+struct Result {
+    std::vector<Bytes> attributes;  // tightly packed
+    std::vector<std::uint32_t> indices;
+};
+
+// One value of all its components, from what the stream has to what the accessor says.
+template <class T>
+bool convert(const draco::PointAttribute& from, draco::AttributeValueIndex index, std::size_t components,
+             unsigned char* to) {
+    std::array<T, 16> values;  // a matrix of 4 x 4 at most
+    if (!from.ConvertValue<T>(index, static_cast<std::int8_t>(components), values.data())) return false;
+    std::memcpy(to, values.data(), components * sizeof(T));
+    return true;
+}
+
+struct Type {
+    draco::DataType in_stream;
+    int in_accessor;
+    const char* name;
+    bool (*convert)(const draco::PointAttribute&, draco::AttributeValueIndex, std::size_t, unsigned char*);
+};
+constexpr std::array types{
+    Type{draco::DT_INT8, TINYGLTF_COMPONENT_TYPE_BYTE, "bytes", convert<std::int8_t>},
+    Type{draco::DT_UINT8, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, "unsigned bytes", convert<std::uint8_t>},
+    Type{draco::DT_INT16, TINYGLTF_COMPONENT_TYPE_SHORT, "shorts", convert<std::int16_t>},
+    Type{draco::DT_UINT16, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, "unsigned shorts", convert<std::uint16_t>},
+    Type{draco::DT_INT32, TINYGLTF_COMPONENT_TYPE_INT, "ints", convert<std::int32_t>},
+    Type{draco::DT_UINT32, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, "unsigned ints", convert<std::uint32_t>},
+    Type{draco::DT_FLOAT32, TINYGLTF_COMPONENT_TYPE_FLOAT, "floats", convert<float>}};
+
+template <class Key>
+const Type* typeOf(Key Type::*member, Key key) {
+    const auto at = std::find_if(types.begin(), types.end(), [&](const Type& t) { return t.*member == key; });
+    return at == types.end() ? nullptr : at;
+}
+
+// The attribute as its accessor says. Whole numbers may have another width there, for the exporters' JOINTS_0
+// often do; normalized ones may not, for then they would be other values.
+Bytes valuesOf(const draco::Mesh& mesh, const DracoPrimitive::Attribute& attribute,
+               const tinygltf::Accessor& to, const std::string& who) {
+    const draco::PointAttribute* from = mesh.GetAttributeByUniqueId(attribute.id);
+    if (!from) fail(who, fmt::format("its stream has no attribute {}", attribute.id));
+    const std::size_t components = componentsOf(to), bytes = elementBytes(to);
+    if (from->num_components() != components)
+        fail(who, fmt::format("its stream has {} components, but accessor {} has {}", from->num_components(),
+                              attribute.accessor, components));
+    const Type* stored = typeOf(&Type::in_stream, from->data_type());
+    const Type* asked = typeOf(&Type::in_accessor, to.componentType);
+    const bool same = stored == asked;
+    if (!stored || !asked || (!same && (to.normalized || stored->in_stream == draco::DT_FLOAT32)))
+        fail(who, fmt::format("its stream has {}, but accessor {} has {}{}",
+                              stored ? stored->name : "another type", attribute.accessor,
+                              to.normalized ? "normalized " : "", asked ? asked->name : "another type"));
+    const std::size_t width = static_cast<std::size_t>(draco::DataTypeLength(from->data_type())) * components;
+    if (!from->IsValid() || from->byte_offset() != 0 ||
+        from->byte_stride() != static_cast<std::int64_t>(width) ||
+        from->buffer()->data_size() < from->size() * width ||
+        (!from->is_mapping_identity() && from->indices_map_size() < mesh.num_points()))
+        fail(who, "its stream is damaged");
+
+    Bytes result(mesh.num_points() * bytes);
+    for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
+        const draco::AttributeValueIndex index = from->mapped_index(draco::PointIndex(p));
+        if (index.value() >= from->size()) fail(who, fmt::format("its stream has no value for vertex {}", p));
+        unsigned char* out = &result[p * bytes];
+        if (same)
+            std::memcpy(out, from->GetAddress(index), bytes);
+        else if (!asked->convert(*from, index, components, out))
+            fail(who, fmt::format("vertex {} does not fit into {}", p, asked->name));
+    }
+    return result;
+}
+
+Result decoded(const tinygltf::Model& model, const DracoPrimitive& p, std::size_t limit) {
+    const std::string who = nameOf(p.mesh, p.primitive);
+    const tinygltf::Primitive& primitive = model.meshes[p.mesh].primitives[p.primitive];
+    DracoExpectation expected{p.vertices, {}, p.attributes.size(), limit};
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && primitive.indices >= 0) {
+        const std::size_t indices = accessorAt(model, primitive.indices).count;
+        if (indices % 3)
+            fail(who, fmt::format("accessor {}: {} indices are no triangles", primitive.indices, indices));
+        expected.triangles = indices / 3;
+    }
+    const std::span<const unsigned char> stream = viewBytes(model, p.view, who);
+    std::unique_ptr<draco::Mesh> mesh;
+    try {
+        mesh = decodeDracoStream(stream, expected);
+    } catch (const std::bad_alloc&) {
+        fail(who, "its stream does not fit in memory");
+    } catch (const std::exception& e) {
+        fail(who, firstLine(e.what()));
+    }
+
+    Result result;
+    for (const DracoPrimitive::Attribute& a : p.attributes)
+        result.attributes.push_back(valuesOf(*mesh, a, accessorAt(model, a.accessor), who + ": " + a.name));
+    result.indices.reserve(3 * mesh->num_faces());
+    for (std::uint32_t f = 0; f < mesh->num_faces(); ++f)
+        for (const draco::PointIndex& corner : mesh->face(draco::FaceIndex(f)))
+            result.indices.push_back(corner.value());
+    return result;
+}
+
+// A new accessor like `accessor` over bytes of its own.
+int append(tinygltf::Model& model, tinygltf::Accessor accessor, Bytes bytes) {
+    tinygltf::BufferView view;
+    view.buffer = static_cast<int>(model.buffers.size());
+    view.byteLength = bytes.size();
+    model.buffers.emplace_back().data = std::move(bytes);
+    accessor.bufferView = static_cast<int>(model.bufferViews.size());
+    accessor.byteOffset = 0;
+    accessor.sparse = {};
+    accessor.minValues.clear();  // of before the compression
+    accessor.maxValues.clear();
+    model.bufferViews.push_back(std::move(view));
+    model.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model.accessors.size()) - 1;
+}
+
+}  // namespace
+
+std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn) {
+    std::vector<DracoPrimitive> result;
+    for (std::size_t m = 0; m < model.meshes.size(); ++m)
+        for (std::size_t p = 0; drawn[m] && p < model.meshes[m].primitives.size(); ++p)
+            if (const auto* e = extension(model.meshes[m].primitives[p].extensions, extensionName))
+                result.push_back(readExtension(model, *e, m, p));
+    return result;
+}
+
+double dracoCost(const tinygltf::Model& model, const DracoPrimitive& p) {
+    std::size_t vertexBytes = 0;
+    for (const DracoPrimitive::Attribute& a : p.attributes)
+        vertexBytes += elementBytes(accessorAt(model, a.accessor));
+    const int indices = model.meshes[p.mesh].primitives[p.primitive].indices;
+    const std::size_t corners = indices < 0 ? 0 : accessorAt(model, indices).count;
+    return static_cast<double>(p.vertices) * static_cast<double>(vertexBytes) +
+           static_cast<double>(corners) * static_cast<double>(dracoBytesPerCorner);
+}
+
+void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit) {
+    std::vector<Result> results(primitives.size());
+    forEachInParallel(primitives.size(),
+                      [&](std::size_t i) { results[i] = decoded(model, primitives[i], limit); });
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        tinygltf::Primitive& primitive = primitiveOf(model, primitives[i]);
+        for (std::size_t a = 0; a < primitives[i].attributes.size(); ++a) {
+            const DracoPrimitive::Attribute& attribute = primitives[i].attributes[a];
+            primitive.attributes[attribute.name] =
+                append(model, accessorAt(model, attribute.accessor), std::move(results[i].attributes[a]));
+        }
+        // A strip has become the triangles that it is made of.
+        tinygltf::Accessor indices;
+        indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        indices.type = TINYGLTF_TYPE_SCALAR;
+        indices.count = results[i].indices.size();
+        Bytes bytes(results[i].indices.size() * sizeof(std::uint32_t));
+        if (!bytes.empty()) std::memcpy(bytes.data(), results[i].indices.data(), bytes.size());
+        results[i].indices = {};
+        primitive.indices = append(model, std::move(indices), std::move(bytes));
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+        primitive.extensions.erase(extensionName);
+    }
+}
+
+}  // namespace diptych::gltf

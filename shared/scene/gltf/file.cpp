@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/file.h"
+
+#include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/schema.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/text/json_shape.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+using Bytes = std::vector<unsigned char>;
+
+[[noreturn]] void fail(const std::string& what) {
+    throw std::runtime_error(what);
+}
+
+constexpr std::array builtExtensions{"EXT_meshopt_compression", "KHR_draco_mesh_compression",
+                                     "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+                                     "KHR_materials_ior",       "KHR_materials_specular",
+                                     "KHR_materials_unlit",     "KHR_mesh_quantization",
+                                     "KHR_texture_transform"};
+
+bool isBuilt(std::string_view extension) {
+    return std::ranges::find(builtExtensions, extension) != builtExtensions.end();
+}
+
+// ---- container ---------------------------------------------------------------------------------------
+
+// Where the JSON and the binary chunk lie.
+struct Container {
+    struct Range {
+        std::size_t offset = 0, size = 0;
+    };
+    Range json;
+    std::optional<Range> binary;
+    std::vector<std::string> notes = {};
+};
+
+std::uint32_t word(const Bytes& bytes, std::size_t at) {
+    return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8 |
+           static_cast<std::uint32_t>(bytes[at + 2]) << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
+}
+
+// glTF 2.0, 4.4: a header of three words, then chunks of length, type, data.
+Container readContainer(const Bytes& bytes) {
+    constexpr std::uint32_t json = 0x4e4f534a, binary = 0x004e4942;  // "JSON", "BIN\0"
+    if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {{0, bytes.size()}, {}, {}};
+    if (bytes.size() < 12) fail(fmt::format("is cut short: {} bytes of a header of 12", bytes.size()));
+    const std::size_t length = word(bytes, 8);
+    if (word(bytes, 4) != 2) fail(fmt::format("binary glTF version {}, not 2", word(bytes, 4)));
+    if (length > bytes.size())
+        fail(fmt::format("is cut short: {} bytes of the {} that its header names", bytes.size(), length));
+    Container container;
+    if (length < bytes.size())
+        container.notes.push_back(fmt::format("{} bytes after the {} that its header names: not read",
+                                              bytes.size() - length, length));
+    std::size_t binaries = 0;
+    for (std::size_t at = 12, chunk = 0; at < length; ++chunk) {
+        if (length - at < 8) fail(fmt::format("chunk {}: its header ends past the file", chunk));
+        const std::size_t size = word(bytes, at);
+        const std::uint32_t type = word(bytes, at + 4);
+        if (size > length - at - 8)
+            fail(fmt::format("chunk {}: {} bytes end at {}, past the file's {}", chunk, size, at + 8 + size,
+                             length));
+        if (chunk == 0) {
+            if (type != json) fail("chunk 0: is not JSON");
+            container.json = {at + 8, size};
+        } else if (type == binary && binaries++ == 0) {
+            container.binary = {at + 8, size};
+        }
+        at += 8 + size;
+    }
+    if (container.json.size == 0) fail("holds no JSON chunk");
+    if (binaries > 1) container.notes.push_back(fmt::format("{} binary chunks: the first is read", binaries));
+    return container;
+}
+
+// ---- document ----------------------------------------------------------------------------------------
+
+Json parse(std::string_view text) {
+    if (text.empty()) fail("is empty");
+    if (text.size() > MAX_JSON_BYTES)
+        fail(fmt::format("its JSON is {} bytes: at most {} are read", text.size(), MAX_JSON_BYTES));
+    const JsonShape shape = jsonShape(text);
+    if (shape.depth > json_depth) fail(fmt::format("its JSON nests deeper than {}", json_depth));
+    if (shape.objects > MAX_JSON_OBJECTS)
+        fail(fmt::format("its JSON has {} objects: at most {} are read", shape.objects, MAX_JSON_OBJECTS));
+    if (shape.values > MAX_JSON_VALUES)
+        fail(fmt::format("its JSON has {} values: at most {} are read", shape.values, MAX_JSON_VALUES));
+    try {
+        Json document = Json::parse(text);
+        if (!document.is_object()) fail("its JSON is not an object");
+        return document;
+    } catch (const Json::exception& e) {
+        const std::string_view message = e.what();  // "[json.exception.parse_error.101] parse error at ..."
+        fail(fmt::format("is not JSON: {}", oneLine(message.substr(message.find("] ") + 2))));
+    }
+}
+
+// The newest version that this reader may be asked for.
+bool isBeyond(const std::string& version) {
+    int major = 0, minor = 0;
+    char end = 0;
+    const int found = std::sscanf(version.c_str(), "%4d.%4d%c", &major, &minor, &end);
+    return found != 2 || major > 2 || (major == 2 && minor > 0);
+}
+
+void checkVersion(const Json& document) {
+    const auto asset = document.find("asset");
+    const auto text = [&](const char* key) {
+        const Json value = asset != document.end() && asset->is_object() ? asset->value(key, Json()) : Json();
+        return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    const std::string version = text("version"), least = text("minVersion");
+    if (version.empty()) fail("asset: names no version");
+    if (!version.starts_with("2.")) fail(fmt::format("asset: version {}, not 2.0", oneLine(version)));
+    if (!least.empty() && isBeyond(least))
+        fail(fmt::format("asset: minVersion {}: 2.0 is read", oneLine(least)));
+}
+
+void checkRequired(const Json& document) {
+    const auto required = document.find("extensionsRequired");
+    if (required == document.end() || required->is_null()) return;
+    if (!required->is_array()) fail("extensionsRequired: is not an array");
+    std::string missing;
+    for (const Json& name : *required) {
+        if (!name.is_string()) fail("extensionsRequired: holds something other than names");
+        if (!isBuilt(name.get<std::string>()))
+            missing += (missing.empty() ? "" : ", ") + name.get<std::string>();
+    }
+    if (!missing.empty())
+        fail(
+            fmt::format("extensionsRequired: {} is not read: export the scene without it", oneLine(missing)));
+}
+
+// ---- buffers and images ------------------------------------------------------------------------------
+
+// A buffer that only stands in where EXT_meshopt_compression is not known may have no bytes.
+bool mayBeEmpty(const Json& buffer) {
+    static const Json::json_pointer meshopt("/extensions/EXT_meshopt_compression");
+    return buffer.contains(meshopt);
+}
+
+Bytes bytesOf(const Json& json, bool isFirst, Bytes& file, const std::optional<Container::Range>& binary,
+              const Resources& resources, std::vector<std::string>& notes) {
+    const auto length = json["byteLength"].get<std::uint64_t>();
+    Bytes data;
+    if (const auto uri = json.find("uri"); uri != json.end()) {
+        data = resources.read(uri->get_ref<const std::string&>(), length, notes);
+    } else if (isFirst && binary) {
+        file.resize(binary->offset + binary->size);
+        file.erase(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(binary->offset));
+        data = std::move(file);
+    } else if (mayBeEmpty(json)) {
+        fail("has no data: it stands in where EXT_meshopt_compression is not read");
+    } else {
+        fail("has no uri, and the file no binary chunk for it");
+    }
+    if (data.size() < length)
+        fail(fmt::format("holds {} bytes of the {} that its byteLength names", data.size(), length));
+    data.resize(length);
+    return data;
+}
+
+// The first buffer of a .glb without a uri is its binary chunk. `bytes` is used up for it. A buffer whose
+// bytes are not there is a fault only where somebody reads it.
+void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Container::Range>& binary,
+                 Document& out) {
+    std::uint64_t total = 0;
+    NoteList notes("buffers");
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        const Json& json = buffers[i];
+        const std::string who = fmt::format("buffer {}", i);
+        const auto length = json["byteLength"].get<std::uint64_t>();
+        total += length;
+        if (length > MAX_BUFFER_BYTES || total > MAX_BUFFER_BYTES)
+            fail(fmt::format("{}: buffers of more than {} bytes together: not read", who, MAX_BUFFER_BYTES));
+        tinygltf::Buffer& buffer = out.model.buffers.emplace_back();
+        buffer.name = json.value("name", std::string());
+        try {
+            std::vector<std::string> found;
+            buffer.data = bytesOf(json, i == 0, bytes, binary, out.resources, found);
+            for (const std::string& note : found) notes.add(fmt::format("{}: {}", who, note));
+        } catch (const std::runtime_error& e) {
+            setMissing(buffer, fmt::format("{}: {}", who, e.what()));
+            if (!mayBeEmpty(json) || json.contains("uri"))
+                notes.add(missing(buffer) + ": nothing that is drawn reads it");
+        }
+    }
+    notes.moveTo(out.notes);
+}
+
+// Only what they are called and where they are.
+void listImages(const Json& images, tinygltf::Model& model) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        tinygltf::Image& image = model.images.emplace_back();
+        image.name = images[i].value("name", std::string());
+        image.uri = images[i].value("uri", std::string());
+        image.bufferView = images[i].value("bufferView", -1);
+        image.as_is = true;
+    }
+}
+
+Json taken(Json& document, const char* key) {
+    const auto at = document.find(key);
+    if (at == document.end()) return Json::array();
+    Json value = std::move(*at);
+    document.erase(at);
+    return value;
+}
+
+// tinygltf refuses indices without a bufferView, which are zeros but for the sparse ones (glTF 2.0, 3.6.2.3):
+// it does not see them.
+struct Withheld {
+    std::size_t mesh, primitive;
+    int indices;
+};
+
+std::vector<Withheld> withholdIndices(Json& document) {
+    std::vector<Withheld> withheld;
+    if (!document.contains("meshes") || !document.contains("accessors")) return withheld;
+    Json& meshes = document["meshes"];
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (std::size_t p = 0; Json & primitive : meshes[m]["primitives"]) {
+            const int indices = primitive.value("indices", -1);
+            if (indices >= 0 &&
+                !document["accessors"][static_cast<std::size_t>(indices)].contains("bufferView")) {
+                withheld.push_back({m, p, indices});
+                primitive.erase("indices");
+            }
+            ++p;
+        }
+    return withheld;
+}
+
+tinygltf::Model parseModel(const std::string& text) {
+    tinygltf::TinyGLTF parser;
+    // Nothing is left in the document that would ask for a file.
+    parser.SetFsCallbacks(
+        {[](const std::string&, void*) { return false; }, [](const std::string& name, void*) { return name; },
+         [](Bytes*, std::string*, const std::string&, void*) { return false; },
+         [](std::string*, const std::string&, const Bytes&, void*) { return false; }, nullptr});
+    tinygltf::Model model;
+    std::string error, warning;
+    bool parsed = false;
+    try {
+        parsed = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                            static_cast<unsigned int>(text.size()), "");
+    } catch (const std::exception& e) {
+        fail(firstLine(e.what()));
+    }
+    if (!parsed) fail(error.empty() ? "is not glTF" : firstLine(error));
+    return model;
+}
+
+}  // namespace
+
+Document open(Bytes bytes, const std::filesystem::path& folder) {
+    const Container container = readContainer(bytes);
+    Document result{{}, Resources(folder), {}, {}, {}, {}};
+    Json buffers, images;
+    {
+        Json document =
+            parse({reinterpret_cast<const char*>(bytes.data()) + container.json.offset, container.json.size});
+        checkVersion(document);
+        checkRequired(document);
+        result.light_extras = lightExtras(document);
+        result.material_extras = materialExtras(document);
+        Schema found = applySchema(document);  // takes extras out
+        result.notes = container.notes;
+        result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
+        for (const auto& [name, where] : found.misplaced)
+            if (isBuilt(name))
+                result.notes.push_back(fmt::format("{}: {} is not read there: left out",
+                                                   where.empty() ? "the document" : where, name));
+        result.left_out = std::move(found.extensions);
+        std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
+        buffers = taken(document, "buffers");
+        images = taken(document, "images");
+        const std::vector<Withheld> withheld = withholdIndices(document);
+        const std::string text = document.dump();
+        document = nullptr;  // tinygltf builds the same once more
+        result.model = parseModel(text);
+        for (const Withheld& w : withheld)
+            result.model.meshes.at(w.mesh).primitives.at(w.primitive).indices = w.indices;
+    }
+    loadBuffers(buffers, bytes, container.binary, result);
+    listImages(images, result.model);
+    return result;
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/gltf.h"
+
+#include "shared/image/file_bytes.h"
+#include "shared/scene/gltf/compression.h"
+#include "shared/scene/gltf/file.h"
+#include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/material.h"
+#include "shared/scene/gltf/mesh.h"
+#include "shared/scene/gltf/motion.h"
+#include "shared/scene/gltf/node.h"
+#include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/schema.h"
+#include "shared/scene/gltf/tally.h"
+#include "shared/scene/gltf/texture.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/scene/motion/pose.h"
+#include "shared/text/named.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+
+#include <atomic>
+#include <cstdint>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
+    for (const std::string& name : document.left_out)
+        notes.push_back(fmt::format("{}: left out, it is not read", name));
+    gltf::limitNotes(notes, 0, "extensions");
+}
+
+// The encoded bytes of those images that somebody reads.
+void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
+                 std::vector<std::string>& sceneNotes) {
+    std::atomic<std::uint64_t> held = 0;
+    std::vector<std::vector<std::string>> notes(imageOf.size());
+    gltf::forEachInParallel(imageOf.size(), [&](std::size_t i) {
+        tinygltf::Image& image = document.model.images[static_cast<std::size_t>(imageOf[i])];
+        if (image.uri.empty() && image.bufferView < 0)
+            throw std::runtime_error(fmt::format("image {}: has neither a uri nor a bufferView", imageOf[i]));
+        if (image.uri.empty()) return;
+        const std::string uri = std::move(image.uri);
+        image.uri = gltf::uriName(uri);
+        if (image.bufferView >= 0) return;
+        try {
+            const std::uint64_t left =
+                gltf::MAX_ENCODED_IMAGE_BYTES - std::min(held.load(), gltf::MAX_ENCODED_IMAGE_BYTES);
+            image.image = document.resources.read(uri, left + 1, notes[i]);  // one too many tells
+            if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
+                throw std::runtime_error(
+                    fmt::format("the image files are more than {} bytes together: not read",
+                                gltf::MAX_ENCODED_IMAGE_BYTES));
+        } catch (const std::runtime_error& e) {
+            throw std::runtime_error(fmt::format("image {}: {}", imageOf[i], e.what()));
+        }
+    });
+    gltf::NoteList list("images");
+    for (std::size_t i = 0; i < notes.size(); ++i)
+        for (const std::string& note : notes[i]) list.add(fmt::format("image {}: {}", imageOf[i], note));
+    list.moveTo(sceneNotes);
+}
+
+std::vector<bool> drawnMeshes(const Scene& scene, std::size_t count) {
+    std::vector<bool> drawn(count, false);
+    for (const Node& node : scene.nodes)
+        if (node.mesh >= 0) drawn[static_cast<std::size_t>(node.mesh)] = true;
+    return drawn;
+}
+
+Scene readScene(gltf::Document document, const std::string& choice, const LoadProgress& progress) {
+    Scene scene;
+    noteWhatIsLeftOut(document, scene.notes);
+    scene.notes.insert(scene.notes.end(), document.notes.begin(), document.notes.end());
+    if (progress) progress(0, "geometry");
+    const std::vector<int> sceneNode = gltf::readNodes(document.model, document.light_extras, choice, scene);
+    gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), scene.notes);
+    gltf::readMotion(document.model, sceneNode, scene);
+    std::vector<int> imageOf;
+    gltf::readMaterials(document.model, document.material_extras, scene, imageOf);
+    fetchImages(document, imageOf, scene.notes);
+
+    // Pixels and vertices know nothing of each other; each fails only after the other has ended, meshes
+    // first.
+    const tinygltf::Model& model = document.model;
+    std::size_t pieces = imageOf.size();
+    for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();
+    gltf::Tally tally(pieces, "images and meshes", progress);
+    std::exception_ptr meshFailure, imageFailure;
+    std::vector<std::string> meshNotes, imageNotes;
+    const auto guarded = [](std::exception_ptr& failure, const auto& run) {
+        return [&failure, &run] {
+            try {
+                run();
+            } catch (...) {
+                failure = std::current_exception();
+            }
+        };
+    };
+    const auto meshes = [&] { scene.meshes = gltf::readMeshes(model, scene, meshNotes, tally); };
+    const std::vector<bool> lightmaps = gltf::lightmapsAlone(scene);
+    const auto images = [&] { gltf::readImages(model, imageOf, lightmaps, scene.images, imageNotes, tally); };
+    tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));
+    for (const std::exception_ptr& failure : {meshFailure, imageFailure})
+        if (failure) std::rethrow_exception(failure);
+    for (const std::vector<std::string>* notes : {&imageNotes, &meshNotes})
+        scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());
+    leaveOutWhatIsBeyond(scene);
+    return scene;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::string& file, const std::string& scene, const LoadProgress& progress) {
+    return named(file, [&] {
+        const std::filesystem::path path(file);
+        const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+        return readScene(gltf::open(firstBytesOf(path, gltf::MAX_FILE_BYTES), folder), scene, progress);
+    });
+}
+
+Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
+                const std::filesystem::path& folder) {
+    return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder), "", {}); });
+}
+
+}  // namespace diptych

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/material.h"
+
+#include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/texture.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/scene/model/material_slots.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+// ---- materials ---------------------------------------------------------------------------------------
+
+class MaterialReader {
+public:
+    // `faults`: of each texture.
+    MaterialReader(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
+                   const std::vector<std::string>& faults, std::size_t index)
+        : model_(model),
+          file_(model.materials[index]),
+          scene_(scene),
+          faults_(faults),
+          lightmap_(extras.lightmaps.contains(index) ? &extras.lightmaps.at(index) : nullptr),
+          who_(fmt::format("material {}", index)) {}
+
+    Material read() {
+        const tinygltf::PbrMetallicRoughness& pbr = file_.pbrMetallicRoughness;
+        Material m;
+        m.name = file_.name;
+        for (int c = 0; c < 4; ++c)
+            m.base_color[c] =
+                within("baseColorFactor", pbr.baseColorFactor[static_cast<std::size_t>(c)], 0, 1);
+        m.metallic = within("metallicFactor", pbr.metallicFactor, 0, 1);
+        m.roughness = within("roughnessFactor", pbr.roughnessFactor, 0, 1);
+        m.normal_scale = within("normalTexture.scale", file_.normalTexture.scale, -maxFactor, maxFactor);
+        m.occlusion_strength = within("occlusionTexture.strength", file_.occlusionTexture.strength, 0, 1);
+        m.alpha_cutoff = within("alphaCutoff", file_.alphaCutoff, 0, maxFactor);  // above 1: all is cut out
+        m.alpha_mode = alphaMode();
+        m.double_sided = file_.doubleSided;
+        m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
+        if (extension(file_.extensions, "KHR_materials_unlit")) return unlit(m);
+        m.metallic_roughness_texture = slot("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+        m.normal_texture = slot("normalTexture", file_.normalTexture);
+        m.occlusion_texture = slot("occlusionTexture", file_.occlusionTexture);
+        m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
+        readEmission(m);
+        readSpecular(m);
+        readLightmap(m);
+        return m;
+    }
+
+private:
+    const tinygltf::Model& model_;
+    const tinygltf::Material& file_;
+    Scene& scene_;
+    const std::vector<std::string>& faults_;
+    const MaterialExtras::Lightmap* lightmap_;  // nullptr: none
+    std::string who_;
+
+    // Where glTF has no bound, or none on one side: squares and products of such stay finite in float32.
+    static constexpr double maxFactor = 1e12;
+
+    double bounded(const std::string& what, double x, double least, double most) {
+        const double inside = std::clamp(x, least, most);
+        if (inside != x)
+            // Every digit: 1.0000001 is outside, too.
+            scene_.notes.push_back(fmt::format("{}: {} {} is outside {:g} to {:g}: taken as {:g}", who_, what,
+                                               x, least, most, inside));
+        return inside;
+    }
+    float within(const std::string& what, double x, double least, double most) {
+        return static_cast<float>(bounded(what, x, least, most));
+    }
+
+    AlphaMode alphaMode() const {
+        if (file_.alphaMode == "OPAQUE") return AlphaMode::opaque;
+        if (file_.alphaMode == "MASK") return AlphaMode::mask;
+        if (file_.alphaMode == "BLEND") return AlphaMode::blend;
+        fail(who_, fmt::format("alphaMode \"{}\" is none of OPAQUE, MASK, BLEND", file_.alphaMode));
+    }
+
+    template <class Info>
+    TextureSlot slot(const char* name, const Info& info) {
+        return slot(name, info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"));
+    }
+
+    TextureSlot slot(const char* name, int texture, int texcoord, const tinygltf::Value* transform) {
+        TextureSlot result;
+        const std::string who = fmt::format("{}: {}", who_, name);
+        if (checkedIndex(texture, scene_.textures.size(), who, "texture") < 0) return result;
+        if (const std::string& fault = faults_[static_cast<std::size_t>(texture)]; !fault.empty())
+            throw std::runtime_error(fault);
+        const char* other = otherImageOf(model_.textures[static_cast<std::size_t>(texture)]);
+        if (other && scene_.textures[static_cast<std::size_t>(texture)].image < 0)
+            fail(who,
+                 fmt::format("texture {} has no image but that of {}, which is not read", texture, other));
+        if (transform) texcoord = readTransform(*transform, name, result, texcoord);
+        if (texcoord < 0 || texcoord > 1)
+            scene_.notes.push_back(
+                fmt::format("{} reads TEXCOORD_{}: left out, there are two UV sets", who, texcoord));
+        else if (scene_.textures[static_cast<std::size_t>(texture)].image < 0)
+            scene_.notes.push_back(
+                fmt::format("{}: texture {} has no PNG or JPEG image: left out", who, texture));
+        else
+            result.texture = texture;
+        result.texcoord = texcoord == 1 ? 1 : 0;
+        return result;
+    }
+
+    // KHR_texture_transform: scale, then a rotation that is counter-clockwise where v grows downwards, then
+    // the offset. Returns the UV set: the transform's, or that of the texture.
+    int readTransform(const tinygltf::Value& transform, const std::string& slot, TextureSlot& result,
+                      int texcoord) {
+        const std::string who = fmt::format("{}: {}", who_, slot);
+        std::vector<double> offset = numbersIn(transform, "offset", {0, 0}, who);
+        std::vector<double> scale = numbersIn(transform, "scale", {1, 1}, who);
+        for (double& x : offset) x = bounded(slot + " offset", x, -maxFactor, maxFactor);
+        for (double& x : scale) x = bounded(slot + " scale", x, -maxFactor, maxFactor);
+        const double angle = numberIn(transform, "rotation", 0, who);
+        const double c = std::cos(angle), s = std::sin(angle);
+        result.u = {c * scale[0], s * scale[1], offset[0]};
+        result.v = {-s * scale[0], c * scale[1], offset[1]};
+        return indexIn(transform, "texCoord", texcoord, who);
+    }
+
+    // A texture inside an extension, which tinygltf does not know.
+    TextureSlot slotIn(const tinygltf::Value& object, const char* name) {
+        if (!object.Has(name)) return {};
+        const std::string who = fmt::format("{}: {}", who_, name);
+        const tinygltf::Value& info = object.Get(name);
+        if (!info.IsObject() || !info.Has("index")) fail(who, "names no texture");
+        const tinygltf::Value* transform = nullptr;
+        if (info.Get("extensions").IsObject() &&
+            info.Get("extensions").Get("KHR_texture_transform").IsObject())
+            transform = &info.Get("extensions").Get("KHR_texture_transform");
+        return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
+    }
+
+    // KHR_materials_unlit: all other parameters are ignored.
+    static Material unlit(const Material& lit) {
+        Material m;
+        m.unlit = true;
+        m.name = lit.name;
+        m.base_color = lit.base_color;
+        m.base_color_texture = lit.base_color_texture;
+        m.alpha_mode = lit.alpha_mode;
+        m.alpha_cutoff = lit.alpha_cutoff;
+        m.double_sided = lit.double_sided;
+        return m;
+    }
+
+    void readEmission(Material& m) {
+        double strength = 1;
+        if (const auto* e = extension(file_.extensions, "KHR_materials_emissive_strength"))
+            strength = bounded("emissiveStrength", numberIn(*e, "emissiveStrength", 1, who_), 0,
+                               std::numeric_limits<float>::max());
+        for (int c = 0; c < 3; ++c) {
+            const double emitted = file_.emissiveFactor[static_cast<std::size_t>(c)] * strength;
+            if (!(emitted <= static_cast<double>(std::numeric_limits<float>::max())))
+                fail(who_, fmt::format("emits {:g}, beyond any float", emitted));
+            m.emissive[c] = within("emissiveFactor", emitted, 0, std::numeric_limits<float>::max());
+        }
+    }
+
+    void readLightmap(Material& m) {
+        if (!lightmap_) return;
+        scene_.notes.insert(scene_.notes.end(), lightmap_->notes.begin(), lightmap_->notes.end());
+        m.lightmap_texture =
+            slot("extras: diptych: lightmap", lightmap_->texture, lightmap_->texcoord, nullptr);
+        m.lightmap_intensity = static_cast<float>(lightmap_->intensity);
+    }
+
+    void readSpecular(Material& m) {
+        if (const auto* e = extension(file_.extensions, "KHR_materials_ior")) {
+            const double ior = numberIn(*e, "ior", 1.5, who_);
+            if (ior != 0 && ior < 1)
+                scene_.notes.push_back(
+                    fmt::format("{}: ior {} is neither 0 nor at least 1: taken as 1", who_, ior));
+            m.ior = ior == 0 ? 0.0f : static_cast<float>(std::max(ior, 1.0));
+        }
+        if (const auto* e = extension(file_.extensions, "KHR_materials_specular")) {
+            m.specular = within("specularFactor", numberIn(*e, "specularFactor", 1, who_), 0, 1);
+            const std::vector<double> color = numbersIn(*e, "specularColorFactor", {1, 1, 1}, who_);
+            for (int c = 0; c < 3; ++c)
+                m.specular_color[c] =
+                    within("specularColorFactor", color[static_cast<std::size_t>(c)], 0, maxFactor);
+            m.specular_texture = slotIn(*e, "specularTexture");
+            m.specular_color_texture = slotIn(*e, "specularColorTexture");
+        }
+    }
+};
+
+// "3 materials (a, b, c) ..." for those that `test` picks.
+template <class Test>
+void noteMaterials(const tinygltf::Model& model, const Test& test, const char* what, Scene& scene) {
+    std::string names;
+    int count = 0;
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        if (!test(i)) continue;
+        const std::string& name = model.materials[i].name;
+        names += (count++ ? ", " : "") + (name.empty() ? std::to_string(i) : name);
+    }
+    if (count)
+        scene.notes.push_back(
+            fmt::format("{} material{} ({}) {}", count, count == 1 ? "" : "s", oneLine(names), what));
+}
+
+std::vector<bool> drawnMaterials(const tinygltf::Model& model, const Scene& scene) {
+    std::vector<bool> drawn(model.materials.size(), false);
+    for (const Node& node : scene.nodes) {
+        if (node.mesh < 0) continue;
+        for (const tinygltf::Primitive& p : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+            if (checkedIndex(p.material, drawn.size(), fmt::format("mesh {}", node.mesh), "material") >= 0)
+                drawn[static_cast<std::size_t>(p.material)] = true;
+    }
+    return drawn;
+}
+
+// Scene::images holds what some material reads, in the file's order; textures are pointed there.
+void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
+    std::vector<bool> used(imageCount, false);
+    for (const Material& m : scene.materials)
+        for (const MaterialSlot& slot : materialSlots)
+            if (const int texture = (m.*slot.texture).texture; texture >= 0)
+                used[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] =
+                    true;
+    std::vector<int> placeOf(imageCount, -1);
+    for (std::size_t i = 0; i < imageCount; ++i) {
+        if (!used[i]) continue;
+        placeOf[i] = static_cast<int>(imageOf.size());
+        imageOf.push_back(static_cast<int>(i));
+    }
+    for (Texture& texture : scene.textures)
+        if (texture.image >= 0) texture.image = placeOf[static_cast<std::size_t>(texture.image)];
+    scene.images.resize(imageOf.size());
+}
+
+}  // namespace
+
+void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
+                   std::vector<int>& imageOf) {
+    const std::size_t before = scene.notes.size();
+    const std::vector<std::string> faults = readTextures(model, scene);
+    const std::vector<bool> drawn = drawnMaterials(model, scene);
+    NoteList left("materials");
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        Material& m = scene.materials.emplace_back();
+        try {
+            m = MaterialReader(model, extras, scene, faults, i).read();
+        } catch (const std::runtime_error& e) {
+            if (drawn[i]) throw;
+            left.add(std::string(e.what()) + ": left out, nothing is drawn with it");
+            m = {};
+            m.name = model.materials[i].name;
+        }
+        if (!drawn[i])
+            for (const MaterialSlot& slot : materialSlots) m.*slot.texture = {};
+    }
+    limitNotes(scene.notes, before, "materials");
+    left.moveTo(scene.notes);
+    noteMaterials(
+        model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
+        "with alphaMode BLEND: drawn opaque by the paths, which do not blend yet; the reference blends in "
+        "mode scene",
+        scene);
+
+    const bool needsDefault =
+        std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {
+            return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                               [](const tinygltf::Primitive& p) { return p.material == -1; });
+        });
+    if (needsDefault) scene.materials.emplace_back().name = "default";
+    keepImagesInUse(scene, model.images.size(), imageOf);
+}
+
+std::vector<bool> lightmapsAlone(const Scene& scene) {
+    std::vector<bool> alone(scene.images.size(), true);
+    for (const Material& m : scene.materials)
+        for (std::size_t i = 0; i < materialSlots.size(); ++i)
+            if (const int texture = (m.*materialSlots[i].texture).texture;
+                texture >= 0 && i != gpu::SLOT_lightmap)
+                alone[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] =
+                    false;
+    return alone;
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/node.h"
+
+#include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/value.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+std::string nameOf(std::size_t node) {
+    return fmt::format("node {}", node);
+}
+
+std::string quotedName(const std::string& name) {
+    return name.empty() ? "" : fmt::format(" \"{}\"", name);
+}
+
+// ---- transforms --------------------------------------------------------------------------------------
+
+// As many numbers as asked for, or none.
+void checkLength(const std::vector<double>& values, std::size_t count, const std::string& who,
+                 const char* what) {
+    if (!values.empty() && values.size() != count)
+        fail(who, fmt::format("{} has {} numbers, not {}", what, values.size(), count));
+    for (const double v : values)
+        if (!std::isfinite(v)) fail(who, fmt::format("{} is not finite", what));
+}
+
+glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteList& notes) {
+    checkLength(node.matrix, 16, who, "matrix");
+    checkLength(node.translation, 3, who, "translation");
+    checkLength(node.rotation, 4, who, "rotation");
+    checkLength(node.scale, 3, who, "scale");
+    glm::dmat4 m(1.0);
+    if (!node.matrix.empty()) {
+        for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+        // Exporters multiply matrices in float32: its last row may be off by some roundings.
+        constexpr double rounding = 1e-4;
+        const glm::dvec4 row(m[0][3], m[1][3], m[2][3], m[3][3] - 1);
+        if (!(glm::length(row) <= rounding)) fail(who, "the last row of its matrix is not 0 0 0 1");
+        m[0][3] = m[1][3] = m[2][3] = 0;
+        m[3][3] = 1;
+        return m;
+    }
+    if (!node.rotation.empty()) {
+        const std::vector<double>& r = node.rotation;
+        const glm::dquat q(r[3], r[0], r[1], r[2]);
+        if (glm::length(q) > 0)
+            m = glm::mat4_cast(glm::normalize(q));
+        else
+            notes.add(who + ": rotation 0 0 0 0: taken as none");
+    }
+    if (!node.scale.empty())
+        for (int c = 0; c < 3; ++c) m[c] *= node.scale[static_cast<std::size_t>(c)];
+    if (!node.translation.empty()) m[3] = {node.translation[0], node.translation[1], node.translation[2], 1};
+    return m;
+}
+
+// ---- hierarchy ---------------------------------------------------------------------------------------
+
+std::vector<int> parentsOf(const tinygltf::Model& model) {
+    std::vector<int> parent(model.nodes.size(), -1);
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+        for (const int child : model.nodes[n].children) {
+            if (checkedIndex(child, model.nodes.size(), nameOf(n), "child") < 0) fail(nameOf(n), "child -1");
+            int& p = parent[static_cast<std::size_t>(child)];
+            if (p >= 0)
+                fail(nameOf(static_cast<std::size_t>(child)),
+                     fmt::format("is a child of node {} and of node {}", p, n));
+            p = static_cast<int>(n);
+        }
+    return parent;
+}
+
+// With at most one parent each, a node is in a circle exactly if its ancestors lead back to it; walks stop
+// where an earlier one has been.
+void refuseCircles(const std::vector<int>& parent) {
+    std::vector<std::size_t> walk(parent.size(), 0);  // the number of the walk that came by; 0: none yet
+    for (std::size_t start = 0; start < parent.size(); ++start) {
+        for (int n = static_cast<int>(start); n >= 0 && walk[static_cast<std::size_t>(n)] != start + 1;) {
+            if (walk[static_cast<std::size_t>(n)]) break;
+            walk[static_cast<std::size_t>(n)] = start + 1;
+            n = parent[static_cast<std::size_t>(n)];
+            if (n >= 0 && walk[static_cast<std::size_t>(n)] == start + 1)
+                fail(nameOf(static_cast<std::size_t>(n)), "is its own ancestor");
+        }
+    }
+}
+
+// The scene that was asked for, by index or name, or else the file's default. -1: the file has none.
+int chooseScene(const tinygltf::Model& model, const std::string& choice, std::vector<std::string>& notes) {
+    const int count = static_cast<int>(model.scenes.size());
+    if (choice.empty()) {
+        const int index = count == 0 ? -1 : std::max(model.defaultScene, 0);
+        if (count > 1)
+            notes.push_back(
+                fmt::format("{} scenes: scene {}{} is drawn; FILE?scene=INDEX or NAME draws another", count,
+                            index, quotedName(model.scenes[static_cast<std::size_t>(index)].name)));
+        return index;
+    }
+    for (int i = 0; i < count; ++i)
+        if (choice == std::to_string(i)) return i;
+    for (int i = 0; i < count; ++i)
+        if (choice == model.scenes[static_cast<std::size_t>(i)].name) return i;
+    fail("scene=" + choice, fmt::format("names none of the file's {} scene{}", count, count == 1 ? "" : "s"));
+}
+
+// The nodes that the scene reaches. Without any scene, all of them.
+std::vector<bool> reached(const tinygltf::Model& model, int index, const std::vector<int>& parent) {
+    if (index < 0) return std::vector<bool>(model.nodes.size(), true);
+    const std::string who = fmt::format("scene {}", index);
+    std::vector<bool> result(model.nodes.size(), false);
+    std::vector<int> waiting = model.scenes[static_cast<std::size_t>(index)].nodes;
+    for (const int root : waiting) {
+        if (checkedIndex(root, model.nodes.size(), who, "node") < 0) fail(who, "node -1");
+        if (parent[static_cast<std::size_t>(root)] >= 0)
+            fail(who, fmt::format("node {} is no root: it is a child of node {}", root,
+                                  parent[static_cast<std::size_t>(root)]));
+    }
+    while (!waiting.empty()) {
+        const auto n = static_cast<std::size_t>(waiting.back());
+        waiting.pop_back();
+        if (result[n]) continue;
+        result[n] = true;
+        waiting.insert(waiting.end(), model.nodes[n].children.begin(), model.nodes[n].children.end());
+    }
+    return result;
+}
+
+// ---- what hangs on nodes -----------------------------------------------------------------------------
+
+// `x` within its bounds, with a note where it was not.
+double bounded(const std::string& who, const char* what, double x, double least, double most,
+               NoteList& notes) {
+    const double inside = std::clamp(x, least, most);
+    if (inside != x) notes.add(fmt::format("{}: {} {}: taken as {:g}", who, what, x, inside));
+    return inside;
+}
+
+void readCone(const tinygltf::SpotLight& spot, const std::string& who, Light& light, NoteList& notes) {
+    static constexpr double right = glm::half_pi<double>();
+    // A rounded pi / 2 is one.
+    const auto rounded = [](double x) { return x <= right + 1e-6 ? std::min(x, right) : x; };
+    const double outer = bounded(who, "outerConeAngle", rounded(spot.outerConeAngle), 0, right, notes);
+    light.outer_cone = static_cast<float>(outer);
+    light.inner_cone =
+        static_cast<float>(bounded(who, "innerConeAngle", rounded(spot.innerConeAngle), 0, outer, notes));
+}
+
+Light readLight(const tinygltf::Light& l, const std::string& who, NoteList& notes) {
+    Light light;
+    light.name = l.name;
+    if (l.type == "directional")
+        light.kind = LightKind::directional;
+    else if (l.type == "point")
+        light.kind = LightKind::point;
+    else if (l.type == "spot")
+        light.kind = LightKind::spot;
+    else
+        fail(who, fmt::format("type \"{}\" is none of directional, point, spot", l.type));
+    checkLength(l.color, 3, who, "color");
+    constexpr double most = std::numeric_limits<float>::max();
+    for (int c = 0; c < 3 && !l.color.empty(); ++c)
+        light.color[c] =
+            static_cast<float>(bounded(who, "color", l.color[static_cast<std::size_t>(c)], 0, most, notes));
+    light.intensity = static_cast<float>(bounded(who, "intensity", l.intensity, 0, most, notes));
+    if (l.range < 0) notes.add(fmt::format("{}: range {}: taken as none", who, l.range));
+    if (l.range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(l.range);
+    if (light.kind == LightKind::spot) readCone(l.spot, who, light, notes);
+    return light;
+}
+
+// Throws where nothing can be seen through it.
+Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& notes) {
+    Camera camera;
+    camera.name = c.name;
+    if (c.type == "perspective") {
+        camera.yfov = c.perspective.yfov;
+        camera.near = c.perspective.znear;
+        if (c.perspective.zfar != 0) camera.far = c.perspective.zfar;
+        if (!(camera.yfov > 0 && camera.yfov < glm::pi<double>()))
+            fail(who, fmt::format("yfov {} does not lie between 0 and pi", camera.yfov));
+        if (!(camera.near > 0)) fail(who, fmt::format("znear {} is not above 0", camera.near));
+        if (!(camera.far > camera.near)) {
+            notes.add(fmt::format("{}: zfar {} is not beyond znear {}: taken as none", who, camera.far,
+                                  camera.near));
+            camera.far = std::numeric_limits<double>::infinity();
+        }
+    } else if (c.type == "orthographic") {
+        camera.orthographic = true;
+        camera.ymag = std::abs(c.orthographic.ymag);
+        camera.near = c.orthographic.znear;
+        camera.far = c.orthographic.zfar;
+        if (!(camera.ymag > 0)) fail(who, "ymag is 0");
+        if (!(camera.near >= 0)) fail(who, fmt::format("znear {} is negative", camera.near));
+        if (!(camera.far > camera.near))
+            fail(who, fmt::format("zfar {} is not beyond znear {}", camera.far, camera.near));
+        for (const auto& [what, mag] :
+             {std::pair{"xmag", c.orthographic.xmag}, std::pair{"ymag", c.orthographic.ymag}})
+            if (mag < 0) notes.add(fmt::format("{}: {} {}: taken as {}", who, what, mag, -mag));
+    } else {
+        fail(who, fmt::format("type \"{}\" is neither perspective nor orthographic", c.type));
+    }
+    return camera;
+}
+
+}  // namespace
+
+std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, const std::string& choice,
+                           Scene& scene) {
+    const std::vector<int> parent = parentsOf(model);
+    refuseCircles(parent);
+    const int chosen = chooseScene(model, choice, scene.notes);
+    const std::vector<bool> inScene = reached(model, chosen, parent);
+
+    std::vector<int> place(model.nodes.size(), -1);  // in Scene::nodes
+    int count = 0;
+    for (std::size_t n = 0; n < place.size(); ++n)
+        if (inScene[n]) place[n] = count++;
+
+    NoteList nodeNotes("nodes"), notes("lights and cameras");
+    std::vector<std::pair<int, Camera>> cameras;  // with the file's index
+    for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+        if (!inScene[n]) continue;
+        const tinygltf::Node& file = model.nodes[n];
+        Node node;
+        node.name = file.name;
+        node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
+        node.parent_from_node = transformOf(file, nameOf(n), nodeNotes);
+        node.mesh = checkedIndex(file.mesh, model.meshes.size(), nameOf(n), "mesh");
+        if (checkedIndex(file.camera, model.cameras.size(), nameOf(n), "camera") >= 0) {
+            try {
+                Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
+                                           fmt::format("camera {}", file.camera), notes);
+                if (camera.name.empty()) camera.name = file.name;
+                camera.node = place[n];
+                cameras.emplace_back(file.camera, camera);
+            } catch (const std::runtime_error& e) {
+                notes.add(std::string(e.what()) + ": left out");
+            }
+        }
+        if (const auto* e = extension(file.extensions, "KHR_lights_punctual")) {
+            const int index =
+                checkedIndex(indexIn(*e, "light", -1, nameOf(n)), model.lights.size(), nameOf(n), "light");
+            if (index >= 0) {
+                Light light = readLight(model.lights[static_cast<std::size_t>(index)],
+                                        fmt::format("light {}", index), notes);
+                addExtras(extras, static_cast<std::size_t>(index), light, notes);
+                if (light.name.empty()) light.name = file.name;
+                light.node = place[n];
+                scene.lights.push_back(light);
+            }
+        }
+        scene.nodes.push_back(std::move(node));
+    }
+    if (chosen >= 0) hangLights(extras, static_cast<std::size_t>(chosen), place, scene, notes);
+    nodeNotes.moveTo(scene.notes);
+    notes.moveTo(scene.notes);
+    std::stable_sort(cameras.begin(), cameras.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [index, camera] : cameras) scene.cameras.push_back(camera);
+    return place;
+}
+
+}  // namespace diptych::gltf

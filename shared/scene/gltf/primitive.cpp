@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/primitive.h"
+
+#include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/scene/model/material_slots.h"
+#include "shared/scene/model/tangents.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+bool drawsTriangles(int mode) {
+    return mode >= TINYGLTF_MODE_TRIANGLES && mode <= TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+template <class Vec>
+bool isUsable(const Vec& v) {
+    for (int c = 0; c < Vec::length(); ++c)
+        if (!(std::abs(static_cast<double>(v[c])) <= maxCoordinate)) return false;
+    return true;
+}
+
+// Of what readVectors will ask an attribute; 0: that is found out there.
+std::size_t widthOf(const std::string& attribute) {
+    return attribute == "POSITION" || attribute == "NORMAL" ? 3
+           : attribute == "TANGENT"                         ? 4
+           : attribute.starts_with("TEXCOORD_")             ? 2
+                                                            : 0;
+}
+
+class PrimitiveReader {
+public:
+    PrimitiveReader(const tinygltf::Model& model, const tinygltf::Primitive& file, const std::string& who,
+                    const PrimitiveUse& use, std::vector<std::string>& notes)
+        : model_(model), file_(file), who_(who), use_(use), notes_(notes) {}
+
+    Primitive read() {
+        if (!drawsTriangles(file_.mode)) {
+            if (file_.mode < 0 || file_.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+                fail(who_, fmt::format("{} is no mode", file_.mode));
+            return nothing("points or lines");
+        }
+        if (!file_.attributes.contains("POSITION")) return nothing("has no POSITION");
+        result_.material = checkedIndex(file_.material, model_.materials.size(), who_, "material");
+        if (result_.material < 0) result_.material = static_cast<int>(use_.materials.size()) - 1;
+        countVertices();
+        readTriangles();
+        if (result_.indices.empty()) return nothing("has no triangle");
+        keepTouched();
+        readPositions();
+        if (result_.indices.empty()) return nothing("has no triangle");
+        readAttributes();
+        readJointSets();
+        readTargets();
+        finishNormals();
+        finishTangents();
+        return std::move(result_);
+    }
+
+private:
+    const tinygltf::Model& model_;
+    const tinygltf::Primitive& file_;
+    const std::string& who_;
+    const PrimitiveUse& use_;
+    std::vector<std::string>& notes_;
+    Primitive result_;
+    std::size_t count_ = 0;               // of the file's vertices
+    std::vector<std::uint32_t> touched_;  // of them, those that triangles touch, ascending
+    bool all_ = false;                    // every one is
+
+    template <class... Args>
+    void note(fmt::format_string<Args...> text, Args&&... args) {
+        notes_.push_back(who_ + ": " + fmt::format(text, std::forward<Args>(args)...));
+    }
+
+    Primitive nothing(const char* why) {
+        note("{}, left out", why);
+        return {};
+    }
+
+    Selection which() const { return all_ ? Selection() : Selection(touched_); }
+
+    // ---- triangles -----------------------------------------------------------------------------------
+
+    // Every attribute has as many elements as there are positions.
+    void countVertices() {
+        count_ = soundCount(model_, file_.attributes.at("POSITION"), who_ + ": POSITION", "vertices", 3);
+        if (count_ > std::numeric_limits<std::uint32_t>::max() / 4)
+            fail(who_, "has more vertices than 32 bits can index");
+        const auto check = [&](const std::string& name, int accessor, std::size_t width) {
+            const std::string who = fmt::format("{}: {}", who_, name);
+            const std::size_t count = soundCount(model_, accessor, who, "vertices", width);
+            if (count != count_) fail(who, fmt::format("{} elements for {} positions", count, count_));
+        };
+        for (const auto& [name, accessor] : file_.attributes)
+            if (!name.starts_with('_')) check(name, accessor, widthOf(name));
+        for (std::size_t t = 0; t < file_.targets.size(); ++t)
+            for (const auto& [name, accessor] : file_.targets[t])
+                if (!name.starts_with('_')) check(fmt::format("target {}: {}", t, name), accessor, 0);
+    }
+
+    // The vertices in the order in which the file draws them, as a list of triangles.
+    void readTriangles() {
+        std::vector<std::uint32_t> order;
+        if (file_.indices == -1) {
+            order.resize(count_);
+            std::iota(order.begin(), order.end(), 0u);
+        } else {
+            order = readIndices(model_, file_.indices, who_ + ": indices");
+        }
+        for (std::size_t i = 0; i < order.size(); ++i)
+            if (order[i] >= count_)
+                fail(who_,
+                     fmt::format("index {} of its indices is {}, past its {} vertices", i, order[i], count_));
+
+        std::vector<std::uint32_t>& out = result_.indices;
+        if (file_.mode == TINYGLTF_MODE_TRIANGLES) {
+            if (order.size() % 3) note("the last {} indices make no triangle", order.size() % 3);
+            order.resize(order.size() - order.size() % 3);
+            out = std::move(order);
+            return;
+        }
+        if (order.size() >= 3) out.reserve(3 * (order.size() - 2));
+        for (std::size_t i = 0; i + 2 < order.size(); ++i) {
+            if (file_.mode == TINYGLTF_MODE_TRIANGLE_FAN)
+                out.insert(out.end(), {order[i + 1], order[i + 2], order[0]});
+            else  // a strip: every other triangle is turned back to front
+                out.insert(out.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
+        }
+    }
+
+    // From the file's vertices to those that triangles touch. What it costs goes with the indices, not with
+    // the vertices: a thousand primitives may each draw a little of one large accessor.
+    void keepTouched() {
+        std::vector<std::uint32_t>& indices = result_.indices;
+        if (count_ / 4 > indices.size()) {
+            touched_ = indices;
+            std::sort(touched_.begin(), touched_.end());
+            touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+            all_ = false;
+            for (std::uint32_t& i : indices)
+                i = static_cast<std::uint32_t>(std::lower_bound(touched_.begin(), touched_.end(), i) -
+                                               touched_.begin());
+            return;
+        }
+        constexpr std::uint32_t untouched = ~0u;
+        std::vector<std::uint32_t> place(count_, untouched);
+        for (const std::uint32_t i : indices) place[i] = 0;
+        touched_.clear();
+        for (std::uint32_t v = 0; v < count_; ++v)
+            if (place[v] != untouched) {
+                place[v] = static_cast<std::uint32_t>(touched_.size());
+                touched_.push_back(v);
+            }
+        all_ = touched_.size() == count_;
+        for (std::uint32_t& i : indices) i = place[i];
+    }
+
+    void readPositions() {
+        const int accessor = file_.attributes.at("POSITION");
+        const std::string who = who_ + ": POSITION";
+        std::vector<glm::vec3>& positions = result_.positions;
+        positions = readVectors<glm::vec3>(model_, accessor, who, which());
+        if (std::all_of(positions.begin(), positions.end(), isUsable<glm::vec3>)) return;
+        std::vector<std::uint32_t> sound;
+        for (std::size_t i = 0; i + 2 < result_.indices.size(); i += 3) {
+            const std::uint32_t* t = &result_.indices[i];
+            if (isUsable(positions[t[0]]) && isUsable(positions[t[1]]) && isUsable(positions[t[2]]))
+                sound.insert(sound.end(), {touched_[t[0]], touched_[t[1]], touched_[t[2]]});
+        }
+        note("{} of {} triangles touch vertices that are not finite or beyond {:g} m: left out",
+             (result_.indices.size() - sound.size()) / 3, result_.indices.size() / 3, maxCoordinate);
+        result_.indices = std::move(sound);
+        keepTouched();
+        positions = readVectors<glm::vec3>(model_, accessor, who, which());
+    }
+
+    // ---- attributes ----------------------------------------------------------------------------------
+
+    // An attribute that is there, one element a vertex.
+    template <class Vec, class Read>
+    std::vector<Vec> attribute(const std::string& name, const Read& read) const {
+        const auto at = file_.attributes.find(name);
+        if (at == file_.attributes.end()) return {};
+        return read(model_, at->second, fmt::format("{}: {}", who_, name), which());
+    }
+
+    // What is not finite or beyond what is drawn becomes `instead`.
+    template <class Vec>
+    void repair(std::vector<Vec>& values, const Vec& instead, const std::string& name, const char* said) {
+        std::size_t broken = 0, finite = 0;
+        for (Vec& v : values) {
+            if (isUsable(v)) continue;
+            ++broken;
+            bool all = true;
+            for (int c = 0; c < Vec::length(); ++c) all &= std::isfinite(v[c]);
+            finite += all;
+            v = instead;
+        }
+        const auto say = [&](std::size_t count, const std::string& what) {
+            if (count)
+                note("{}: {} {}: {}", name, count == 1 ? "1 is" : fmt::format("{} are", count), what, said);
+        };
+        say(broken - finite, "not finite");
+        say(finite, fmt::format("beyond {:g}", maxCoordinate));
+    }
+
+    void readAttributes() {
+        result_.normals = attribute<glm::vec3>("NORMAL", readVectors<glm::vec3>);
+        result_.tangents = attribute<glm::vec4>("TANGENT", readVectors<glm::vec4>);
+        result_.colors = attribute<glm::vec4>("COLOR_0", readColors);
+        for (std::size_t set = 0; set < 2; ++set) {
+            const std::string name = fmt::format("TEXCOORD_{}", set);
+            result_.texcoords[set] = attribute<glm::vec2>(name, readVectors<glm::vec2>);
+            repair(result_.texcoords[set], glm::vec2(0), name, "0, 0");
+            if (result_.texcoords[set].empty() && materialReads(set))
+                note("its material reads {}, which it does not have: 0, 0", name);
+        }
+        repair(result_.colors, glm::vec4(1), "COLOR_0", "white");
+        for (glm::vec4& color : result_.colors) color = glm::clamp(color, 0.0f, 1.0f);
+    }
+
+    bool materialReads(std::size_t set) const {
+        const Material& material = use_.materials[static_cast<std::size_t>(result_.material)];
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+            if (readsSlot(material, slot) &&
+                (material.*materialSlots[slot].texture).texcoord == static_cast<int>(set))
+                return true;
+        return false;
+    }
+
+    // JOINTS_n with WEIGHTS_n for n = 0, 1, ... while there are any.
+    void readJointSets() {
+        if (use_.joints == 0) return;
+        for (std::size_t set = 0;; ++set) {
+            const std::string joints = fmt::format("JOINTS_{}", set),
+                              weights = fmt::format("WEIGHTS_{}", set);
+            const bool hasJoints = file_.attributes.contains(joints);
+            if (hasJoints != file_.attributes.contains(weights))
+                fail(who_, fmt::format("has {} without {}", hasJoints ? joints : weights,
+                                       hasJoints ? weights : joints));
+            if (!hasJoints) break;
+            result_.joint_sets.push_back({attribute<glm::u16vec4>(joints, readJoints),
+                                          attribute<glm::vec4>(weights, readVectors<glm::vec4>)});
+        }
+        if (!result_.joint_sets.empty()) normalizeWeights();
+    }
+
+    void normalizeWeights() {
+        // Each weight may be rounded to 8 bits: half a step.
+        const double rounding = 4.0 * static_cast<double>(result_.joint_sets.size()) * 0.5 / 255;
+        std::size_t broken = 0, unweighted = 0, uneven = 0;
+        for (std::size_t v = 0; v < result_.positions.size(); ++v) {
+            double sum = 0;
+            for (JointSet& set : result_.joint_sets)
+                for (int c = 0; c < 4; ++c) {
+                    float& weight = set.weights[v][c];
+                    if (!(weight >= 0 && weight <= maxCoordinate)) weight = 0, ++broken;
+                    sum += weight;
+                }
+            if (!(sum > 0)) {
+                result_.joint_sets[0].weights[v].x = 1;
+                sum = 1, ++unweighted;
+            }
+            uneven += std::abs(sum - 1) > rounding;
+            for (JointSet& set : result_.joint_sets)
+                for (int c = 0; c < 4; ++c) {
+                    set.weights[v][c] = static_cast<float>(set.weights[v][c] / sum);
+                    if (set.weights[v][c] == 0) set.joints[v][c] = 0;
+                    if (set.joints[v][c] >= use_.joints)
+                        fail(who_, fmt::format("vertex {} names joint {}, but a skin that moves it has {}",
+                                               touched_[v], set.joints[v][c], use_.joints));
+                }
+        }
+        if (broken) note("{} joint weights are negative or not finite: 0", broken);
+        if (uneven) note("the joint weights of {} vertices do not add up to 1: divided by their sum", uneven);
+        if (unweighted) note("{} vertices have no joint weight: their first joint moves them", unweighted);
+    }
+
+    void readTargets() {
+        if (file_.targets.size() != use_.targets)
+            fail(who_, fmt::format("{} morph targets, but the mesh's first primitive has {}",
+                                   file_.targets.size(), use_.targets));
+        for (std::size_t t = 0; t < file_.targets.size(); ++t) {
+            MorphTarget& target = result_.targets.emplace_back();
+            for (const auto& [name, accessor] : file_.targets[t]) {
+                // Normals and tangents that are made here follow from what is morphed.
+                const bool based = file_.attributes.contains(name);
+                std::vector<glm::vec3>* deltas = name == "POSITION"           ? &target.positions
+                                                 : name == "NORMAL" && based  ? &target.normals
+                                                 : name == "TANGENT" && based ? &target.tangents
+                                                                              : nullptr;
+                const std::string who = fmt::format("target {}: {}", t, name);
+                if (!deltas) {
+                    if (!name.starts_with('_')) note("{}: left out", who);
+                    continue;
+                }
+                *deltas = readVectors<glm::vec3>(model_, accessor, who_ + ": " + who, which());
+                repair(*deltas, glm::vec3(0), who, "0");
+            }
+        }
+    }
+
+    // ---- what is missing -----------------------------------------------------------------------------
+
+    // Missing normals are flat, and then the file's tangents must not be used. Present ones are made unit;
+    // one without a direction gets that of the triangles around it.
+    void finishNormals() {
+        if (result_.normals.empty()) {
+            result_.tangents.clear();
+            for (MorphTarget& target : result_.targets) target.tangents.clear();
+            makeFlatNormals(result_);
+            result_.flat = true;
+            return;
+        }
+        std::vector<std::uint32_t> broken;
+        for (std::uint32_t v = 0; v < result_.normals.size(); ++v) {
+            const glm::dvec3 n(result_.normals[v]);
+            const double length = glm::length(n);
+            if (length > 0 && std::isfinite(length))
+                result_.normals[v] = glm::vec3(n / length);
+            else
+                broken.push_back(v);
+        }
+        if (!broken.empty()) repairNormals(broken);
+    }
+
+    void repairNormals(const std::vector<std::uint32_t>& broken) {
+        std::vector<glm::dvec3> sum(result_.positions.size(), glm::dvec3(0));  // weighted by area
+        for (std::size_t i = 0; i + 2 < result_.indices.size(); i += 3) {
+            const std::uint32_t* t = &result_.indices[i];
+            const glm::dvec3 a(result_.positions[t[0]]), b(result_.positions[t[1]]),
+                c(result_.positions[t[2]]);
+            for (int corner = 0; corner < 3; ++corner) sum[t[corner]] += glm::cross(b - a, c - a);
+        }
+        for (const std::uint32_t v : broken) {
+            const double length = glm::length(sum[v]);
+            result_.normals[v] = length > 0 ? glm::vec3(sum[v] / length) : glm::vec3(0, 0, 1);
+        }
+        note("{} normals have no direction: taken from the triangles", broken.size());
+    }
+
+    // A normal texture asks for MikkTSpace's tangents where the file has none; nothing else reads them.
+    void finishTangents() {
+        if (result_.tangents.empty()) {
+            result_.tangents_made = true;
+            const TextureSlot& slot =
+                use_.materials[static_cast<std::size_t>(result_.material)].normal_texture;
+            return makeTangents(result_, slot.texture >= 0 ? slot.texcoord : -1);
+        }
+        std::vector<glm::vec4> read = std::move(result_.tangents);
+        makeTangents(result_, -1);  // what stays where the file's has no direction
+        std::size_t broken = 0;
+        for (std::size_t v = 0; v < read.size(); ++v) {
+            const glm::dvec3 t(read[v]);
+            const double length = glm::length(t);
+            if (length > 0 && std::isfinite(length))
+                result_.tangents[v] = glm::vec4(glm::vec3(t / length), read[v].w < 0 ? -1 : 1);
+            else
+                ++broken;
+        }
+        if (broken) note("{} tangents have no direction: any that is perpendicular to the normal", broken);
+    }
+};
+
+}  // namespace
+
+Primitive readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& file, const std::string& who,
+                        const PrimitiveUse& use, std::vector<std::string>& notes) {
+    return PrimitiveReader(model, file, who, use, notes).read();
+}
+
+std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive& file,
+                         const std::string& who) {
+    std::size_t bytes = sizeof(Primitive);
+    const auto position = file.attributes.find("POSITION");
+    if (!drawsTriangles(file.mode) || position == file.attributes.end()) return bytes;
+    const std::size_t count = soundCount(model, position->second, who + ": POSITION", "vertices", 3);
+    const std::size_t order =
+        file.indices == -1 ? count : soundCount(model, file.indices, who + ": indices", "indices", 1);
+    const std::size_t corners =
+        file.mode == TINYGLTF_MODE_TRIANGLES ? order : 3 * std::max<std::size_t>(order, 2) - 6;
+    // Flat normals and new tangents may give every corner a vertex of its own.
+    const bool split = !file.attributes.contains("NORMAL") || !file.attributes.contains("TANGENT");
+    const std::size_t vertices = split ? corners : std::min(count, order);
+    std::size_t perVertex = sizeof(glm::vec3) + sizeof(glm::vec4);  // normals and tangents
+    const auto add = [&](const auto& attributes, std::size_t each) {
+        for (const auto& [name, accessor] : attributes) {
+            if (name.starts_with('_')) continue;
+            checkedIndex(accessor, model.accessors.size(), who + ": " + name, "accessor");
+            if (name != "NORMAL" && name != "TANGENT") perVertex += each;
+            if (accessor < 0) continue;
+            const auto& sparse = model.accessors[static_cast<std::size_t>(accessor)].sparse;
+            if (sparse.isSparse)
+                bytes += sizeof(glm::vec4) * static_cast<std::size_t>(std::max(sparse.count, 0));
+        }
+    };
+    add(file.attributes, sizeof(glm::vec4));
+    for (const auto& target : file.targets) {
+        bytes += sizeof(MorphTarget);
+        perVertex += 2 * sizeof(glm::vec3);  // of normals and tangents
+        add(target, sizeof(glm::vec3));
+    }
+    return bytes + corners * sizeof(std::uint32_t) + vertices * perVertex;
+}
+
+}  // namespace diptych::gltf

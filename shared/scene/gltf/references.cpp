@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/references.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view lightCollection = "KHR_lights_punctual";
+
+constexpr std::array<std::string_view, 14> collectionNames{
+    "accessors", "animations", "bufferViews", "buffers",  "cameras", "images", lightCollection,
+    "materials", "meshes",     "nodes",       "samplers", "scenes",  "skins",  "textures"};
+
+// What is no array has no items; the schema says what is wrong with it.
+std::size_t sizeIn(const Json& document, std::string_view name) {
+    static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+    if (name == lightCollection) return document.contains(lights) ? document[lights].size() : 0;
+    const auto at = document.find(name);
+    return at == document.end() || !at->is_array() ? 0 : at->size();
+}
+
+}  // namespace
+
+References::References(const Json& document) {
+    std::size_t items = 0;
+    for (const std::string_view name : collectionNames) {
+        collections_.push_back({name, static_cast<Id>(items), sizeIn(document, name)});
+        items += collections_.back().count;
+    }
+    // An item is two bytes of JSON at least.
+    if (items >= none) throw std::runtime_error("has more objects than 32 bits can number");
+    items_ = static_cast<Id>(items);
+}
+
+const References::Collection& References::find(std::string_view name) const {
+    return *std::ranges::find(collections_, name, &Collection::name);
+}
+
+std::size_t References::count(std::string_view collection) const {
+    return find(collection).count;
+}
+
+void References::enter(std::string_view collection, std::size_t item) {
+    current_ = find(collection).first + static_cast<Id>(item);
+}
+
+void References::names(std::string_view collection, std::size_t item) {
+    if (inside()) edges_.emplace_back(find(collection).first + static_cast<Id>(item), current_);
+}
+
+void References::broken(std::string_view collection, std::size_t item, std::string line) {
+    const Id id = find(collection).first + static_cast<Id>(item);
+    if (place_.emplace(id, broken_.size()).second) broken_.emplace_back(id, std::move(line));
+}
+
+std::vector<References::Fault> References::unusable() const {
+    if (broken_.empty()) return {};
+    const Collection& roots = find(count("scenes") ? "scenes" : "nodes");
+    std::vector<std::pair<Id, Id>> edges = edges_;
+    std::ranges::sort(edges);
+    std::vector<bool> seen(items_, false);
+    std::vector<Fault> faults;
+    for (const auto& [cause, line] : broken_) {
+        std::vector<Id> waiting{cause};
+        while (!waiting.empty()) {
+            const Id id = waiting.back();
+            waiting.pop_back();
+            if (seen[id]) continue;
+            seen[id] = true;
+            if (id >= roots.first && id - roots.first < roots.count) throw std::runtime_error(line);
+            const auto after = std::ranges::upper_bound(collections_, id, {}, &Collection::first);
+            // Empty collections begin where the next one does: the last that begins at or before has it.
+            const Collection& owner = *std::prev(after);
+            faults.push_back({owner.name, id - owner.first, line, id == cause});
+            for (auto edge = std::ranges::lower_bound(edges, std::pair{id, Id(0)});
+                 edge != edges.end() && edge->first == id; ++edge)
+                waiting.push_back(edge->second);
+        }
+    }
+    return faults;
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/rules.h"
+
+#include "shared/scene/gltf/properties.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const std::string& who, const std::string& why) {
+    throw std::runtime_error(who + ": " + why);
+}
+
+const Json::json_pointer& lightsPlace() {
+    static const Json::json_pointer place("/extensions/KHR_lights_punctual/lights");
+    return place;
+}
+
+void checkAccessor(const Json& accessor, const std::string& who) {
+    constexpr std::array types{5120, 5121, 5122, 5123, 5125, 5126};
+    const auto type = accessor["componentType"].get<std::int64_t>();
+    if (std::ranges::find(types, type) == types.end())
+        fail(who, fmt::format("componentType {} is none of glTF's", type));
+    if (accessor.contains("sparse") && accessor["sparse"]["count"] > accessor["count"])
+        fail(who, fmt::format("{} sparse elements of {}", accessor["sparse"]["count"].dump(),
+                              accessor["count"].dump()));
+}
+
+// What must be above 0 and is 0 where an exporter means that there is none.
+void leaveOutZero(Json& item, const char* key, const std::string& who, NoteList& notes) {
+    if (!item.contains(key) || item[key] != 0) return;
+    notes.add(fmt::format("{}: {} 0: taken as none", who, key));
+    item.erase(key);
+}
+
+// What reads a bufferView.
+struct Readers {
+    std::set<std::int64_t> index_bytes;  // sizes of the indices that lie in it
+    bool others = false;
+};
+
+// Readers of the views that have a stride, by bufferView.
+std::map<std::size_t, Readers> readersOf(const Json& document,
+                                         const std::map<std::size_t, std::int64_t>& strides) {
+    std::map<std::size_t, Readers> readers;
+    if (!document.contains("accessors")) return readers;
+    const Json& accessors = document["accessors"];
+    std::vector<bool> isIndices(accessors.size(), false);
+    // Broken meshes may hold anything.
+    const auto mark = [&](const Json& mesh) {
+        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) return;
+        for (const Json& primitive : mesh["primitives"]) {
+            if (!primitive.is_object()) continue;
+            const auto at = primitive.find("indices");
+            if (at != primitive.end() && at->is_number_integer() && *at >= 0 && *at < accessors.size())
+                isIndices[at->get<std::size_t>()] = true;
+        }
+    };
+    if (document.contains("meshes"))
+        for (const Json& mesh : document["meshes"]) mark(mesh);
+    for (std::size_t i = 0; i < accessors.size(); ++i) {
+        const Json& a = accessors[i];
+        if (!a.is_object() || !a.contains("bufferView") || !a["bufferView"].is_number_integer()) continue;
+        const auto view = a["bufferView"].get<std::int64_t>();
+        if (view < 0 || !strides.contains(static_cast<std::size_t>(view))) continue;
+        Readers& r = readers[static_cast<std::size_t>(view)];
+        const Json type = a.value("componentType", Json());
+        if (isIndices[i] && type.is_number_integer())
+            r.index_bytes.insert(type == 5125 ? 4 : type == 5123 ? 2 : 1);
+        else
+            r.others = true;
+    }
+    return readers;
+}
+
+}  // namespace
+
+void checkRules(std::string_view collection, Json& item, const std::string& who, NoteList& notes) {
+    if (collection == "accessors") return checkAccessor(item, who);
+    if (collection == "nodes" && item.contains("matrix") &&
+        (item.contains("translation") || item.contains("rotation") || item.contains("scale")))
+        notes.add(who + ": a matrix beside translation, rotation or scale: the matrix counts");
+    // A camera and a spot light bring an object that their type names.
+    if (collection == "cameras") {
+        const std::string& type = item["type"].get_ref<const std::string&>();
+        if (!item.contains(type)) fail(who, fmt::format("is {0}, but has no {0}", type));
+        if (type == "perspective") leaveOutZero(item["perspective"], "zfar", who, notes);
+    }
+    if (collection == "KHR_lights_punctual") {
+        if (item["type"] == "spot" && !item.contains("spot")) fail(who, "is spot, but has no spot");
+        leaveOutZero(item, "range", who, notes);
+    }
+}
+
+// Source: Khronos, glTF 2.0 Specification, 2021, 5.11.4 and 3.6.2.4.
+void checkStrides(Json& document, References& references, NoteList& notes) {
+    if (!document.contains("bufferViews")) return;
+    Json& views = document["bufferViews"];
+    std::map<std::size_t, std::int64_t> strides;
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (views[i].is_object() && views[i].contains("byteStride") &&
+            views[i]["byteStride"].is_number_integer())
+            strides[i] = views[i]["byteStride"].get<std::int64_t>();
+    if (strides.empty()) return;
+    const std::map<std::size_t, Readers> readers = readersOf(document, strides);
+    for (const auto& [view, stride] : strides) {
+        const std::string who = fmt::format("bufferView {}", view);
+        const auto at = readers.find(view);
+        const Readers read = at == readers.end() ? Readers{} : at->second;
+        if (stride == 0) {
+            notes.add(who + ": byteStride 0: taken as packed");
+            views[view].erase("byteStride");
+        } else if (!read.index_bytes.empty()) {
+            if (read.index_bytes != std::set{stride})
+                references.broken(
+                    "bufferViews", view,
+                    fmt::format("{}: byteStride {}, but indices are packed: {} byte{} each", who, stride,
+                                *read.index_bytes.begin(), *read.index_bytes.begin() == 1 ? "" : "s"));
+            else
+                notes.add(fmt::format("{}: byteStride {} of packed indices: ignored", who, stride));
+            if (!read.others) views[view].erase("byteStride");
+        } else if (stride < 4) {
+            references.broken("bufferViews", view,
+                              fmt::format("{}: byteStride is {}, not from 4 to 252", who, stride));
+        } else if (stride % 4 != 0) {
+            references.broken("bufferViews", view,
+                              fmt::format("{}: byteStride {} is no multiple of 4", who, stride));
+        }
+    }
+}
+
+namespace {
+
+Json emptyItem(std::string_view collection) {
+    if (collection == "accessors") return {{"componentType", 5126}, {"count", 0}, {"type", "SCALAR"}};
+    if (collection == "animations") return {{"channels", Json::array()}, {"samplers", Json::array()}};
+    if (collection == "bufferViews") return {{"buffer", 0}, {"byteLength", 0}};
+    if (collection == "buffers") return {{"byteLength", 0}, {"uri", "data:,"}};
+    if (collection == "cameras")
+        return {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 1.0}}}};
+    if (collection == "KHR_lights_punctual") return {{"type", "point"}};
+    if (collection == "meshes") return {{"primitives", Json::array()}};
+    if (collection == "skins") return {{"joints", Json::array()}};
+    return Json::object();
+}
+
+}  // namespace
+
+void leaveOutUnusable(Json& document, const References& references, NoteList& notes) {
+    std::set<std::int64_t> cameras, skins;
+    for (const References::Fault& fault : references.unusable()) {
+        const bool light = fault.collection == "KHR_lights_punctual";
+        Json& items = light ? document[lightsPlace()] : document[std::string(fault.collection)];
+        items[fault.item] = emptyItem(fault.collection);
+        if (fault.collection == "cameras") cameras.insert(static_cast<std::int64_t>(fault.item));
+        if (fault.collection == "skins") skins.insert(static_cast<std::int64_t>(fault.item));
+        notes.add(fault.cause ? fault.line + ": left out"
+                              : fmt::format("{} {}: left out, it needs {}",
+                                            light ? "light" : schema::itemOf(fault.collection), fault.item,
+                                            fault.line));
+    }
+    if ((cameras.empty() && skins.empty()) || !document.contains("nodes")) return;
+    for (Json& node : document["nodes"]) {
+        if (node.contains("camera") && cameras.contains(node["camera"].get<std::int64_t>()))
+            node.erase("camera");
+        if (node.contains("skin") && skins.contains(node["skin"].get<std::int64_t>())) node.erase("skin");
+    }
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/schema.h"
+
+#include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/properties.h"
+#include "shared/scene/gltf/references.h"
+#include "shared/scene/gltf/rules.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+using schema::Kind;
+using schema::Property;
+
+// Where the walk is: "mesh 0, primitive 1: attributes". Put into words only where something is wrong.
+struct Where {
+    const Where* outer = nullptr;
+    std::string_view what = {};
+    std::size_t item = none;
+
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+    std::string words() const {
+        if (what.empty()) return {};
+        std::string text = outer ? outer->words() : std::string();
+        if (!text.empty()) text += item == none ? ": " : ", ";
+        text += what;
+        if (item != none) text += fmt::format(" {}", item);
+        return text;
+    }
+};
+
+[[noreturn]] void fail(const Where& where, const std::string& why) {
+    const std::string words = where.words();
+    throw std::runtime_error(words.empty() ? why : words + ": " + why);
+}
+
+// A value as a line shows it.
+std::string quoted(const Json& value) {
+    switch (value.type()) {
+        case Json::value_t::object:
+            return "an object";
+        case Json::value_t::array:
+            return "an array";
+        case Json::value_t::string:
+            return fmt::format("\"{}\"", oneLine(value.get_ref<const std::string&>()));
+        default:
+            return value.dump();
+    }
+}
+
+class Walk {
+public:
+    explicit Walk(const Json& document) : references(document) {}
+
+    References references;
+    std::set<std::string> met_extensions;
+    std::map<std::string, std::string> misplaced;  // where
+    NoteList notes{"objects"};
+
+    // Takes out what is not read and checks the rest.
+    void object(Json& value, std::span<const Property> properties, const Where& where) {
+        if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
+        for (auto at = value.begin(); at != value.end();) {
+            const auto property = std::ranges::find(properties, at.key(), &Property::key);
+            if (property == properties.end() && at.key() == "extensions") leaveOut(at.value(), where);
+            if (property == properties.end() || isAbsent(at.value(), *property, where)) {
+                at = value.erase(at);
+                continue;
+            }
+            check(at.value(), *property, where);
+            ++at;
+        }
+        for (const Property& property : properties)
+            if (property.required && !value.contains(property.key))
+                fail(where, fmt::format("has no {}", property.key));
+    }
+
+private:
+    void note(const Where& where, const std::string& what) {
+        const std::string words = where.words();
+        notes.add(words.empty() ? what : words + ": " + what);
+    }
+
+    // Extensions of an object that has none which are read.
+    void leaveOut(const Json& extensions, const Where& where) {
+        if (!extensions.is_object()) return;
+        for (const auto& extension : extensions.items()) met(extension.key(), false, where);
+    }
+
+    void met(const std::string& extension, bool read, const Where& where) {
+        const std::string name = oneLine(extension);
+        met_extensions.insert(name);
+        if (!read && !misplaced.contains(name)) misplaced[name] = where.words();
+    }
+
+    // Exporters write null for what they do not have, and numbers where people expect names: neither is
+    // needed to draw.
+    bool isAbsent(const Json& value, const Property& p, const Where& where) {
+        if (value.is_null()) {
+            note(where, fmt::format("{} is null: taken as absent", p.key));
+            return true;
+        }
+        if (p.kind != Kind::name || p.required || value.is_string()) return false;
+        note(where, fmt::format("{} is {}, not text: left out", p.key, quoted(value)));
+        return true;
+    }
+
+    void check(Json& value, const Property& p, const Where& where) {
+        switch (p.kind) {
+            case Kind::whole:
+                return whole(value, p, where);
+            case Kind::number:
+                return number(value, p, where);
+            case Kind::flag:
+                if (!value.is_boolean()) wrong(value, p.key, "true or false", where);
+                return;
+            case Kind::text:
+                return text(value, p, where);
+            case Kind::name:
+                if (!value.is_string()) wrong(value, p.key, "text", where);
+                value = oneLine(value.get_ref<const std::string&>());
+                return;
+            case Kind::numbers:
+                return numbers(value, p, where);
+            case Kind::index:
+                return index(value, p.key, p.of, where);
+            case Kind::indices:
+                for (Json& item : array(value, p, where)) index(item, p.key, p.of, where);
+                return;
+            case Kind::names:
+                for (Json& item : array(value, p, where))
+                    if (!item.is_string()) wrong(item, p.key, "text", where);
+                return;
+            case Kind::attributes:
+                return attributes(value, p, {&where, p.key});
+            case Kind::attribute_sets:
+                for (std::size_t i = 0; Json & item : array(value, p, where))
+                    attributes(item, p, {&where, "morph target", i++});
+                return;
+            case Kind::object:
+                return object(value, p.properties, {&where, p.key});
+            case Kind::objects:
+                return objects(array(value, p, where), p, where);
+            case Kind::extensions:
+                return extensions(value, p, where);
+        }
+    }
+
+    // An item of the document's own collections that is wrong may be one that nobody needs.
+    void objects(Json& value, const Property& p, const Where& where) {
+        const std::string_view collection = p.of == "light" ? "KHR_lights_punctual" : p.key;
+        const bool items = !references.inside();
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (!items) {
+                object(value[i], p.properties, {&where, p.of, i});
+                continue;
+            }
+            const Where here{p.of == "light" ? nullptr : &where, p.of, i};
+            references.enter(collection, i);
+            try {
+                object(value[i], p.properties, here);
+                checkRules(collection, value[i], here.words(), notes);
+            } catch (const std::runtime_error& e) {
+                references.broken(collection, i, e.what());
+            }
+            references.leave();
+        }
+    }
+
+    [[noreturn]] static void wrong(const Json& value, std::string_view key, std::string_view expected,
+                                   const Where& where) {
+        fail(where, fmt::format("{} is {}, not {}", key, quoted(value), expected));
+    }
+
+    static Json& array(Json& value, const Property& p, const Where& where) {
+        if (!value.is_array()) wrong(value, p.key, "an array", where);
+        return value;
+    }
+
+    // In range, whatever the type that it is written in.
+    static void range(const Json& value, std::string_view key, const Property& p, const Where& where) {
+        const double v = value.get<double>();
+        if (v >= p.min && v <= p.max) return;
+        const bool bounded = p.max < std::numeric_limits<int>::max();
+        wrong(value, key,
+              bounded     ? fmt::format("from {} to {}", p.min, p.max)
+              : v < p.min ? fmt::format("at least {}", p.min)
+                          : fmt::format("at most {}", p.max),
+              where);
+    }
+
+    static void number(const Json& value, const Property& p, const Where& where) {
+        if (!value.is_number()) wrong(value, p.key, "a number", where);
+        range(value, p.key, p, where);
+    }
+
+    static void whole(Json& value, const Property& p, const Where& where) {
+        if (!value.is_number()) wrong(value, p.key, "a whole number", where);
+        const double v = value.get<double>();
+        if (v != std::floor(v)) wrong(value, p.key, "a whole number", where);
+        range(value, p.key, p, where);
+        value = static_cast<std::int64_t>(v);
+    }
+
+    static void text(const Json& value, const Property& p, const Where& where) {
+        if (!value.is_string()) wrong(value, p.key, "text", where);
+        if (p.choices.empty()) return;
+        const std::string& text = value.get_ref<const std::string&>();
+        if (text.find(' ') != text.npos ||
+            fmt::format(" {} ", p.choices).find(fmt::format(" {} ", text)) == std::string::npos)
+            wrong(value, p.key, fmt::format("one of {}", p.choices), where);
+    }
+
+    static void numbers(Json& value, const Property& p, const Where& where) {
+        array(value, p, where);
+        if (value.size() < p.least || value.size() > p.most)
+            fail(where, fmt::format("{} has {} numbers, not {}", p.key, value.size(), p.least));
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            const auto key = [&] { return fmt::format("{}[{}]", p.key, i); };
+            if (!value[i].is_number()) wrong(value[i], key(), "a number", where);
+            const double v = value[i].get<double>();
+            if (!(v >= p.min && v <= p.max)) range(value[i], key(), p, where);
+        }
+    }
+
+    // What an index names; without a collection it may be any number. A node draws without its skin and
+    // without its camera.
+    void index(Json& value, std::string_view key, std::string_view of, const Where& where) {
+        if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
+            wrong(value, key, "an index", where);
+        const double v = value.get<double>();
+        const std::size_t count = of.empty() ? std::numeric_limits<int>::max() : references.count(of);
+        if (!(v >= 0 && v < static_cast<double>(count))) {
+            const std::string_view one = of == "KHR_lights_punctual" ? "light" : schema::itemOf(of);
+            fail(where,
+                 fmt::format("{}{} {}, but the file has {}", key == one ? "" : fmt::format("{} names ", key),
+                             one, value.dump(), count));
+        }
+        value = static_cast<std::int64_t>(v);
+        if (!of.empty() && of != "skins" && of != "cameras")
+            references.names(of, static_cast<std::size_t>(v));
+    }
+
+    void attributes(Json& value, const Property& p, const Where& where) {
+        if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
+        for (auto at = value.begin(); at != value.end();) {
+            const std::string name = oneLine(at.key());
+            if (name != at.key()) fail(where, fmt::format("{} is no name of an attribute", name));
+            if (at.value().is_null()) {
+                note(where, name + " is null: taken as absent");
+                at = value.erase(at);
+                continue;
+            }
+            index(at.value(), name, p.of, where);
+            ++at;
+        }
+    }
+
+    void extensions(Json& value, const Property& p, const Where& where) {
+        if (!value.is_object()) wrong(value, p.key, "an object", where);
+        for (auto at = value.begin(); at != value.end();) {
+            const auto property = std::ranges::find(p.properties, at.key(), &Property::key);
+            met(at.key(), property != p.properties.end(), where);
+            if (property == p.properties.end() || isAbsent(at.value(), *property, where)) {
+                at = value.erase(at);
+                continue;
+            }
+            check(at.value(), *property, where);
+            ++at;
+        }
+    }
+};
+
+}  // namespace
+
+Schema applySchema(nlohmann::json& document) {
+    Walk walk(document);
+    walk.object(document, schema::document, {});
+    checkStrides(document, walk.references, walk.notes);
+    leaveOutUnusable(document, walk.references, walk.notes);
+    if (const auto used = document.find("extensionsUsed"); used != document.end())
+        for (const Json& name : *used)
+            walk.met_extensions.insert(oneLine(name.get_ref<const std::string&>()));
+    Schema found{std::move(walk.met_extensions), std::move(walk.misplaced), {}};
+    walk.notes.moveTo(found.notes);
+    return found;
+}
+
+}  // namespace diptych::gltf

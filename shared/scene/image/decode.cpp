@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/image/decode.h"
+
+#include "shared/image/limits.h"
+#include "shared/scene/image/codecs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+namespace diptych {
+
+namespace {
+
+constexpr std::int64_t maxSide = limits::texture_side;
+
+bool beginsWith(std::span<const unsigned char> encoded, std::span<const unsigned char> signature) {
+    return encoded.size() > signature.size() &&
+           std::equal(signature.begin(), signature.end(), encoded.begin());
+}
+
+// What a file of another kind is called; empty: nobody knows. Sources: W3C, GIF89a; Google, WebP container;
+// Khronos, KTX and KTX 2.0; Adobe, TIFF 6.0; ISO/IEC 23008-12 and AOM, AVIF; Microsoft, BITMAPFILEHEADER and
+// DDS.
+std::string_view otherKind(std::span<const unsigned char> encoded) {
+    const std::string_view text(reinterpret_cast<const char*>(encoded.data()), encoded.size());
+    const auto brand = [&](std::string_view name) { return text.substr(4, 8) == name; };
+    if (text.starts_with("GIF87a") || text.starts_with("GIF89a")) return "GIF";
+    if (text.starts_with("RIFF") && text.size() >= 12 && text.substr(8, 4) == "WEBP") return "WebP";
+    if (text.starts_with("\xabKTX 20\xbb\r\n\x1a\n")) return "KTX2";
+    if (text.starts_with("\xabKTX 11\xbb\r\n\x1a\n")) return "KTX";
+    if (text.starts_with(std::string_view("II*\0", 4)) || text.starts_with(std::string_view("MM\0*", 4)))
+        return "TIFF";
+    if (text.size() >= 12 && (brand("ftypavif") || brand("ftypavis"))) return "AVIF";
+    if (text.starts_with("DDS ")) return "DDS";
+    // Two letters are any text: the reserved words of the header are 0.
+    if (text.starts_with("BM") && text.size() >= 14 && text.substr(6, 4) == std::string_view("\0\0\0\0", 4))
+        return "BMP";
+    return {};
+}
+
+}  // namespace
+
+ImageHeader imageHeader(std::span<const unsigned char> encoded) {
+    constexpr std::array<unsigned char, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    constexpr std::array<unsigned char, 3> jpeg{0xff, 0xd8, 0xff};
+    const bool isPng = beginsWith(encoded, png);
+    if (!isPng && !beginsWith(encoded, jpeg)) {
+        const std::string_view kind = otherKind(encoded);
+        throw std::runtime_error(kind.empty() ? "is neither PNG nor JPEG"
+                                              : fmt::format("is {}; PNG and JPEG are read", kind));
+    }
+    const ImageHeader header = isPng ? codec::readPngHeader(encoded) : codec::readJpegHeader(encoded);
+    const std::int64_t width = header.width, height = header.height;
+    if (width < 1 || height < 1 || width > maxSide || height > maxSide)
+        throw std::runtime_error(
+            fmt::format("is {} x {} pixels: from 1 to {} a side are read", width, height, maxSide));
+    if (width * height / header.pixels_per_byte > static_cast<std::int64_t>(encoded.size()))
+        throw std::runtime_error(fmt::format("claims {} x {} pixels, which its {} bytes cannot hold", width,
+                                             height, encoded.size()));
+    return header;
+}
+
+TextureImage decodeImage(std::span<const unsigned char> encoded) {
+    const ImageHeader header = imageHeader(encoded);
+    TextureImage image;
+    image.width = static_cast<int>(header.width);
+    image.height = static_cast<int>(header.height);
+    unsigned char* pixels = nullptr;
+    if (header.deep) {
+        image.rgba16.resize(header.bytes() / 2);
+        pixels = reinterpret_cast<unsigned char*>(image.rgba16.data());
+    } else {
+        image.rgba.resize(header.bytes());
+        pixels = image.rgba.data();
+    }
+    (header.kind == ImageHeader::Kind::png ? codec::decodePng : codec::decodeJpeg)(encoded, header, pixels);
+    return image;
+}
+
+}  // namespace diptych

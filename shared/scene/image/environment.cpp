@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/image/environment.h"
+
+#include "shared/image/picture_file.h"
+#include "shared/scene/image/radiance_layer.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace diptych {
+
+Environment readEnvironment(const std::filesystem::path& file, std::vector<std::string>& notes) {
+    const PictureFile picture = readPicture(file);
+    const std::string name = file.string();
+    if (picture.display_referred)
+        throw std::runtime_error(
+            fmt::format("{}: is a {} of display colours, and an environment is radiance: give an OpenEXR or "
+                        "Radiance HDR file",
+                        name, picture.format));
+    const std::string where = "environment " + oneLine(name);
+    Environment environment{name, named(name, [&] { return radianceOf(picture, where, notes); })};
+    if (picture.width != 2 * picture.height)
+        notes.push_back(fmt::format("{}: {} x {} pixels, not twice as wide as high: taken as all directions",
+                                    where, picture.width, picture.height));
+    return environment;
+}
+
+}  // namespace diptych

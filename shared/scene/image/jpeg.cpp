@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/image/codecs.h"
+
+#include <cstdio>  // jpeglib.h needs it
+
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <array>
+#include <csetjmp>
+#include <stdexcept>
+
+namespace diptych::codec {
+
+namespace {
+
+// Every scan of a progressive file runs over all of its pixels, and a few bytes make a scan: so many
+// pixel-scans are followed, 16 scans of the largest image. Encoders make about ten.
+constexpr std::int64_t maxScannedPixels = std::int64_t{16} << 28;
+
+// libjpeg's way out of an error is a longjmp: nothing between setjmp and here may own anything.
+struct Errors {
+    jpeg_error_mgr manager;  // first: libjpeg hands its address back
+    std::jmp_buf out;
+    std::array<char, JMSG_LENGTH_MAX> message{};
+};
+
+[[noreturn]] void giveUp(j_common_ptr jpeg) {
+    auto& errors = *reinterpret_cast<Errors*>(jpeg->err);
+    (*jpeg->err->format_message)(jpeg, errors.message.data());
+    std::longjmp(errors.out, 1);
+}
+
+// libjpeg warns of lost pixels, and goes on with grey ones: not here. Other warnings lose nothing.
+void onMessage(j_common_ptr jpeg, int level) {
+    if (level >= 0) return;
+    switch (jpeg->err->msg_code) {
+        case JWRN_ADOBE_XFORM:
+        case JWRN_EXTRANEOUS_DATA:
+        case JWRN_JFIF_MAJOR:
+        case JWRN_TOO_MUCH_DATA:
+            return;
+        default:
+            giveUp(jpeg);
+    }
+}
+
+void onOutput(j_common_ptr) {}
+
+void onProgress(j_common_ptr common) {
+    const auto& jpeg = *reinterpret_cast<j_decompress_ptr>(common);
+    const std::int64_t pixels = std::int64_t{jpeg.image_width} * std::int64_t{jpeg.image_height};
+    if (std::max<std::int64_t>(pixels, 1 << 20) * jpeg.input_scan_number <= maxScannedPixels) return;
+    auto& errors = *reinterpret_cast<Errors*>(common->err);
+    std::snprintf(errors.message.data(), errors.message.size(), "it has %d scans or more",
+                  jpeg.input_scan_number);
+    std::longjmp(errors.out, 1);
+}
+
+// A decompressor that is made and destroyed with its scope; setjmp goes after it.
+class Decompressor {
+public:
+    explicit Decompressor(Bytes encoded) {
+        jpeg.err = jpeg_std_error(&errors.manager);
+        errors.manager.error_exit = giveUp;
+        errors.manager.emit_message = onMessage;
+        errors.manager.output_message = onOutput;
+        encoded_ = encoded;
+    }
+    ~Decompressor() { jpeg_destroy_decompress(&jpeg); }
+    Decompressor(const Decompressor&) = delete;
+    Decompressor& operator=(const Decompressor&) = delete;
+
+    // Up to the first scan; may jump.
+    void begin() {
+        jpeg_create_decompress(&jpeg);
+        jpeg_mem_src(&jpeg, encoded_.data(), static_cast<unsigned long>(encoded_.size()));
+        progress_.progress_monitor = onProgress;
+        jpeg.progress = &progress_;
+        jpeg_read_header(&jpeg, TRUE);
+    }
+
+    Errors errors{};
+    jpeg_decompress_struct jpeg{};
+
+private:
+    Bytes encoded_;
+    jpeg_progress_mgr progress_{};
+};
+
+bool isFourColour(const jpeg_decompress_struct& jpeg) {
+    return jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK;
+}
+
+bool readHeader(Decompressor& d) {
+    if (setjmp(d.errors.out)) return false;
+    d.begin();
+    return true;
+}
+
+// Red, green and blue of four inks, of which Adobe's files store what is left of the light.
+void lightOfInks(unsigned char* row, std::size_t pixels, bool inverted) {
+    for (unsigned char* p = row; p < row + 4 * pixels; p += 4) {
+        const int black = inverted ? p[3] : 255 - p[3];
+        for (int c = 0; c < 3; ++c) {
+            const int ink = inverted ? p[c] : 255 - p[c];
+            p[c] = static_cast<unsigned char>((ink * black + 127) / 255);
+        }
+        p[3] = 255;
+    }
+}
+
+bool decode(Decompressor& d, const ImageHeader& header, unsigned char* pixels) {
+    if (setjmp(d.errors.out)) return false;
+    d.begin();
+    const bool inks = isFourColour(d.jpeg);
+    d.jpeg.out_color_space = inks ? JCS_CMYK : JCS_EXT_RGBA;
+    jpeg_start_decompress(&d.jpeg);
+    if (d.jpeg.output_width != header.width || d.jpeg.output_height != header.height)
+        ERREXIT(&d.jpeg, JERR_IMAGE_TOO_BIG);
+    const std::size_t row = 4 * static_cast<std::size_t>(header.width);
+    while (d.jpeg.output_scanline < d.jpeg.output_height) {
+        unsigned char* line = pixels + d.jpeg.output_scanline * row;
+        jpeg_read_scanlines(&d.jpeg, &line, 1);
+        if (inks) lightOfInks(line, d.jpeg.output_width, d.jpeg.saw_Adobe_marker != 0);
+    }
+    return true;
+}
+
+}  // namespace
+
+ImageHeader readJpegHeader(Bytes encoded) {
+    Decompressor d(encoded);
+    if (!readHeader(d)) failDecoding(d.errors.message.data());
+    if (d.jpeg.arith_code) throw std::runtime_error("is a JPEG with arithmetic coding: not read");
+    if (d.jpeg.jpeg_color_space == JCS_UNKNOWN)
+        throw std::runtime_error("is a JPEG that is neither grey, RGB, YCbCr, CMYK nor YCCK: not read");
+    // A block of 8 x 8 takes a bit at least, and sampling factors of 4x1, 1x4 and 1x1 spread nine blocks over
+    // 32 x 32 pixels: 910 a byte.
+    constexpr std::int64_t pixelsPerByte = 1024;
+    return {ImageHeader::Kind::jpeg, d.jpeg.image_width, d.jpeg.image_height, false, pixelsPerByte};
+}
+
+void decodeJpeg(Bytes encoded, const ImageHeader& header, unsigned char* pixels) {
+    Decompressor d(encoded);
+    if (!decode(d, header, pixels)) failDecoding(d.errors.message.data());
+}
+
+}  // namespace diptych::codec

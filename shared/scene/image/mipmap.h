@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/scene/model/scene.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// RGBA texels as a device samples them: 8 bits of sRGB (alpha linear), 8 or 16 bits of linear 0 to 1, linear
+// floats of 16 or 32 bits.
+enum class Texels { srgb8, linear8, linear16, float16, float32 };
+
+std::size_t bytesPerTexel(Texels texels);
+
+// The whole mip chain of an image, level 0 first, down to 1x1, each level half the one before, rounded down
+// (Vulkan's sizes). Averages are made in linear light: with `srgb` the colour components of the image are
+// sRGB, alpha never is. Odd sizes are weighted by area, so no texel is left out. Every level is averaged from
+// the one before it unrounded: rounding happens once, on the way out. Level 0 of 8 bits, of linear16 and of
+// floats as float32 is the image's own memory, which must outlive the chain.
+class MipChain {
+public:
+    // An image of 8 bits becomes srgb8 or linear8, one of 16 bits one of the other three, one of floats
+    // float32 or float16, which ends at 65504.
+    MipChain(const TextureImage& image, bool srgb, Texels texels);
+
+    const std::string& name() const { return name_; }
+    Texels texels() const { return texels_; }
+    std::size_t count() const { return levels_.size(); }
+    int width(std::size_t level = 0) const;
+    int height(std::size_t level = 0) const;
+    std::span<const std::byte> level(std::size_t i) const {
+        return i == 0 && levels_[0].empty() ? image_ : levels_[i];
+    }
+
+private:
+    std::string name_;
+    Texels texels_;
+    int width_, height_;
+    std::span<const std::byte> image_;
+    std::vector<std::vector<std::byte>> levels_;  // the first is empty where image_ is level 0
+};
+
+}  // namespace diptych

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/lights/lights_json.h"
+
+#include "shared/image/file_bytes.h"
+#include "shared/scene/lights/json_fields.h"
+#include "shared/scene/model/axes.h"
+#include "shared/text/json.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::pair<LightKind, std::string_view> types[] = {
+    {LightKind::point, "point"}, {LightKind::spot, "spot"}, {LightKind::directional, "directional"},
+    {LightKind::rect, "rect"},   {LightKind::disc, "disc"}, {LightKind::tube, "tube"}};
+
+// Keys that not all types have, and those that have them.
+struct OwnKey {
+    std::string_view key;
+    std::vector<LightKind> kinds;
+};
+const OwnKey ownKeys[] = {{"angle", {LightKind::directional}},
+                          {"spot", {LightKind::spot}},
+                          {"innerConeAngle", {LightKind::spot}},
+                          {"outerConeAngle", {LightKind::spot}},
+                          {"size", {LightKind::rect}},
+                          {"axis", {LightKind::rect, LightKind::tube}},
+                          {"twoSided", {LightKind::rect, LightKind::disc}},
+                          {"radius", {LightKind::disc, LightKind::tube}},
+                          {"length", {LightKind::tube}}};
+
+constexpr double any = std::numeric_limits<double>::max();
+// Squares of what is smaller, as of what is beyond maxCoordinate, are no float32.
+constexpr double leastSize = 1 / maxCoordinate;  // m
+constexpr double rounding = 1e-6;                // a rounded pi is one
+
+std::string_view typeOf(LightKind kind) {
+    for (const auto& [candidate, name] : types)
+        if (candidate == kind) return name;
+    return "?";
+}
+
+LightKind kindOf(const JsonFields& fields) {
+    const std::string type = fields.text("type", "");
+    for (const auto& [kind, name] : types)
+        if (type == name) return kind;
+    std::vector<std::string_view> names;
+    for (const auto& [kind, name] : types) names.push_back(name);
+    const std::string all = fmt::format("{}", fmt::join(names, ", "));
+    fields.fail("type", type.empty() ? "is missing: one of " + all
+                                     : fmt::format("\"{}\" is none of {}", oneLine(type), all));
+}
+
+void checkKeys(const JsonFields& fields, LightKind kind) {
+    std::vector<std::string_view> known{"type",  "name",      "position", "direction",
+                                        "color", "intensity", "range",    "importance"};
+    for (const OwnKey& own : ownKeys) {
+        known.push_back(own.key);
+        if (std::ranges::count(own.kinds, kind) > 0 || !fields.find(own.key)) continue;
+        std::vector<std::string_view> owners;
+        for (const LightKind owner : own.kinds) owners.push_back(typeOf(owner));
+        fields.fail(own.key, fmt::format("belongs to {} lights, and this is a {} one",
+                                         fmt::join(owners, " and "), typeOf(kind)));
+    }
+    fields.knownOnly(known, "a light");
+}
+
+void readCone(const JsonFields& fields, Light& light) {
+    constexpr double right = glm::half_pi<double>();
+    const double inner = fields.number("innerConeAngle", static_cast<double>(light.inner_cone), 0, any);
+    const double outer = fields.number("outerConeAngle", static_cast<double>(light.outer_cone), 0, any);
+    if (outer > right + rounding) fields.fail("outerConeAngle", fmt::format("{:g} is beyond pi / 2", outer));
+    if (!(static_cast<float>(inner) < static_cast<float>(outer)))
+        fields.fail("innerConeAngle", fmt::format("{:g} is not below outerConeAngle {:g}", inner, outer));
+    light.inner_cone = static_cast<float>(inner);
+    light.outer_cone = static_cast<float>(std::min(outer, right));
+}
+
+float sizeIn(const JsonFields& fields, std::string_view key, float fallback) {
+    return static_cast<float>(fields.number(key, static_cast<double>(fallback), leastSize, maxCoordinate));
+}
+
+glm::dvec3 levelAxis(const glm::dvec3& direction) {
+    const glm::dvec3 right = glm::cross(direction, glm::dvec3(0, 1, 0));
+    return glm::length(right) > rounding ? glm::normalize(right) : glm::dvec3(1, 0, 0);
+}
+
+// At right angles to the direction, of a tube only where none is given.
+glm::dvec3 axisOf(const JsonFields& fields, const Light& light) {
+    const glm::dvec3 axis = fields.unit("axis", levelAxis(light.direction));
+    if (light.kind == LightKind::tube && fields.find("axis")) return axis;
+    const glm::dvec3 across = axis - glm::dot(axis, light.direction) * light.direction;
+    if (!(glm::length(across) > rounding)) fields.fail("axis", "is parallel to direction");
+    return glm::normalize(across);
+}
+
+void readShape(const JsonFields& fields, Light& light) {
+    std::array size{static_cast<double>(light.width), static_cast<double>(light.height)};
+    fields.numbers("size", size);
+    for (const double side : size) fields.within("size", side, leastSize, maxCoordinate);
+    light.width = static_cast<float>(size[0]);
+    light.height = static_cast<float>(size[1]);
+    light.radius = sizeIn(fields, "radius", light.radius);
+    light.length = sizeIn(fields, "length", light.length);
+    light.two_sided = fields.flag("twoSided", light.two_sided);
+    light.axis = axisOf(fields, light);
+}
+
+std::vector<Light> readDocument(const Json& document) {
+    if (!document.is_object() || !document.contains("lights") || !document["lights"].is_array())
+        throw std::runtime_error("is not { \"lights\": [ ... ] }");
+    std::vector<Light> lights;
+    for (const Json& object : document["lights"])
+        lights.push_back(lightFromJson(object, fmt::format("light {}", lights.size())));
+    return lights;
+}
+
+}  // namespace
+
+Importance importanceOf(const JsonFields& fields) {
+    constexpr std::pair<Importance, std::string_view> words[] = {
+        {Importance::automatic, "auto"},
+        {Importance::important, "important"},
+        {Importance::not_important, "not_important"}};
+    const std::string word = fields.text("importance", "auto");
+    for (const auto& [importance, name] : words)
+        if (word == name) return importance;
+    fields.fail("importance", fmt::format("\"{}\" is none of auto, important, not_important", oneLine(word)));
+}
+
+float sunAngle(const JsonFields& fields) {
+    const double angle = fields.number("angle", 0, 0, any);
+    if (angle > glm::pi<double>() + rounding) fields.fail("angle", fmt::format("{:g} is beyond pi", angle));
+    return static_cast<float>(std::min(angle, glm::pi<double>()));
+}
+
+Light lightFromJson(const Json& object, const std::string& who) {
+    const JsonFields fields(object, who);
+    Light light;
+    light.kind = kindOf(fields);  // first: it says which keys there may be
+    checkKeys(fields, light.kind);
+    light.name = fields.text("name", "");
+    light.position = fields.vector("position", light.position);
+    for (int c = 0; c < 3; ++c) fields.within("position", light.position[c], -maxCoordinate, maxCoordinate);
+    light.direction = fields.unit("direction", light.direction);
+    light.color = glm::vec3(fields.vector("color", glm::dvec3(light.color)));
+    if (light.color.r < 0 || light.color.g < 0 || light.color.b < 0) fields.fail("color", "is negative");
+    light.intensity = static_cast<float>(fields.number("intensity", 1, 0, any));
+    if (fields.find("range")) {
+        const double range = fields.number("range", 0, 0, any);
+        if (!(static_cast<float>(range) > 0)) fields.fail("range", "is not above 0");
+        if (light.kind != LightKind::directional) light.range = static_cast<float>(range);
+    }
+    if (light.kind == LightKind::directional) light.angle = sunAngle(fields);
+    light.importance = importanceOf(fields);
+    if (isArea(light.kind)) readShape(fields, light);
+    if (light.kind == LightKind::spot) {
+        readCone(fields, light);
+        if (const Json* spot = fields.find("spot")) {
+            const JsonFields cone(*spot, who + ": spot");
+            constexpr std::array<std::string_view, 2> angles{"innerConeAngle", "outerConeAngle"};
+            cone.knownOnly(angles, "a spot");
+            readCone(cone, light);
+        }
+    }
+    return light;
+}
+
+std::vector<Light> lightsFromJson(std::string_view text, const std::string& name) {
+    return named(name, [&] { return readDocument(parseJson(text)); });
+}
+
+std::vector<Light> readLights(const std::filesystem::path& file) {
+    const std::vector<unsigned char> bytes = bytesOf(file);
+    return lightsFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+}
+
+}  // namespace diptych

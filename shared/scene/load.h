@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// From a name to a Scene: a glTF file or a built-in one.
+#pragma once
+
+#include "shared/scene/model/load_progress.h"
+#include "shared/scene/model/scene.h"
+
+#include <string>
+
+namespace diptych {
+
+// `where` is "builtin:NAME[?key=value&...]" or the file name of a .gltf or .glb. Throws
+// std::runtime_error: one line that names file, object and fault. `progress` is told how far
+// loading has come.
+Scene loadScene(const std::string& where, const LoadProgress& progress = {});
+
+}  // namespace diptych

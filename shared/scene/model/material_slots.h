@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// A material's texture slots, in the order of SLOT_*.
+#pragma once
+
+#include "shared/contract/material.h"
+#include "shared/scene/model/scene.h"
+
+#include <array>
+#include <cstddef>
+
+namespace diptych {
+
+struct MaterialSlot {
+    TextureSlot Material::*texture;
+    bool srgb;  // its colour components are sRGB; alpha never is
+};
+
+constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
+    {&Material::base_color_texture, true},
+    {&Material::metallic_roughness_texture, false},
+    {&Material::normal_texture, false},
+    {&Material::occlusion_texture, false},
+    {&Material::emissive_texture, true},
+    {&Material::specular_texture, false},
+    {&Material::specular_color_texture, true},
+    {&Material::lightmap_texture, true},
+}};
+
+// Whether the slot has a texture that can change a pixel: one whose factor is zero cannot, and an unlit
+// material has its base colour alone.
+inline bool readsSlot(const Material& material, std::size_t slot) {
+    if ((material.*materialSlots[slot].texture).texture < 0) return false;
+    if (material.unlit) return slot == gpu::SLOT_base_color;
+    switch (slot) {
+        case gpu::SLOT_normal:
+            return material.normal_scale != 0;
+        case gpu::SLOT_occlusion:
+            return material.occlusion_strength != 0;
+        case gpu::SLOT_emissive:
+            return material.emissive != glm::vec3(0);
+        case gpu::SLOT_lightmap:
+            return material.lightmap_intensity != 0;
+        default:
+            return true;
+    }
+}
+
+inline bool isTransformed(const TextureSlot& slot) {
+    return slot.u != glm::dvec3(1, 0, 0) || slot.v != glm::dvec3(0, 1, 0);
+}
+
+}  // namespace diptych

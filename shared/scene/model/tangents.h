@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/scene/model/scene.h"
+
+namespace diptych {
+
+// Flat normals, as glTF asks for where NORMAL is missing: vertices are split so that every triangle has its
+// own. A triangle without area gets (0, 0, 1).
+void makeFlatNormals(Primitive& primitive);
+
+// Tangents as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008),
+// from positions, normals and the UV set `texcoord`; vertices are split where tangents differ.
+// Without that UV set, every vertex gets a unit tangent perpendicular to its normal, sign +1.
+void makeTangents(Primitive& primitive, int texcoord);
+
+}  // namespace diptych

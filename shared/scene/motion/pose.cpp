@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/motion/pose.h"
+#include "shared/scene/model/axes.h"
+#include "shared/scene/model/scene.h"
+#include "shared/scene/motion/animation.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace diptych {
+
+namespace {
+
+// Every node's transform, parents in any order, chains of any length: each unresolved ancestor waits on a
+// stack until its own parent is known.
+std::vector<glm::dmat4> worldFromNode(const std::vector<Node>& nodes,
+                                      const std::vector<glm::dmat4>& parentFromNode) {
+    std::vector<glm::dmat4> world(nodes.size());
+    std::vector<bool> known(nodes.size(), false);
+    std::vector<std::size_t> waiting;
+    for (std::size_t start = 0; start < nodes.size(); ++start) {
+        for (std::size_t n = start; !known[n];) {
+            waiting.push_back(n);
+            if (nodes[n].parent < 0) break;
+            n = static_cast<std::size_t>(nodes[n].parent);
+        }
+        for (; !waiting.empty(); waiting.pop_back()) {
+            const std::size_t n = waiting.back();
+            const Node& node = nodes[n];
+            world[n] = node.parent < 0 ? parentFromNode[n]
+                                       : world[static_cast<std::size_t>(node.parent)] * parentFromNode[n];
+            known[n] = true;
+        }
+    }
+    return world;
+}
+
+std::vector<glm::dmat4> worldFromNodeAtRest(const std::vector<Node>& nodes) {
+    std::vector<glm::dmat4> parentFromNode;
+    for (const Node& node : nodes) parentFromNode.push_back(node.parent_from_node);
+    return worldFromNode(nodes, parentFromNode);
+}
+
+// A light ignores its node's scale: only where it stands and where it points counts. A node that is
+// squashed along its axis points nowhere; its light keeps -Z.
+Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
+    Light result = light;
+    if (light.node < 0) return result;
+    const glm::dmat4& worldFromLight = world[static_cast<std::size_t>(light.node)];
+    result.position = glm::dvec3(worldFromLight * glm::dvec4(light.position, 1));
+    result.direction = unitOr(glm::dmat3(worldFromLight) * light.direction, {0, 0, -1});
+    // A sheared node's axes are not at right angles; what is left of nearly parallel ones is rounding.
+    const glm::dvec3 axis = unitOr(glm::dmat3(worldFromLight) * light.axis, {1, 0, 0});
+    const glm::dvec3 across = axis - glm::dot(axis, result.direction) * result.direction;
+    result.axis = light.kind == LightKind::tube ? axis
+                  : glm::length(across) > 1e-6  ? glm::normalize(across)
+                                                : perpendicularTo(result.direction);
+    result.node = -1;
+    return result;
+}
+
+// Whether all of what lies within +-extent of the object's origin is where float32 can work with it.
+bool isWithin(const glm::dmat4& worldFromObject, const glm::dvec3& extent) {
+    for (int row = 0; row < 3; ++row) {
+        double reach = std::abs(worldFromObject[3][row]);
+        for (int column = 0; column < 3; ++column) {
+            const double axis = std::abs(worldFromObject[column][row]);
+            if (!(axis <= maxCoordinate)) return false;
+            reach += axis * extent[column];
+        }
+        if (!(reach <= maxCoordinate)) return false;
+    }
+    return true;
+}
+bool isWithin(const glm::dmat4& worldFromObject) {
+    return isWithin(worldFromObject, glm::dvec3(0));
+}
+
+bool hasPlace(const Light& light, const std::vector<glm::dmat4>& world) {
+    return light.node < 0 || isWithin(world[static_cast<std::size_t>(light.node)], glm::abs(light.position));
+}
+bool hasPlace(const Camera& camera, const std::vector<glm::dmat4>& world) {
+    return camera.node < 0 || isWithin(world[static_cast<std::size_t>(camera.node)]);
+}
+
+// In bind pose all joints move a vertex alike, so the first will do; the transform of a skinned mesh's own
+// node counts nothing (glTF 2.0, 3.7.3.3). It does where that joint puts everything nowhere or into a plane.
+glm::dmat4 worldFromPrimitive(const Scene& scene, const std::vector<glm::dmat4>& world, std::size_t node,
+                              const Primitive& primitive) {
+    const int index = scene.nodes[node].skin;
+    if (index < 0 || primitive.joint_sets.empty()) return world[node];
+    const Skin& skin = scene.skins[static_cast<std::size_t>(index)];
+    const glm::dmat4 bound =
+        world[static_cast<std::size_t>(skin.joints[0])] * glm::dmat4(skin.joint_from_mesh[0]);
+    return isWithin(bound) && glm::determinant(glm::dmat3(bound)) != 0 ? bound : world[node];
+}
+
+const std::vector<Primitive>& primitivesOf(const Scene& scene, const Node& node) {
+    static const std::vector<Primitive> none;
+    return node.mesh < 0 ? none : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+}
+
+glm::dvec3 extentOf(const Primitive& primitive) {
+    glm::vec3 extent(0);
+    for (const glm::vec3& p : primitive.positions) extent = glm::max(extent, glm::abs(p));
+    return glm::dvec3(extent);
+}
+
+std::vector<glm::dmat4> worldFromMesh(const Skin& skin, const std::vector<glm::dmat4>& world) {
+    std::vector<glm::dmat4> result;
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+        result.push_back(world[static_cast<std::size_t>(skin.joints[j])] *
+                         glm::dmat4(skin.joint_from_mesh[j]));
+    return result;
+}
+
+// The weights of nodes' morph targets, those of a mesh once for all nodes that have no others.
+class Weights {
+public:
+    Weights(const Scene& scene, NodeMotion& motion, Pose& pose)
+        : scene_(scene), motion_(motion), pose_(pose), place_of_mesh_(scene.meshes.size(), unknown) {}
+
+    // Their place in the pose; -1 where all are 0.
+    int placeOf(int index) {
+        const Node& node = scene_.nodes[static_cast<std::size_t>(index)];
+        if (const auto moved = motion_.weights.find(index); moved != motion_.weights.end())
+            return add(std::move(moved->second));
+        if (node.weights >= 0) return addCopy(scene_.weights[static_cast<std::size_t>(node.weights)]);
+        int& place = place_of_mesh_[static_cast<std::size_t>(node.mesh)];
+        if (place == unknown) place = addCopy(scene_.meshes[static_cast<std::size_t>(node.mesh)].weights);
+        return place;
+    }
+
+private:
+    static constexpr int unknown = -2;
+
+    int addCopy(const std::vector<float>& weights) { return add({weights.begin(), weights.end()}); }
+    int add(std::vector<double> weights) {
+        if (std::ranges::all_of(weights, [](double w) { return w == 0; })) return -1;
+        pose_.weights.push_back(std::move(weights));
+        return static_cast<int>(pose_.weights.size()) - 1;
+    }
+
+    const Scene& scene_;
+    NodeMotion& motion_;
+    Pose& pose_;
+    std::vector<int> place_of_mesh_;
+};
+
+}  // namespace
+
+Pose poseAt(const Scene& scene, double seconds) {
+    NodeMotion motion = motionAt(scene, seconds);
+    const std::vector<glm::dmat4> world = worldFromNode(scene.nodes, motion.parent_from_node);
+    Pose pose;
+    pose.seconds = seconds;
+    for (const Skin& skin : scene.skins) pose.skins.push_back(worldFromMesh(skin, world));
+    Weights weights(scene, motion, pose);
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        const Node& node = scene.nodes[n];
+        const std::vector<Primitive>& primitives = primitivesOf(scene, node);
+        const int placeOfWeights = primitives.empty() ? -1 : weights.placeOf(static_cast<int>(n));
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const glm::dmat4 worldFromObject = worldFromPrimitive(scene, world, n, primitives[p]);
+            // At rest all vertices have been looked at (leaveOutWhatIsBeyond).
+            const glm::dvec3 extent = scene.animations.empty() ? glm::dvec3(0) : extentOf(primitives[p]);
+            if (!isWithin(worldFromObject, extent)) continue;
+            pose.instances.push_back({.mesh = node.mesh,
+                                      .primitive = static_cast<int>(p),
+                                      .node = static_cast<int>(n),
+                                      .world_from_object = worldFromObject,
+                                      .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
+                                      .weights = placeOfWeights});
+        }
+    }
+    for (const Light& light : scene.lights)
+        if (hasPlace(light, world)) pose.lights.push_back(inWorld(light, world));
+    std::stable_partition(pose.lights.begin(), pose.lights.end(),
+                          [](const Light& light) { return light.kind == LightKind::directional; });
+    for (Camera camera : scene.cameras) {
+        if (!hasPlace(camera, world)) continue;
+        if (camera.node >= 0) camera.world_from_camera = world[static_cast<std::size_t>(camera.node)];
+        camera.node = -1;
+        pose.cameras.push_back(camera);
+    }
+    return pose;
+}
+
+void leaveOutWhatIsBeyond(Scene& scene) {
+    const std::vector<glm::dmat4> world = worldFromNodeAtRest(scene.nodes);
+    std::vector<std::vector<glm::dvec3>> extents;
+    for (const Mesh& mesh : scene.meshes) {
+        extents.emplace_back();
+        for (const Primitive& p : mesh.primitives) extents.back().push_back(extentOf(p));
+    }
+    const auto note = [&](std::size_t count, const char* what) {
+        if (count)
+            scene.notes.push_back(fmt::format("{} {}{} not finite or beyond {:g} m: left out", count, what,
+                                              count == 1 ? " is" : "s are", maxCoordinate));
+    };
+    std::size_t beyond = 0;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        Node& node = scene.nodes[n];
+        const std::vector<Primitive>& primitives = primitivesOf(scene, node);
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            if (!isWithin(worldFromPrimitive(scene, world, n, primitives[p]),
+                          extents[static_cast<std::size_t>(node.mesh)][p])) {
+                node.mesh = -1;
+                ++beyond;
+                break;
+            }
+    }
+    note(beyond, "drawn node");
+    note(std::erase_if(scene.lights, [&](const Light& light) { return !hasPlace(light, world); }), "light");
+    note(std::erase_if(scene.cameras, [&](const Camera& camera) { return !hasPlace(camera, world); }),
+         "camera");
+}
+
+}  // namespace diptych

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/scene_view.h"
+
+#include "shared/scene/lights/rig.h"
+#include "shared/scene/motion/bounds.h"
+
+#include <utility>
+
+namespace diptych {
+namespace {
+
+// It stands behind the viewer of the default view, whichever camera is chosen, so that it lights what faces
+// that one.
+Light sunOf(const Scene& scene, Pose pose) {
+    pose.cameras.clear();
+    return defaultSun(makeView(scene, pose, "", 1, 1).backward());
+}
+
+}  // namespace
+
+SceneView makeSceneView(const Scene& scene, const ViewRequest& request) {
+    SceneView result;
+    result.pose = poseAt(scene, request.time);
+    result.view = makeView(scene, result.pose, request.camera, request.width, request.height);
+    result.lights = result.pose.lights;
+    if (!request.lights.empty())
+        for (Light& light : makeLights(request.lights, request.seed, boundsAtStart(scene, result.pose)))
+            result.lights.push_back(std::move(light));
+    result.default_sun = result.lights.empty() && !scene.environment;
+    if (result.default_sun) result.lights.push_back(sunOf(scene, result.pose));
+    result.needs = requirements(scene, result.pose, result.lights);
+    return result;
+}
+
+const SceneView& SceneViews::at(const ViewRequest& request) {
+    std::unique_ptr<SceneView>& view = views_[request];
+    if (!view) view = std::make_unique<SceneView>(makeSceneView(scene_, request));
+    return *view;
+}
+
+}  // namespace diptych

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// One thing that a device can or cannot do here.
+struct DeviceFact {
+    std::string what;
+    bool there = false;
+    bool required = false;
+    std::string note;
+};
+
+struct DeviceInfo {
+    int index = 0;
+    std::string name, driver;  // "Mesa 22.3.6 (LLVM 15.0.6)"
+    std::string type;          // cpu, integrated, discrete, virtual, other
+    std::string api_version;   // "1.3.230"
+    std::vector<DeviceFact> facts;
+
+    bool usable() const;  // every required fact is there
+    bool isCpu() const { return type == "cpu"; }
+};
+
+}  // namespace diptych

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// What a device is spared (uniforms gathered for each pixel, inputs that nobody reads, normals of triangles)
+// changes no bit of the picture.
+#include "compare/render/prepared_view.h"
+#include "shared/scene/load.h"
+#include "tests/image/scenes.h"
+
+#include <functional>
+
+namespace diptych::tests {
+namespace {
+
+// lit, after `change` has had its way with what the path is given.
+Image litWith(const Scene& scene, const Settings& settings,
+              const std::function<void(PreparedView&)>& change) {
+    SharedResources shared(device(), scene);
+    PreparedView shot(device(), shared, scene, settings);
+    change(shot);
+    const PathFunctions& path = functionsOf(settings.path);
+    PassList passes(device(), static_cast<std::uint32_t>(settings.size.width),
+                    static_cast<std::uint32_t>(settings.size.height));
+    const FrameImages images = path.add(passes, shot.inputs);
+    passes.run();
+    return readImages(passes, {{images.lit, 3}}).front();
+}
+
+Settings smallFrame(Path path) {
+    Settings settings = smallPicture(GBufferEncoding::standard);
+    settings.path = path;
+    settings.lights = "point:40,spot:20";
+    return settings;
+}
+
+void expectSame(const std::string& name, const Settings& settings,
+                const std::function<void(PreparedView&)>& change) {
+    const Scene scene = loadScene(name);
+    const Image spared = litWith(scene, settings, [](PreparedView&) {}),
+                plain = litWith(scene, settings, change);
+    EXPECT_EQ(differingPixels(spared, plain, true), 0u) << name << ", " << nameOf(settings.path);
+    if (name == "builtin:empty" || name == "builtin:background") return;
+    EXPECT_GT(*std::max_element(spared.data.begin(), spared.data.end()), 0.0f) << name;
+}
+
+TEST(Spared, TheViewIsTheSameFromEverySource) {
+    const auto uniform = [](PreparedView& shot) {
+        EXPECT_EQ(shot.inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM,
+                  device().info().isCpu());
+        shot.inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_UNIFORM);
+    };
+    for (const Path path : {Path::deferred, Path::forward_plus})
+        for (const Assignment assign : {Assignment::clustered, Assignment::tiled, Assignment::every}) {
+            Settings settings = smallFrame(path);
+            settings.assign = assign;
+            for (const char* scene : {"builtin:gallery", "builtin:ortho"})
+                expectSame(scene, settings, uniform);
+            settings.size = {117, 63};
+            expectSame("builtin:gallery", settings, uniform);
+        }
+}
+
+// A texture transform asks for every input; that of a material without one moves nothing.
+TEST(Spared, FewerInputsBringTheSamePictureAsAll) {
+    std::size_t scene = 0;
+    for (const std::string& name : builtinScenes())
+        expectSame(name, smallFrame(scene++ % 2 == 0 ? Path::deferred : Path::forward_plus),
+                   [](PreparedView& shot) {
+                       for (DrawItem& item : shot.draws.items)
+                           item.variant.set(gpu::FEATURE_texture_transform);
+                   });
+}
+
+// The frame that is timed holds no normals of triangles; one whose normals are captured is drawn again.
+TEST(Spared, WhatIsCapturedChangesNoOtherChannel) {
+    const Scene scene = loadScene("builtin:gallery");
+    for (const Path path : {Path::deferred, Path::forward_plus})
+        for (const GBufferEncoding encoding :
+             {GBufferEncoding::standard, GBufferEncoding::compact, GBufferEncoding::full}) {
+            Settings settings = smallFrame(path);
+            settings.gbuffer = encoding;
+            RenderOptions lit, all;
+            lit.channels = {static_cast<int>(gpu::DEBUG_lit)};
+            all.channels = allChannels();
+            const Frame one = renderAll(device(), scene, {settings}, lit).front(),
+                        every = renderAll(device(), scene, {settings}, all).front();
+            EXPECT_EQ(differingPixels(one.channels.at(0), every.channels.at(0), true), 0u)
+                << nameOf(path) << ", " << nameOf(encoding);
+        }
+}
+
+// What lies before everything else is drawn first: hidden fragments fail their depth test before they are
+// shaded. An orthographic camera, whose w is 1 everywhere, sees near and far, too.
+TEST(Spared, DrawsGoFromNearToFar) {
+    for (const char* name : {"builtin:spheres", "builtin:ortho"}) {
+        const Scene scene = loadScene(name);
+        SharedResources shared(device(), scene);
+        const PreparedView shot(device(), shared, scene, smallFrame(Path::forward_plus));
+        const std::vector<DrawItem>& items = shot.draws.items;
+        ASSERT_GT(items.size(), 1u) << name;
+        EXPECT_TRUE(std::ranges::is_sorted(items, {}, &DrawItem::distance)) << name;
+        EXPECT_LT(items.front().distance, items.back().distance) << name;
+        // The ground of spheres encloses them all, so it is the last.
+        if (name == std::string_view("builtin:spheres")) {
+            EXPECT_EQ(items.back().range.index_count, 6u);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests

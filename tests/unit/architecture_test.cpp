@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: MIT
+// The rules of the architecture, checked on the project's own files. Each check has a negative control that
+// plants a fault and must find it.
+#include "shared/frame/debug_modes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Files = std::map<std::string, std::string>;  // path from the repository's root -> contents
+using Faults = std::vector<std::string>;
+
+// Every source, shader, script and page that belongs to the repository.
+const Files& sources() {
+    static const Files files = [] {
+        const fs::path root = DIPTYCH_SOURCE_DIR;
+        Files found;
+        const auto add = [&](const fs::path& file) {
+            std::ifstream stream(file, std::ios::binary);
+            found[fs::relative(file, root).generic_string()] = {std::istreambuf_iterator<char>(stream), {}};
+        };
+        for (const auto& entry : fs::directory_iterator(root))
+            if (entry.is_regular_file()) add(entry.path());
+        for (const char* folder :
+             {"shared", "shaders", "forward_plus", "deferred", "compare", "tests", ".ci"})
+            if (fs::is_directory(root / folder))
+                for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+                    if (entry.is_regular_file()) add(entry.path());
+        return found;
+    }();
+    return files;
+}
+
+bool endsIn(const std::string& path, std::initializer_list<const char*> endings) {
+    return std::ranges::any_of(endings, [&](const char* ending) { return path.ends_with(ending); });
+}
+bool isCode(const std::string& path) {
+    return endsIn(path, {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"});
+}
+
+std::string joined(const Faults& faults) {
+    std::string all;
+    for (const std::string& fault : faults) all += fault + "\n";
+    return all;
+}
+
+// A module may include itself and modules on lower floors; where `only` is not empty, no others than those.
+struct Module {
+    std::string path;
+    int floor;
+    std::vector<std::string> only{};
+};
+// The scene knows no Vulkan and no Settings.
+const std::vector<std::string> belowScene{
+    "shared/contract",     "shared/text",        "shared/image",
+    "shared/scene/model",  "shared/scene/image", "shared/scene/motion",
+    "shared/scene/lights", "shared/scene/gltf",  "shared/scene/builtin"};
+const std::vector<Module> modules = {
+    {"shared/contract", 0},
+    {"shaders/lib", 1, {"shared/contract"}},
+    {"shaders/pass", 2, {"shared/contract", "shaders/lib"}},
+    {"shared/text", 5},
+    {"shared/image", 10},
+    {"shared/frame", 20},
+    {"shared/vulkan", 20, {"shared/contract"}},
+    {"shared/scene/model", 20, belowScene},
+    {"shared/scene/image", 21, belowScene},
+    {"shared/scene/motion", 21, belowScene},
+    {"shared/scene/lights", 22, belowScene},
+    {"shared/scene/gltf", 23, belowScene},
+    {"shared/scene/builtin", 23, belowScene},
+    {"shared/scene", 24, belowScene},
+    {"shared/material", 30},
+    {"shared/light", 30},
+    {"shared/environment", 30},
+    {"shared/draw", 31},
+    {"shared/shadow", 32},
+    {"shared/transparent", 33},
+    {"forward_plus", 40},
+    {"deferred", 40},
+    {"compare/run", 40, {"shared/text", "shared/image", "shared/frame"}},
+    {"compare/metrics", 40, {"shared/contract", "shared/image", "shared/frame"}},
+    {"compare/reference",
+     40,
+     {"shared/contract", "shared/image", "shared/frame", "shared/scene", "shared/scene/model",
+      "shared/scene/motion"}},
+    {"compare/files", 41},
+    {"compare/picture", 41},
+    {"compare/page", 41},
+    {"compare/plot", 42},
+    {"compare/render", 50},
+    {"compare/checks", 51},
+    {"compare/verdict", 60},
+    {"compare/report", 70},
+    {"compare/tradeoff", 70},
+    {"compare/bench", 70},
+    {"compare/cli", 80},
+    {"tests", 90},
+};
+
+// The innermost module that holds the file; nullptr: none.
+const Module* moduleOf(const std::string& path) {
+    const Module* best = nullptr;
+    for (const Module& module : modules)
+        if (path.starts_with(module.path + "/") && (!best || module.path.size() > best->path.size()))
+            best = &module;
+    return best;
+}
+
+// Includes between quotes that climb a floor, cross to a stranger, or leave the contract.
+Faults climbingIncludes(const Files& files) {
+    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const Module* from = isCode(path) ? moduleOf(path) : nullptr;
+        if (!from) continue;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::smatch match;
+            if (!std::regex_search(line, match, include)) continue;
+            const std::string beside =
+                (fs::path(path).parent_path() / match[1].str()).lexically_normal().generic_string();
+            const std::string target = files.contains(beside)
+                                           ? beside
+                                           : fs::path(match[1].str()).lexically_normal().generic_string();
+            const Module* to = moduleOf(target);
+            if (from->floor == 0 && to != from) {
+                faults.push_back(path + " includes " + target + ", outside the contract");
+            } else if (to && to != from) {
+                const bool listed = from->only.empty() || std::ranges::count(from->only, to->path) > 0;
+                if (to->floor >= from->floor || !listed) faults.push_back(path + " includes " + target);
+            }
+        }
+    }
+    return faults;
+}
+
+TEST(Architecture, IncludesOnlyGoDown) {
+    EXPECT_EQ(joined(climbingIncludes(sources())), "");
+}
+
+TEST(Architecture, APlantedClimbIsFound) {
+    const auto plant = [](const std::string& path, const std::string& include) {
+        Files files = sources();
+        files[path] = "// SPDX-License-Identifier: MIT\n#include \"" + include + "\"\n";
+        return climbingIncludes(files).size() - climbingIncludes(sources()).size();
+    };
+    EXPECT_EQ(plant("shared/image/planted.h", "shared/scene/model/scene.h"), 1u);
+    EXPECT_EQ(plant("shared/scene/model/planted.h", "shared/frame/frame.h"), 1u);
+    EXPECT_EQ(plant("shared/scene/builtin/planted.h", "../../vulkan/device.h"), 1u);
+    EXPECT_EQ(plant("shared/vulkan/planted.cpp", "shared/scene/model/scene.h"), 1u);
+    EXPECT_EQ(plant("shared/light/planted.h", "shared/material/materials.h"), 1u);
+    EXPECT_EQ(plant("shared/light/planted.h", "shared/draw/draws.h"), 1u);
+    EXPECT_EQ(plant("shared/contract/planted.h", "shared/image/image.h"), 1u);
+    EXPECT_EQ(plant("shared/contract/planted.h", "elsewhere.h"), 1u);
+    EXPECT_EQ(plant("deferred/planted.cpp", "forward_plus/forward_plus.h"), 1u);
+    EXPECT_EQ(plant("compare/reference/planted.cpp", "shared/vulkan/device.h"), 1u);
+    EXPECT_EQ(plant("shaders/lib/planted.glsl", "shaders/pass/surface.vert"), 1u);
+    EXPECT_EQ(plant("shared/draw/planted.h", "compare/render/renderer.h"), 1u);
+    // and what goes down is left alone
+    EXPECT_EQ(plant("shared/contract/planted.h", "types.h"), 0u);
+    EXPECT_EQ(plant("compare/render/planted.cpp", "deferred/deferred.h"), 0u);
+    EXPECT_EQ(plant("shared/draw/planted.h", "shared/light/lights.h"), 0u);
+}
+
+// A header and its source are one unit: units that include each other in a circle can be understood, tested
+// and built only together. One line a circle, with a unit of it.
+Faults circularIncludes(const Files& files) {
+    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
+    const auto unitOf = [](const std::string& path) {
+        return endsIn(path, {".cpp", ".h"}) ? path.substr(0, path.rfind('.')) : path;
+    };
+    std::map<std::string, std::set<std::string>> uses;
+    for (const auto& [path, text] : files) {
+        if (!isCode(path)) continue;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::smatch match;
+            if (!std::regex_search(line, match, include)) continue;
+            const std::string beside =
+                (fs::path(path).parent_path() / match[1].str()).lexically_normal().generic_string();
+            const std::string target = files.contains(beside) ? beside : match[1].str();
+            if (files.contains(target) && unitOf(target) != unitOf(path))
+                uses[unitOf(path)].insert(unitOf(target));
+        }
+    }
+    Faults faults;
+    std::map<std::string, int> state;  // 1: on the way from the start, 2: done
+    const std::function<void(const std::string&)> visit = [&](const std::string& unit) {
+        state[unit] = 1;
+        for (const std::string& next : uses[unit])
+            if (state[next] == 1)
+                faults.push_back(unit + " and " + next + " include each other, directly or through others");
+            else if (state[next] == 0)
+                visit(next);
+        state[unit] = 2;
+    };
+    for (const auto& [path, text] : files)
+        if (isCode(path) && state[unitOf(path)] == 0) visit(unitOf(path));
+    return faults;
+}
+
+TEST(Architecture, NoUnitsIncludeEachOther) {
+    EXPECT_EQ(joined(circularIncludes(sources())), "");
+}
+
+TEST(Architecture, APlantedCircleIsFound) {
+    const Files chain{{"compare/a.h", "#include \"compare/b.h\"\n"},
+                      {"compare/b.cpp", "#include \"compare/c.h\"\n"},
+                      {"compare/b.h", ""},
+                      {"compare/c.h", ""}};
+    EXPECT_EQ(joined(circularIncludes(chain)), "");
+    Files circle = chain;
+    circle["compare/c.cpp"] = "#include \"compare/a.h\"\n";
+    EXPECT_EQ(circularIncludes(circle).size(), 1u);
+    Files direct = chain;
+    direct["compare/b.h"] = "#include \"a.h\"\n";
+    EXPECT_EQ(circularIncludes(direct).size(), 1u);
+}
+
+// The reference is an independent truth: of the contract it may name the channels and nothing else, and what
+// it asks of other modules is where they say what a scene is, not how the paths draw it.
+Faults borrowedByTheReference(const Files& files) {
+    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
+    static const std::regex contract("gpu::(?!DEBUG_|uint\\b)\\w+");
+    static const std::vector<std::string> open{"compare/reference/", "shared/image/", "shared/frame/",
+                                               "shared/scene/"};
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!path.starts_with("compare/reference/") || !isCode(path)) continue;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::smatch match;
+            if (std::regex_search(line, match, include)) {
+                const std::string target = fs::path(match[1].str()).lexically_normal().generic_string();
+                const bool fine =
+                    target == "shared/contract/debug_mode.h" ||
+                    std::ranges::any_of(open, [&](const std::string& r) { return target.starts_with(r); });
+                if (!fine) faults.push_back(path + " includes " + target);
+            }
+            if (std::regex_search(line, match, contract)) faults.push_back(path + " uses " + match.str());
+        }
+    }
+    return faults;
+}
+
+TEST(Architecture, TheReferenceBorrowsNothing) {
+    EXPECT_EQ(joined(borrowedByTheReference(sources())), "");
+}
+
+TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
+    const auto plant = [](const std::string& line) {
+        return borrowedByTheReference({{"compare/reference/planted.cpp", line + "\n"}}).size();
+    };
+    for (const char* header :
+         {"shared/contract/material.h", "shared/contract/light.h", "shared/contract/constants.h",
+          "shared/light/lights.h", "shared/material/materials.h", "shared/draw/draws.h",
+          "shared/vulkan/device.h", "shaders/lib/brdf.glsl", "compare/render/renderer.h",
+          "../metrics/channel.h", "../../shared/contract/view.h"})
+        EXPECT_EQ(plant(std::string("#include \"") + header + "\""), 1u) << header;
+    EXPECT_EQ(plant("const double a = gpu::MIN_ROUGHNESS;"), 1u);
+    EXPECT_EQ(plant("const float a = gpu::PI;"), 1u);
+    EXPECT_EQ(plant("#include \"shared/contract/debug_mode.h\""), 0u);
+    EXPECT_EQ(plant("case gpu::DEBUG_lit: return static_cast<gpu::uint>(0);"), 0u);
+    EXPECT_EQ(plant("#include \"shared/scene/model/scene.h\""), 0u);
+}
+
+// pi, 2 pi, pi/2, pi/4, 1/pi by their digits, and the macro that is no standard C++. Hand-computed values in
+// tests may hold them.
+Faults otherPis(const Files& files) {
+    static const std::regex pi("3\\.1415|6\\.2831|1\\.5707|0\\.7853|0\\.3183|M_PI");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) && path != "shared/contract/constants.h" && !path.starts_with("tests/") &&
+            std::regex_search(text, pi))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Architecture, ThereIsOnePi) {
+    EXPECT_EQ(joined(otherPis(sources())), "");
+}
+
+TEST(Architecture, APlantedPiIsFound) {
+    for (const char* pi : {"3.14159f", "3.1415628", "6.28318530718", "M_PI_2", "0.31830988"}) {
+        EXPECT_EQ(otherPis({{"shaders/lib/planted.glsl", std::string("const float p = ") + pi + ";"}}).size(),
+                  1u)
+            << pi;
+    }
+    EXPECT_TRUE(
+        otherPis({{"shared/scene/a.cpp", "std::numbers::pi"}, {"shared/contract/constants.h", "3.14159"}})
+            .empty());
+}
+
+Faults withoutLicence(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const bool wanted = isCode(path) ||
+                            endsIn(path, {"CMakeLists.txt", ".cmake", ".css", ".js", ".yml"}) ||
+                            path == "diptych" || path == ".ci/run";
+        const std::size_t second = text.find('\n', text.find('\n') + 1);
+        if (wanted && text.substr(0, second).find("SPDX-License-Identifier: MIT") == std::string::npos)
+            faults.push_back(path);
+    }
+    return faults;
+}
+
+TEST(Architecture, EverySourceStartsWithItsLicence) {
+    EXPECT_EQ(joined(withoutLicence(sources())), "");
+}
+
+TEST(Architecture, AMissingLicenceIsFound) {
+    EXPECT_EQ(withoutLicence(
+                  {{"compare/a.cpp", "int a;\n"}, {"diptych", "#!/bin/sh\nset -e\n"}, {"README.md", "#"}}),
+              (Faults{"compare/a.cpp", "diptych"}));
+    EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
+}
+
+// Folders of the machine that a file was written on have no place in it.
+Faults pathsOfAMachine(const Files& files) {
+    static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) || endsIn(path, {".md", ".txt", ".json", "diptych", "run"}))
+            if (std::smatch match; std::regex_search(text, match, absolute))
+                faults.push_back(path + ": " + match.str());
+    return faults;
+}
+
+TEST(Architecture, NoFileNamesAFolderOfOneMachine) {
+    EXPECT_EQ(joined(pathsOfAMachine(sources())), "");
+}
+
+TEST(Architecture, APlantedFolderIsFound) {
+    EXPECT_EQ(pathsOfAMachine({{"README.md", std::string("see /home") + "/jo/scene.glb"}}).size(), 1u);
+    EXPECT_TRUE(pathsOfAMachine({{"README.md", "see https://example.org/homework/a"}}).empty());
+}
+
+// A forgotten channel fails by name.
+Faults channelsWithoutShader(const std::string& shader) {
+    Faults faults;
+    for (const DebugMode& mode : debugModes())
+        if (!std::regex_search(shader, std::regex("\\bDEBUG_" + std::string(mode.name) + "\\b")))
+            faults.emplace_back(mode.name);
+    return faults;
+}
+
+TEST(Architecture, EveryChannelHasALineInTheShader) {
+    const std::string shader = sources().at("shaders/lib/debug.glsl");
+    EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
+    EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
+              Faults{"roughness"});
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// What is printed to be typed again means the same when it is.
+#include "compare/run/command_text.h"
+#include "compare/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+// The words that a shell makes of a line.
+std::vector<std::string> wordsOfShell(const std::string& line) {
+    const std::string script = "set -- " + line + "\nfor word; do printf '%s\\0' \"$word\"; done";
+    std::string quoted = "'";
+    for (const char c : script) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    std::FILE* pipe = popen(("sh -c " + quoted + "'").c_str(), "r");
+    std::vector<std::string> words(1);
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe))
+        if (c == 0)
+            words.emplace_back();
+        else
+            words.back() += static_cast<char>(c);
+    pclose(pipe);
+    words.pop_back();
+    return words;
+}
+
+Options parsedAgain(const std::string& line) {
+    std::vector<std::string> words = wordsOfShell(line);
+    EXPECT_EQ(words.front(), "diptych");
+    words.erase(words.begin());
+    return parseCommandLine(words);
+}
+
+// One changed at a time and all together; values that a shell or a parser of options could misread.
+std::vector<Settings> severalSettings() {
+    std::vector<Settings> all(1);
+    const auto add = [&](auto change) {
+        Settings one;
+        change(one);
+        change(all[0]);
+        all.push_back(one);
+    };
+    add([](Settings& s) { s.path = Path::deferred; });
+    add([](Settings& s) { s.prepass = Switch::off; });
+    add([](Settings& s) { s.gbuffer = GBufferEncoding::full; });
+    add([](Settings& s) { s.size = {1920, 17}; });
+    add([](Settings& s) { s.camera = "it's \"$HOME\" `x` *\\"; });
+    add([](Settings& s) { s.time = -1.0 / 3.0; });
+    add([](Settings& s) { s.env = "-sky.exr"; });
+    add([](Settings& s) { s.env = ""; });
+    add([](Settings& s) { s.ibl_intensity = 0.1f; });
+    add([](Settings& s) { s.ambient = {-1e-30f, 0.3f, 16777217.0f}; });
+    add([](Settings& s) { s.lights = "point:64,spot:16"; });
+    add([](Settings& s) { s.seed = 4294967295u; });
+    add([](Settings& s) { s.shadows = Shadows::clipmap; });
+    add([](Settings& s) { s.sort = false; });
+    add([](Settings& s) { s.haze = true; });
+    add([](Settings& s) { s.reference_mode = ReferenceMode::scene; });
+    all.emplace_back();
+    return all;
+}
+
+TEST(CommandWords, TheCommandOfSettingsMeansTheSameSettings) {
+    for (const Settings& settings : severalSettings())
+        for (const std::string scene : {"builtin:gallery", "my scenes/a b.glb?scene=2", "-odd.glb"}) {
+            const std::string line = commandOf("render", scene, settings);
+            const Options again = parsedAgain(line);
+            EXPECT_EQ(again.command, "render") << line;
+            EXPECT_EQ(again.settings, settings) << line;
+            EXPECT_EQ(again.cameras, std::vector<std::string>{settings.camera}) << line;
+            EXPECT_EQ(again.scenes, std::vector<std::string>{scene}) << line;
+        }
+}
+
+TEST(CommandWords, OnlyWhatIsNotTheDefaultIsSaid) {
+    EXPECT_EQ(commandOf("compare", "builtin:gallery", {}), "diptych compare builtin:gallery");
+    Settings settings;
+    settings.path = Path::deferred;
+    settings.gbuffer = GBufferEncoding::compact;
+    EXPECT_EQ(commandOf("compare", "a b.glb", settings), "diptych compare --gbuffer compact 'a b.glb'")
+        << "compare draws both paths";
+    EXPECT_EQ(commandOf("render", "a.glb", settings),
+              "diptych render --path deferred --gbuffer compact a.glb");
+}
+
+TEST(CommandWords, AnOptionCanBeAddedWhateverTheSceneIsCalled) {
+    for (const std::string scene : {"a.glb", "--help"}) {
+        const Options again =
+            parsedAgain(shellLine(with(wordsOf("compare", scene, {}), "--channels", "normals")));
+        EXPECT_EQ(again.channels, std::vector<int>{2});
+        EXPECT_EQ(again.scenes, std::vector<std::string>{scene});
+    }
+}
+
+}  // namespace
+}  // namespace diptych
