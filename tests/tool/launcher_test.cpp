@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The launcher among stand-ins for dpkg, apt and CMake: what it asks of them and what it says.
 #include "tests/tool/run.h"
+#include "tests/tool/running.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <chrono>
 #include <set>
 #include <sstream>
+#include <thread>
 
 namespace diptych {
 namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
 
 // A checkout with the launcher, and a folder of stand-ins that goes before PATH.
 class Launcher : public testing::Test {
@@ -144,6 +153,71 @@ TEST_F(Launcher, TwoAtOnceBuildOneAfterTheOther) {
     const Ran ran =
         runShell(home_, "( " + one + " ) & ( " + one + " ) & ( " + one + " ) & wait", home_.path());
     EXPECT_EQ(ran.out, "good\ngood\ngood\n");
+}
+
+// Another launcher's lock: held until told.
+class HeldLock {
+public:
+    explicit HeldLock(const fs::path& file) {
+        fs::create_directories(file.parent_path());
+        file_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+        EXPECT_EQ(::flock(file_, LOCK_EX | LOCK_NB), 0);
+    }
+    ~HeldLock() { release(); }
+    void release() {
+        if (file_ >= 0) ::close(file_);
+        file_ = -1;
+    }
+
+private:
+    int file_;
+};
+
+TEST_F(Launcher, WhoWaitsForAnotherOneSaysSoAfterASecond) {
+    ASSERT_EQ(run("devices").code, 3);  // builds
+    fs::remove(home_ / ".stderr");
+    HeldLock other(build() + "/launcher.lock");
+    Ran ran;
+    std::thread waiting([&] { ran = run("devices"); });
+    const auto start = Clock::now();
+    EXPECT_TRUE(soon([&] { return !contentsOf(home_ / ".stderr").empty(); }));
+    EXPECT_GE(Clock::now() - start, 900ms) << "not at once";
+    const auto freed = Clock::now();
+    other.release();
+    waiting.join();
+    EXPECT_LT(Clock::now() - freed, 30s);
+    EXPECT_EQ(ran.err, "diptych: waiting: another launcher is building in " + build() + "\n");
+    EXPECT_EQ(ran.out, "<devices>" + home_.path().string() + "\n");
+    EXPECT_EQ(ran.code, 3);
+}
+
+TEST_F(Launcher, WhoWaitsForLessThanASecondIsSilent) {
+    ASSERT_EQ(run("devices").code, 3);
+    for (int attempt = 0; attempt < 5; ++attempt) {
+        const auto start = Clock::now();
+        Ran ran;
+        {
+            HeldLock other(build() + "/launcher.lock");
+            std::thread waiting([&] { ran = run("devices"); });
+            std::this_thread::sleep_for(200ms);
+            other.release();
+            waiting.join();
+        }
+        EXPECT_EQ(ran.code, 3);
+        if (Clock::now() - start > 900ms) continue;  // a busy machine: it may have waited longer than that
+        EXPECT_EQ(ran.err, "");
+        return;
+    }
+    GTEST_SKIP() << "this machine is too busy to wait for less than a second";
+}
+
+TEST_F(Launcher, ALockThatCannotBeHadIsNamed) {
+    home_.write("bin/flock", "#!/bin/sh\necho 'flock: 9: No locks available' >&2\nexit 71\n", true);
+    const Ran ran = run("devices");
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_NE(ran.err.find("diptych: " + build() + "/launcher.lock: cannot be locked\n"), std::string::npos)
+        << ran.err;
+    EXPECT_EQ(ran.err.find("another launcher"), std::string::npos) << ran.err;
 }
 
 // The real list: every name is a Debian package's, once, in order within its part.
