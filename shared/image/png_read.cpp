@@ -2,20 +2,18 @@
 // Source: PNG specification (ISO/IEC 15948), by chapter.
 #include "shared/image/file_bytes.h"
 #include "shared/image/png.h"
+#include "shared/image/png_decoder.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <csetjmp>
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -68,84 +66,7 @@ void describe(PngPicture& picture, const Encoding& encoding) {
                                             picture.linear ? "linear" : "sRGB's"));
 }
 
-// ---- libpng ------------------------------------------------------------------------------------------
-
-// libpng's way out of an error is a longjmp: nothing between setjmp and here may own anything.
-class Decoder {
-public:
-    explicit Decoder(std::span<const std::byte> file) : rest_(file) {
-        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, onError, onWarning);
-        if (png_) info_ = png_create_info_struct(png_);
-        if (!info_) {
-            png_destroy_read_struct(&png_, nullptr, nullptr);
-            throw std::bad_alloc();
-        }
-    }
-    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    Decoder(const Decoder&) = delete;
-    Decoder& operator=(const Decoder&) = delete;
-
-    void readHeader() {
-        if (!tryHeader()) fail(message_.data());
-    }
-    // `rows` has room for rowsKept() of them, one after the other; `done(y)` is told of each when it is
-    // whole.
-    template <class Done>
-    void readRows(png_bytep rows, const Done& done) {
-        for (std::uint32_t y = 0; y < height() * static_cast<std::uint32_t>(passes_); ++y) {
-            const std::uint32_t line = y % height();
-            if (!tryRow(rows + (passes_ > 1 ? line * rowBytes() : 0))) fail(message_.data());
-            if (passes_ == 1) done(line, rows);
-        }
-        for (std::uint32_t y = 0; passes_ > 1 && y < height(); ++y) done(y, rows + y * rowBytes());
-    }
-    std::size_t rowsKept() const { return passes_ > 1 ? height() : 1; }
-
-    std::uint32_t width() const { return png_get_image_width(png_, info_); }
-    std::uint32_t height() const { return png_get_image_height(png_, info_); }
-    int components() const { return png_get_channels(png_, info_); }
-    int bits() const { return png_get_bit_depth(png_, info_); }
-    std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
-
-private:
-    static void onError(png_structp png, png_const_charp message) {
-        auto& self = *static_cast<Decoder*>(png_get_error_ptr(png));
-        std::strncpy(self.message_.data(), message, self.message_.size() - 1);
-        png_longjmp(png, 1);
-    }
-    static void onWarning(png_structp, png_const_charp) {}
-    static void onRead(png_structp png, png_bytep out, std::size_t count) {
-        auto& rest = static_cast<Decoder*>(png_get_io_ptr(png))->rest_;
-        if (count > rest.size()) png_error(png, "is cut short");
-        std::memcpy(out, rest.data(), count);
-        rest = rest.subspan(count);
-    }
-
-    bool tryHeader() {
-        if (setjmp(png_jmpbuf(png_))) return false;
-        png_set_read_fn(png_, this, onRead);
-        // Chunks other than IHDR, PLTE, tRNS, IDAT and IEND are stepped over: no profile, no text is
-        // unpacked.
-        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-        png_read_info(png_, info_);
-        png_set_expand(png_);  // palettes, fewer than 8 bits, tRNS
-        if (std::endian::native == std::endian::little) png_set_swap(png_);
-        passes_ = png_set_interlace_handling(png_);
-        png_read_update_info(png_, info_);
-        return true;
-    }
-    bool tryRow(png_bytep row) {
-        if (setjmp(png_jmpbuf(png_))) return false;
-        png_read_row(png_, row, nullptr);
-        return true;
-    }
-
-    std::span<const std::byte> rest_;
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-    int passes_ = 1;
-    std::array<char, 200> message_{};  // of the error; what is thrown is made outside of libpng
-};
+// ---- the pixels --------------------------------------------------------------------------------------
 
 // 11.2.2: depth and colour stand in IHDR, the first chunk, which libpng has found to be sound.
 std::int64_t storedBits(std::span<const std::byte> file) {
@@ -171,8 +92,10 @@ void convert(png_const_bytep row, float* to, std::size_t count) {
     }
 }
 
+constexpr const char* headerChanges = "its header changes";
+
 PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most) {
-    Decoder decoder(bytes);
+    PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, "is cut short");
     decoder.readHeader();
     const std::int64_t width = decoder.width(), height = decoder.height();
     const int components = decoder.components(), bits = decoder.bits();
@@ -181,12 +104,21 @@ PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most) {
     PngPicture picture{Image(static_cast<int>(width), static_cast<int>(height), components), bits};
     describe(picture, encodingOf(bytes));
     const std::size_t row = static_cast<std::size_t>(width) * static_cast<std::size_t>(components);
-    if (decoder.rowBytes() != row * static_cast<std::size_t>(bits / 8)) fail("its header changes");
-    const auto rows = std::make_unique_for_overwrite<png_byte[]>(decoder.rowBytes() * decoder.rowsKept());
-    decoder.readRows(rows.get(), [&](std::uint32_t y, png_const_bytep from) {
+    if (decoder.rowBytes() != row * static_cast<std::size_t>(bits / 8)) fail(headerChanges);
+    const auto lines = static_cast<std::size_t>(height);
+    const bool interlaced = decoder.isInterlaced();
+    const auto rows =
+        std::make_unique_for_overwrite<png_byte[]>(decoder.rowBytes() * (interlaced ? lines : 1));
+    if (interlaced) decoder.readAll(rows.get());
+    for (std::size_t y = 0; y < lines; ++y) {
+        png_const_bytep from = rows.get();
+        if (interlaced)
+            from += y * decoder.rowBytes();
+        else
+            decoder.readRow(rows.get());
         float* to = picture.image.data.data() + row * y;
         bits == 16 ? convert<std::uint16_t>(from, to, row) : convert<std::uint8_t>(from, to, row);
-    });
+    }
     return picture;
 }
 
@@ -198,6 +130,15 @@ std::uint8_t byteOf(float value) {
 
 PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] { return decode(bytes, most); });
+}
+
+void readPngRgba(std::span<const std::byte> bytes, const PngRgba& expected, unsigned char* pixels) {
+    PngDecoder decoder(bytes, PngDecoder::Rows::rgba, "it ends early");
+    decoder.readHeader();
+    if (decoder.width() != expected.width || decoder.height() != expected.height ||
+        decoder.rowBytes() != expected.rowBytes())
+        fail(headerChanges);
+    decoder.readAll(pixels);
 }
 
 Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {

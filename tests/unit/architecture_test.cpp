@@ -331,6 +331,41 @@ TEST(Architecture, AMissingLicenceIsFound) {
     EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
 }
 
+// Files are read by libpng in one place, with one set of limits. Tests make PNG files of their own with it.
+Faults otherUsersOfLibpng(const Files& files) {
+    static const std::regex include(
+        "(^|\n)[ \t]*#[ \t]*include[ \t]*[<\"](libpng[0-9]*/)?png(conf)?\\.h[>\"]");
+    static const std::regex link("\\bPNG::PNG\\b|\\bPNG_LIBRAR(Y|IES)\\b");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (path.starts_with("tests/") || path.starts_with("shared/image/png")) continue;
+        if (isCode(path) && std::regex_search(text, include)) faults.push_back(path + " includes png.h");
+        if (path.ends_with("CMakeLists.txt") && path != "shared/image/CMakeLists.txt" &&
+            std::regex_search(text, link))
+            faults.push_back(path + " links libpng");
+    }
+    return faults;
+}
+
+TEST(House, LibpngIsUsedInOnePlace) {
+    EXPECT_EQ(joined(otherUsersOfLibpng(house())), "");
+}
+
+TEST(House, APlantedUseOfLibpngIsFound) {
+    const auto plant = [](const std::string& path, const std::string& line) {
+        return otherUsersOfLibpng({{path, "// SPDX-License-Identifier: MIT\n" + line + "\n"}}).size();
+    };
+    for (const char* line :
+         {"#include <png.h>", "  # include \"png.h\"", "#include <libpng16/png.h>", "#include <pngconf.h>"})
+        EXPECT_EQ(plant("shared/scene/planted.cpp", line), 1u) << line;
+    EXPECT_EQ(plant("shared/image/radiance.cpp", "#include <png.h>"), 1u);
+    EXPECT_EQ(plant("shared/scene/CMakeLists.txt", "  LINKS fmt::fmt PNG::PNG)"), 1u);
+    EXPECT_EQ(plant("shared/image/png_planted.cpp", "#include <png.h>"), 0u);
+    EXPECT_EQ(plant("tests/unit/planted.cpp", "#include <png.h>"), 0u);
+    EXPECT_EQ(plant("compare/planted.cpp", "#include \"shared/image/png.h\""), 0u);
+    EXPECT_EQ(plant("CMakeLists.txt", "find_package(PNG REQUIRED)"), 0u);
+}
+
 // Folders of the machine that a file was written on have no place in it.
 Faults pathsOfAMachine(const Files& files) {
     static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
