@@ -85,7 +85,9 @@ Shares sharesOf(const RenderOptions& render) {
 Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device,
            KeptReferences& kept, Progress& progress) {
     RenderOptions render = bothOptions(options);
-    render.keep = [&kept] { return kept.next(); };
+    render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+        return kept.open(key, floats);
+    };
     const std::size_t together = pathsOf(options).size();
     const double drawing = sharesOf(render).drawn;
     Drawn drawn;
@@ -178,6 +180,7 @@ int runCompare(const Options& options) {
         report, folder, {options.picture, options.single_file, options.force, stage.part(comparing, 1)});
     kept.remove();
     progress.wipe();
+    noteLeftByOthers(options, kept);
     if (options.json)
         fmt::print("{}", json);
     else if (!options.quiet)

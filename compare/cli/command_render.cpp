@@ -104,7 +104,9 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
                            KeptReferences& kept, Progress& progress) {
     const Output output = outputIn(options);
     RenderOptions render = renderOptions(options);
-    render.keep = [&kept] { return kept.next(); };
+    render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+        return kept.open(key, floats);
+    };
     render.channels = channelsFor(output.kind, options, render.channels);
     std::vector<Frame> frames;
     const double drawn = drawnShare(render);
@@ -202,6 +204,7 @@ int runRender(const Options& options) {
                  Stage(progress, output.path.string()).part(drawnShare(renderOptions(options)), 1));
     kept.remove();
     progress.wipe();
+    noteLeftByOthers(options, kept);
     for (std::size_t i = 0; i < frames.size() && !options.json && !options.quiet; ++i) {
         const Frame& frame = frames[i];
         fmt::print("{}: {}, {}x{}{}\n", places[i].string(), frame.scene, frame.settings.size.width,

@@ -118,7 +118,9 @@ public:
         const Clock::time_point uploaded = Clock::now();
         RenderOptions drawing = render;
         drawing.progress = stage.part(loading, truthDone).about(tradeoff_.scene + ": reference");
-        drawing.keep = [this] { return references_.next(); };
+        drawing.keep = [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+            return references_.open(key, floats);
+        };
         const ReferenceFrames truth =
             drawReferenceFrames(renderer, options_.settings, options_.cameras, options_.picture, drawing);
         tradeoff_.cost.reference = msSince(uploaded);
@@ -144,6 +146,7 @@ public:
         references_.remove();
         state.remove();
         progress_.wipe();
+        noteLeftByOthers(options_, references_);
         if (options_.json) fmt::print("{}", json);
         if (prints()) print(tradeoffEnd(tradeoff_) + (folder_ / "index.html").string() + "\n");
         return 0;

@@ -102,4 +102,8 @@ void say(const Options& options, const std::string& line) {
     if (options.verbose) note(options, line);
 }
 
+void noteLeftByOthers(const Options& options, const KeptReferences& kept) {
+    if (const std::string line = kept.leftByOthers(); !line.empty()) note(options, line);
+}
+
 }  // namespace diptych

@@ -16,6 +16,8 @@
 
 namespace diptych {
 
+class KeptReferences;
+
 int runCommand(const Options& options);
 
 int runCompare(const Options& options);
@@ -53,5 +55,8 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
 // A line on stderr, for people: unless they want none; where they asked for more.
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);
+
+// The same on references that other commands with this output have left half done.
+void noteLeftByOthers(const Options& options, const KeptReferences& kept);
 
 }  // namespace diptych

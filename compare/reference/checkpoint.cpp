@@ -4,21 +4,34 @@
 #include "compare/reference/key.h"
 #include "shared/image/atomic_file.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace diptych::reference {
-namespace {
 
-constexpr std::uint64_t magic = 0x31707963666e6572u;
-
-struct Head {
+struct Checkpoint::Head {
     std::uint64_t magic, key, floats;
 };
 
-[[noreturn]] void fail(const std::filesystem::path& file) {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t magic = 0x31707963666e6572u;
+
+[[noreturn]] void fail(const fs::path& file) {
     throw std::runtime_error(writingFailed(file, errno));
 }
 
@@ -29,52 +42,183 @@ std::uint64_t sumOf(std::uint64_t number, std::span<const float> values) {
     return key.value();
 }
 
+fs::path fileOf(const fs::path& stem, std::uint64_t key) {
+    return fmt::format("{}-{:08x}", stem.string(), key >> 32);
+}
+
+// Files beside each other whose names begin with that of `stem`, a dash, and go on with digits and dashes.
+std::vector<fs::path> filesOf(const fs::path& stem) {
+    const std::string prefix = stem.filename().string() + "-";
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    const fs::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
+    for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+         entry.increment(ignored)) {
+        const std::string name = entry->path().filename().string();
+        std::error_code none;
+        if (name.starts_with(prefix) && name.size() > prefix.size() &&
+            name.find_first_not_of("0123456789abcdef-", prefix.size()) == name.npos &&
+            entry->is_regular_file(none))
+            files.push_back(stem.parent_path() / name);
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+// To read and to write: some file systems lock no other.
+std::FILE* opened(const fs::path& file, int how) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | how, 0666);
+    if (descriptor < 0) return nullptr;
+    std::FILE* stream = ::fdopen(descriptor, "r+b");
+    if (!stream) ::close(descriptor);
+    return stream;
+}
+
+// false: somebody else has the lock. It ends when the stream is closed.
+bool lock(std::FILE* stream) {
+    while (::flock(::fileno(stream), LOCK_EX | LOCK_NB) != 0)
+        if (errno != EINTR) return errno != EWOULDBLOCK;
+    return true;
+}
+
+// Not removed since it was opened.
+bool isAt(std::FILE* stream, const fs::path& file) {
+    struct stat open {};
+    struct stat there {};
+    return ::fstat(::fileno(stream), &open) == 0 && ::stat(file.c_str(), &there) == 0 &&
+           open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+}
+
+enum class Holds { nothing, this_picture, something_else };
+
+// What stands at the beginning of the file. One that is shorter than a head was being begun.
+template <class Head>
+Holds headOf(std::FILE* stream, const Head& head) {
+    Head there{};
+    if (std::fread(&there, sizeof there, 1, stream) != 1) return Holds::nothing;
+    return std::memcmp(&there, &head, sizeof head) == 0 ? Holds::this_picture : Holds::something_else;
+}
+
+// The records that follow, up to one that is not whole: where that begins.
+long readRecords(std::FILE* stream, std::size_t floats, std::vector<Checkpoint::Record>& records) {
+    long whole = std::ftell(stream);
+    Checkpoint::Record record{0, std::vector<float>(floats)};
+    std::uint64_t sum = 0;
+    while (std::fread(&record.number, sizeof record.number, 1, stream) == 1 &&
+           std::fread(record.values.data(), sizeof(float), floats, stream) == floats &&
+           std::fread(&sum, sizeof sum, 1, stream) == 1 && sum == sumOf(record.number, record.values)) {
+        records.push_back(record);
+        whole = std::ftell(stream);
+    }
+    return whole;
+}
+
 }  // namespace
 
-Checkpoint::Checkpoint(std::filesystem::path file, std::uint64_t key, std::size_t floats)
-    : file_(std::move(file)), floats_(floats) {
-    if (file_.empty()) return;
+Checkpoint::Checkpoint(const fs::path& stem, std::uint64_t key, std::size_t floats) : floats_(floats) {
     const Head head{magic, key, floats};
-    long whole = 0;
-    if (std::FILE* stream = std::fopen(file_.c_str(), "rb")) {
-        Head there{};
-        if (std::fread(&there, sizeof there, 1, stream) == 1 &&
-            std::memcmp(&there, &head, sizeof head) == 0) {
-            whole = sizeof head;
-            Record record{0, std::vector<float>(floats)};
-            std::uint64_t sum = 0;
-            while (std::fread(&record.number, sizeof record.number, 1, stream) == 1 &&
-                   std::fread(record.values.data(), sizeof(float), floats, stream) == floats &&
-                   std::fread(&sum, sizeof sum, 1, stream) == 1 &&
-                   sum == sumOf(record.number, record.values)) {
-                earlier_.push_back(record);
-                whole = std::ftell(stream);
-            }
-        }
-        std::fclose(stream);
+    file_ = fileOf(stem, key);
+    for (int i = 2; !open(head); ++i) file_ = fmt::format("{}-{}", fileOf(stem, key).string(), i);
+    try {
+        merge(stem, head);
+    } catch (...) {
+        std::fclose(stream_);
+        throw;
     }
-    stream_ = std::fopen(file_.c_str(), whole > 0 ? "r+b" : "wb");
-    if (!stream_) fail(file_);
-    // A record that was being written when the program ended is written over.
-    if (whole > 0 ? std::fseek(stream_, whole, SEEK_SET) != 0
-                  : std::fwrite(&head, sizeof head, 1, stream_) != 1 || std::fflush(stream_) != 0)
-        fail(file_);
 }
 
 Checkpoint::~Checkpoint() {
     if (stream_) std::fclose(stream_);
 }
 
+// Of file_: false where it is not for us.
+bool Checkpoint::open(const Head& head) {
+    do {
+        if (stream_) std::fclose(stream_);
+        stream_ = opened(file_, O_CREAT);
+        if (!stream_) fail(file_);
+        if (!lock(stream_)) {
+            std::fclose(std::exchange(stream_, nullptr));
+            return false;
+        }
+    } while (!isAt(stream_, file_));
+    const Holds holds = headOf(stream_, head);
+    if (holds == Holds::something_else) {
+        std::fclose(std::exchange(stream_, nullptr));
+        return false;
+    }
+    // A record that was being written when the program ended is written over.
+    const long whole = holds == Holds::this_picture ? readRecords(stream_, floats_, earlier_) : 0;
+    if (std::fseek(stream_, whole, SEEK_SET) != 0 ||
+        (whole == 0 && (std::fwrite(&head, sizeof head, 1, stream_) != 1 || std::fflush(stream_) != 0))) {
+        const int error = errno;
+        std::fclose(std::exchange(stream_, nullptr));
+        errno = error;
+        fail(file_);
+    }
+    return true;
+}
+
+// A program that writes the same picture appends to its file meanwhile: what is whole is taken, and its file
+// left to it.
+void Checkpoint::merge(const fs::path& stem, const Head& head) {
+    std::set<std::uint64_t> have;
+    for (const Record& record : earlier_) have.insert(record.number);
+    for (const fs::path& other : filesOf(stem)) {
+        if (other == file_ || !other.native().starts_with(fileOf(stem, head.key).native())) continue;
+        std::FILE* stream = opened(other, 0);
+        if (!stream) continue;
+        const bool ended = lock(stream) && isAt(stream, other);
+        const bool same = headOf(stream, head) == Holds::this_picture;
+        std::vector<Record> records;
+        if (same) readRecords(stream, floats_, records);
+        try {
+            for (Record& record : records) {
+                if (!have.insert(record.number).second) continue;
+                keep(record.number, record.values);
+                earlier_.push_back(std::move(record));
+            }
+        } catch (...) {
+            std::fclose(stream);
+            throw;
+        }
+        std::error_code ignored;
+        if (same && ended) fs::remove(other, ignored);
+        std::fclose(stream);
+    }
+}
+
 void Checkpoint::keep(std::uint64_t number, std::span<const float> values) {
-    if (!stream_) return;
     std::vector<float> filled(values.begin(), values.end());
     filled.resize(floats_);
     const std::uint64_t sum = sumOf(number, filled);
     const std::lock_guard lock(mutex_);
+    if (!stream_) return;
     if (std::fwrite(&number, sizeof number, 1, stream_) != 1 ||
         std::fwrite(filled.data(), sizeof(float), floats_, stream_) != floats_ ||
         std::fwrite(&sum, sizeof sum, 1, stream_) != 1 || std::fflush(stream_) != 0)
         fail(file_);
+}
+
+// While it is still locked: who waits for the lock then sees that it is gone.
+void Checkpoint::remove() {
+    const std::lock_guard lock(mutex_);
+    if (!stream_) return;
+    std::error_code ignored;
+    fs::remove(file_, ignored);
+    std::fclose(std::exchange(stream_, nullptr));
+}
+
+std::vector<fs::path> abandonedCheckpoints(const fs::path& stem) {
+    std::vector<fs::path> files = filesOf(stem);
+    std::erase_if(files, [](const fs::path& file) {
+        std::FILE* stream = opened(file, 0);
+        if (!stream) return false;
+        const bool ended = lock(stream);
+        std::fclose(stream);
+        return !ended;
+    });
+    return files;
 }
 
 }  // namespace diptych::reference

@@ -295,15 +295,17 @@ public:
 
     Picture operator()() {
         const std::size_t pixels = std::size_t{tileSide} * tileSide;
-        Checkpoint checkpoint(request_.keep, request_.keep.empty() ? 0 : keyOf(request_),
-                              pixels * static_cast<std::size_t>(floats_));
+        Checkpoint* const checkpoint =
+            request_.keep ? &request_.keep(keyOf(request_), pixels * static_cast<std::size_t>(floats_))
+                          : nullptr;
         const auto tiles = static_cast<std::uint64_t>(across_) * static_cast<std::uint64_t>(down_);
         std::vector<bool> there(tiles, false);
-        for (const Checkpoint::Record& record : checkpoint.takeEarlier())
-            if (record.number < tiles) {
-                put(record.number, record.values);
-                there[record.number] = true;
-            }
+        if (checkpoint)
+            for (const Checkpoint::Record& record : checkpoint->takeEarlier())
+                if (record.number < tiles) {
+                    put(record.number, record.values);
+                    there[record.number] = true;
+                }
         // Scattered over the picture, so that what is done tells how long the rest will take.
         std::vector<std::uint64_t> order;
         std::uint64_t step =
@@ -318,7 +320,7 @@ public:
             tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
                 const std::vector<float> values = renderTile(painter, order[i]);
                 put(order[i], values);
-                checkpoint.keep(order[i], values);
+                if (checkpoint) checkpoint->keep(order[i], values);
                 if (request_.progress)
                     request_.progress(static_cast<double>(++done) / static_cast<double>(order.size()));
             });

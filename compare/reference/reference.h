@@ -22,7 +22,7 @@ struct Picture {
 std::vector<int> surfaceChannels();
 
 // Multithreaded; the same picture whatever the number of threads and however often it was interrupted. Throws
-// std::runtime_error, one line, where `keep` cannot be written.
+// std::runtime_error, one line, where what is done cannot be kept.
 Picture draw(const Request& request);
 
 }  // namespace diptych::reference

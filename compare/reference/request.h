@@ -8,7 +8,8 @@
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/view.h"
 
-#include <filesystem>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <span>
@@ -16,6 +17,8 @@
 #include <vector>
 
 namespace diptych::reference {
+
+class Checkpoint;
 
 struct Request {
     const Scene& scene;
@@ -30,9 +33,10 @@ struct Request {
     ReferenceMode mode = ReferenceMode::surface;
     int samples = 1;                                 // per pixel, mode scene
     const std::map<int, Image>* surfaces = nullptr;  // mode surface: every channel of surfaceChannels()
-    // Where what is done is kept, when all is too: the caller removes it. Empty: nowhere. `program`: what of
-    // another version is not gone on from.
-    std::filesystem::path keep;
+    // Called once, for where tiles of `floats` numbers are kept as they are done, of the picture that `key`
+    // stands for: the caller owns it, and removes it when the picture is safe. Empty: nowhere. `program`:
+    // what another version has kept is not gone on from.
+    std::function<Checkpoint&(std::uint64_t key, std::size_t floats)> keep = {};
     std::string_view program = {};
     // From any thread: the share that is done.
     std::function<void(double fraction)> progress = {};

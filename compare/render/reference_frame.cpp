@@ -12,6 +12,7 @@
 #include "shared/frame/debug_modes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -88,6 +89,12 @@ bool isReferenceFrame(const Frame& frame) {
            (frame.origin.file.empty() || !frame.origin.device.empty());
 }
 
+std::string uncertaintyNote(double relative) {
+    return fmt::format(
+        "reference: lit is known to {:.2g} of itself with a confidence of 95 %, at 99.9 % of the pixels",
+        relative);
+}
+
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
@@ -105,7 +112,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .mode = settings.reference_mode,
         .samples = settings.spp,
         .surfaces = surfaces ? &surfaces->channels : nullptr,
-        .keep = options.keep ? options.keep() : fs::path(),
+        .keep = options.keep,
         .program = commitName(),
         .progress = [&](double fraction) { options.progress.at(fraction, step); }};
     reference::Picture picture = reference::draw(request);
@@ -120,9 +127,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         frame.relative_uncertainty =
             uncertaintyOf(picture.uncertainty, frame.channels.at(lit), coverage(frame, frame));
         frame.uncertainty = std::move(picture.uncertainty);
-        frame.notes.push_back(fmt::format(
-            "reference: lit is known to {:.2g} of itself with a confidence of 95 %, at 99.9 % of the pixels",
-            frame.relative_uncertainty));
+        frame.notes.push_back(uncertaintyNote(frame.relative_uncertainty));
     }
     std::erase_if(frame.channels, [&](const auto& entry) {
         return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;
@@ -133,21 +138,33 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     return frame;
 }
 
-fs::path KeptReferences::next() {
-    files_.push_back(besideOutput(output_, fmt::format("reference-{}", files_.size() + 1)));
+KeptReferences::KeptReferences(const fs::path& output, bool isFolder)
+    : stem_(besideOutput(output, "reference")), is_folder_(isFolder) {}
+
+reference::Checkpoint& KeptReferences::open(std::uint64_t key, std::size_t floats) {
     std::error_code ignored;  // what cannot be made is said by who writes there
-    if (is_folder_ && files_.back().has_parent_path())
-        fs::create_directories(files_.back().parent_path(), ignored);
+    if (is_folder_ && stem_.has_parent_path()) fs::create_directories(stem_.parent_path(), ignored);
+    checkpoints_.push_back(std::make_unique<reference::Checkpoint>(stem_, key, floats));
     sayWhenInterrupted(
         fmt::format("what is done of the reference is kept in {}: the same command goes on from there",
-                    files_.back().string()));
-    return files_.back();
+                    checkpoints_.back()->file().string()));
+    return *checkpoints_.back();
 }
 
 void KeptReferences::remove() {
     sayWhenInterrupted({});
-    std::error_code ignored;
-    for (const fs::path& file : files_) fs::remove(file, ignored);
+    for (const auto& checkpoint : checkpoints_) checkpoint->remove();
+}
+
+std::string KeptReferences::leftByOthers() const {
+    std::vector<std::string> files;
+    for (const fs::path& file : reference::abandonedCheckpoints(stem_)) files.push_back(file.string());
+    if (files.empty()) return {};
+    return fmt::format(
+        "kept of other references, whose commands did not end: {}; such a command goes on from its file when "
+        "it "
+        "is given again, and whoever does not want that may remove the file",
+        fmt::join(files, ", "));
 }
 
 }  // namespace diptych

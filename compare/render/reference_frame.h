@@ -2,12 +2,16 @@
 // The reference's Frame: compare/reference and what the tool gives it.
 #pragma once
 
+#include "compare/reference/checkpoint.h"
 #include "compare/render/render_options.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,20 +34,31 @@ bool isReferenceFrame(const Frame& frame);
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options);
 
-// Where references keep what is done of them until a command ends: beside its output, one file each. They are
-// gone on from when the same command is given again.
+// What readers of such a Frame must know of its relative_uncertainty, as a note of the Frame.
+std::string uncertaintyNote(double relative);
+
+// Where references keep what is done of them until a command ends: beside its output, one file each, named
+// after the picture (.NAME.reference-HASH). They are gone on from when the same command is given again.
+// Programs with one output each have their own files.
 class KeptReferences {
 public:
     // The folders above an output that is one itself are made, as they are for it.
-    KeptReferences(std::filesystem::path output, bool isFolder)
-        : output_(std::move(output)), is_folder_(isFolder) {}
-    std::filesystem::path next();  // for one reference more, in the command's order
-    void remove();                 // the command has made its output
+    KeptReferences(const std::filesystem::path& output, bool isFolder);
+
+    // For one reference more. As reference::Request::keep; lives as long as this does. Throws
+    // std::runtime_error naming the file where it cannot be written.
+    reference::Checkpoint& open(std::uint64_t key, std::size_t floats);
+
+    void remove();  // the command has made its output
+
+    // A line for the user on what other commands with the same output have left, which nothing else would
+    // ever remove; empty where there is nothing.
+    std::string leftByOthers() const;
 
 private:
-    std::filesystem::path output_;
+    std::filesystem::path stem_;
     bool is_folder_;
-    std::vector<std::filesystem::path> files_;
+    std::vector<std::unique_ptr<reference::Checkpoint>> checkpoints_;
 };
 
 }  // namespace diptych

@@ -4,12 +4,16 @@
 
 #include "compare/run/progress.h"
 
-#include <filesystem>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace diptych {
+namespace reference {
+class Checkpoint;
+}
 
 struct RenderOptions {
     // Debug modes; a forward-only one is left out of a deferred Frame. Empty: it is timed, and nothing else.
@@ -20,8 +24,10 @@ struct RenderOptions {
     bool twice = false;            // every channel once more, for Frame::noise
     std::function<void(const std::string&)> said;  // called before each step with a word on it, for -v
     Stage progress;                                // of renderAll()
-    // Where a reference keeps what is done of it, asked once for each; it stays there. Empty: nowhere.
-    std::function<std::filesystem::path()> keep{};
+    // Where a reference keeps what is done of it, as reference::Request::keep; asked once for each. Empty:
+    // nowhere.
+    std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};
+};
 };
 
 // What making one Frame takes, in the time of drawing one frame: for a progress line.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The reference as the tool draws it: alone, against both paths, interrupted and gone on with.
+#include "shared/image/exr.h"
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 
 #include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <set>
 
 namespace diptych {
 namespace {
@@ -122,25 +126,49 @@ std::string inShell(const std::vector<std::string>& words) {
     return line;
 }
 
+// What is kept of references beside r.exr, in the order of the names.
+std::vector<fs::path> keptIn(const Folder& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        if (entry.path().filename().string().starts_with(".r.exr.reference-")) files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
+}
+
+// The numbers of the whole tiles in such a file: a head (a mark, the picture's key, floats of a tile), then
+// of each tile its number, its floats and their sum.
+std::set<std::uint64_t> tilesIn(const fs::path& file) {
+    const std::string bytes = contentsOf(file);
+    const auto wordAt = [&](std::size_t at) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + at, sizeof word);
+        return word;
+    };
+    std::set<std::uint64_t> tiles;
+    if (bytes.size() < 24) return tiles;
+    const std::size_t record = 8 + 4 * wordAt(16) + 8;
+    for (std::size_t at = 24; at + record <= bytes.size(); at += record) tiles.insert(wordAt(at));
+    return tiles;
+}
+
 void endsAndGoesOn(int signal, bool says) {
     const Folder folder;
     folder.write("panel.json", panel);
-    const fs::path kept = folder / ".r.exr.reference-1";
     Running tool(folder, longDrawing);
-    // A head, and a tile at least.
-    const auto size = [&] {
-        std::error_code none;
-        const std::uintmax_t bytes = fs::file_size(kept, none);
-        return none ? 0 : bytes;
+    const auto tiles = [&] {
+        const std::vector<fs::path> kept = keptIn(folder);
+        return kept.empty() ? 0 : tilesIn(kept.front()).size();
     };
-    ASSERT_TRUE(soon([&] { return size() > 20000 || tool.ended(); })) << tool.err();
+    ASSERT_TRUE(soon([&] { return tiles() > 0 || tool.ended(); })) << tool.err();
     ASSERT_FALSE(tool.ended()) << "too quick to be interrupted";
     ::kill(tool.process(), signal);
     ASSERT_TRUE(soon([&] { return tool.ended(); }));
     EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
-    EXPECT_EQ(tool.err().find(".r.exr.reference-1: the same command goes on") != std::string::npos, says)
+    ASSERT_GT(tiles(), 0u) << "what is done is there";
+    const fs::path kept = keptIn(folder).front();
+    EXPECT_EQ(tool.err().find(kept.filename().string() + ": the same command goes on") != std::string::npos,
+              says)
         << tool.err();
-    ASSERT_GT(size(), 20000u) << "what is done is there";
     EXPECT_FALSE(fs::exists(folder / "r.exr"));
 
     const Ran again = runTool(folder, inShell(longDrawing));
@@ -167,17 +195,130 @@ TEST(ReferenceTool, KilledItGoesOnAsWell) {
     endsAndGoesOn(SIGKILL, false);
 }
 
-// Of another picture: begun anew, not mixed into it.
-TEST(ReferenceTool, WhatIsKeptOfAnotherPictureIsNotGoneOnFrom) {
+// The tool is killed once it has kept `least` tiles in a file that is not among `before`. Returns that file.
+fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::path>& before,
+                     std::size_t least) {
+    fs::path own;
+    const bool there = soon([&] {
+        for (const fs::path& file : keptIn(folder))
+            if (std::ranges::count(before, file) == 0 && tilesIn(file).size() >= least) own = file;
+        return !own.empty() || tool.ended();
+    });
+    EXPECT_TRUE(there && !own.empty()) << tool.err();
+    ::kill(tool.process(), SIGKILL);
+    tool.wait();
+    return own;
+}
+
+// Another picture in the same place is begun anew, and what is kept of the first is neither mixed into it nor
+// lost.
+TEST(ReferenceTool, WhatIsKeptOfAnotherPictureStaysAndIsNamed) {
     const Folder folder;
+    folder.write("panel.json", panel);
     const std::string command = "render builtin:triangle --path reference --size 32x18 --force -o r.exr";
-    ASSERT_EQ(runTool(folder, command).code, 0);
+    const Ran first = runTool(folder, command);
+    ASSERT_EQ(first.code, 0);
+    EXPECT_EQ(first.err.find("kept of"), first.err.npos) << first.err;
     fs::rename(folder / "r.exr", folder / "sound.exr");
-    folder.write(".r.exr.reference-1", std::string(5000, 'x'));
-    const Ran ran = runTool(folder, command);
-    EXPECT_EQ(ran.code, 0) << ran.err;
-    EXPECT_EQ(runTool(folder, "diff sound.exr r.exr --metric max --tolerance 0").code, 0);
-    EXPECT_FALSE(fs::exists(folder / ".r.exr.reference-1"));
+
+    Running other(folder, longDrawing);
+    const fs::path kept = killedAfter(other, folder, {}, 1);
+    ASSERT_FALSE(kept.empty());
+    const std::string held = contentsOf(kept);
+
+    for (const std::string quiet : {"", " -q"}) {
+        const Ran ran = runTool(folder, command + quiet);
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        EXPECT_EQ(runTool(folder, "diff sound.exr r.exr --metric max --tolerance 0").code, 0);
+        EXPECT_EQ(keptIn(folder), std::vector<fs::path>{kept}) << "its own is removed, the other's is not";
+        EXPECT_EQ(contentsOf(kept), held);
+        const std::string line =
+            "diptych: kept of other references, whose commands did not end: " + kept.filename().string() +
+            ";";
+        EXPECT_EQ(ran.err.find(line) != ran.err.npos, quiet.empty()) << ran.err;
+    }
+    // Its own command still goes on from it, and removes it.
+    EXPECT_EQ(runTool(folder, inShell(longDrawing)).code, 0);
+    EXPECT_TRUE(keptIn(folder).empty());
+}
+
+// Two programs with one -o draw one picture at once. Both are killed: no tile of either is lost.
+TEST(ReferenceTool, TwoProgramsWithOneOutputKeepTheirTilesApart) {
+    const Folder folder;
+    folder.write("panel.json", panel);
+    std::vector<std::string> words = longDrawing;  // and longer: time for both
+    std::ranges::replace(words, std::string("64x36"), std::string("96x54"));
+    Running one(folder, words);
+    ASSERT_TRUE(soon([&] { return !keptIn(folder).empty() && !tilesIn(keptIn(folder).front()).empty(); }));
+    const std::vector<fs::path> first = keptIn(folder);
+    ASSERT_EQ(first.size(), 1u);
+    const std::size_t before = tilesIn(first[0]).size();
+    Running two(folder, words);
+    const fs::path second = killedAfter(two, folder, first, before + 1);
+    ASSERT_FALSE(one.ended()) << "too quick to be interrupted";
+    ::kill(one.process(), SIGKILL);
+    one.wait();
+    std::set<std::uint64_t> done = tilesIn(first[0]);
+    EXPECT_GE(tilesIn(second).size(), before) << "the second began with what the first had done";
+    done.merge(tilesIn(second));
+
+    // The next one has them all, in one file, before it adds any.
+    Running third(folder, words);
+    const bool merged = soon([&] { return third.ended() || keptIn(folder).size() == 1; });
+    EXPECT_TRUE(merged && !third.ended()) << third.err();
+    ::kill(third.process(), SIGKILL);
+    third.wait();
+    ASSERT_EQ(keptIn(folder), first);
+    EXPECT_TRUE(std::ranges::includes(tilesIn(first[0]), done));
+
+    const Ran last = runTool(folder, inShell(words));
+    EXPECT_EQ(last.code, 0) << last.err;
+    EXPECT_TRUE(keptIn(folder).empty());
+    fs::rename(folder / "r.exr", folder / "pieced.exr");
+    ASSERT_EQ(runTool(folder, inShell(words)).code, 0);
+    EXPECT_EQ(runTool(folder, "diff r.exr pieced.exr --metric max --tolerance 0").code, 0);
+}
+
+// Both end by themselves: two whole pictures, one after the other in one place, and nothing beside it.
+TEST(ReferenceTool, TwoProgramsWithOneOutputBothFinish) {
+    const Folder folder;
+    folder.write("panel.json", panel);
+    std::vector<std::string> words = longDrawing;
+    std::ranges::replace(words, std::string("64x36"), std::string("32x18"));
+    Running one(folder, words), two(folder, words);
+    EXPECT_EQ(one.wait(), 0) << one.err();
+    EXPECT_EQ(two.wait(), 0) << two.err();
+    EXPECT_TRUE(keptIn(folder).empty());
+    EXPECT_TRUE(fs::exists(folder / "r.exr"));
+}
+
+// ---- stored ------------------------------------------------------------------------------------------
+
+// A stored reference judges as one that is drawn now, by how far each pixel of it is known.
+TEST(ReferenceTool, AStoredReferenceJudgesAsOneDrawnNow) {
+    const Folder folder;
+    Image sky(8, 4, 3, 0.2f);
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    const std::string drawing = "compare builtin:triangle --size 16x9 --env sky.exr --runs 0 ";
+    const Ran now = runTool(folder, drawing + "--baseline reference -o now");
+    ASSERT_LE(now.code, 1) << now.err;
+    const Ran stored = runTool(folder, drawing + "--baseline now/reference.exr -o stored");
+    EXPECT_EQ(stored.code, now.code) << stored.err;
+    const Json a = jsonIn(folder / "now/report.json"), b = jsonIn(folder / "stored/report.json");
+    EXPECT_GT(a["frames"][0]["uncertainty"].get<double>(), 0);
+    EXPECT_EQ(a["frames"][0]["uncertainty"], b["frames"][0]["uncertainty"]);
+    for (const std::size_t row : {0u, 1u}) {
+        EXPECT_EQ(a["comparisons"][row]["channels"], b["comparisons"][row]["channels"]);
+        EXPECT_NE(a["comparisons"][row]["channels"].dump().find("what the reference itself is known to"),
+                  std::string::npos);
+    }
+    // To diff it is no channel.
+    const PictureFile exr = readExr(folder / "now/reference.exr");
+    EXPECT_EQ(std::ranges::count(exr.layers, "uncertainty", &PictureLayer::name), 1);
+    const Ran diff = runTool(folder, "diff now/reference.exr now/forward_plus.exr --json");
+    EXPECT_LE(diff.code, 1) << diff.err;
+    EXPECT_NE(diff.out.find("albedo"), std::string::npos) << diff.out;
+    EXPECT_EQ(diff.out.find("uncertainty"), std::string::npos) << diff.out;
 }
 
 }  // namespace

@@ -3,30 +3,37 @@
 
 #include "tests/unit/files.h"
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <stdexcept>
 
 namespace diptych::reference {
 namespace {
 
-const std::vector<float> first{1, 2, 3}, second{4, 5, 6};
+using Path = std::filesystem::path;
+using Names = std::vector<std::string>;
 
-void write(const std::filesystem::path& file, const std::string& bytes) {
+const std::vector<float> first{1, 2, 3}, second{4, 5, 6};
+constexpr std::uint64_t key = 0x0123456789abcdefu, other_key = 0xfedcba9876543210u;
+constexpr const char *name = "kept-01234567", *other_name = "kept-fedcba98";
+
+void write(const Path& file, const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
-// Two records of three floats.
-std::filesystem::path twoRecords() {
-    const std::filesystem::path file = folder() / "kept";
-    Checkpoint checkpoint(file, 7, 3);
+// Two records of three floats, in an empty folder; returns the stem.
+Path twoRecords() {
+    const Path stem = folder() / "kept";
+    Checkpoint checkpoint(stem, key, 3);
     EXPECT_TRUE(checkpoint.takeEarlier().empty());
+    EXPECT_EQ(checkpoint.file(), stem.parent_path() / name);
     checkpoint.keep(10, first);
     checkpoint.keep(11, second);
-    return file;
+    return stem;
 }
 
-std::vector<std::uint64_t> numbersIn(const std::filesystem::path& file, std::uint64_t key = 7,
-                                     std::size_t floats = 3) {
-    Checkpoint checkpoint(file, key, floats);
+std::vector<std::uint64_t> numbersIn(Checkpoint& checkpoint) {
     std::vector<std::uint64_t> numbers;
     for (const Checkpoint::Record& record : checkpoint.takeEarlier()) {
         EXPECT_EQ(record.values, record.number == 10 ? first : second);
@@ -35,74 +42,166 @@ std::vector<std::uint64_t> numbersIn(const std::filesystem::path& file, std::uin
     return numbers;
 }
 
+std::vector<std::uint64_t> numbersAt(const Path& stem, std::uint64_t of = key, std::size_t floats = 3) {
+    Checkpoint checkpoint(stem, of, floats);
+    return numbersIn(checkpoint);
+}
+
+using Numbers = std::vector<std::uint64_t>;
+
 TEST(ReferenceCheckpoint, HoldsWhatIsKept) {
-    const std::filesystem::path file = twoRecords();
-    EXPECT_EQ(numbersIn(file), (std::vector<std::uint64_t>{10, 11}));
-    EXPECT_EQ(numbersIn(file), (std::vector<std::uint64_t>{10, 11})) << "reading changes nothing";
+    const Path stem = twoRecords();
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11}));
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << "reading changes nothing";
 }
 
 TEST(ReferenceCheckpoint, WhereverTheFileEndsWhatIsWholeCounts) {
-    const std::filesystem::path file = twoRecords();
+    const Path stem = twoRecords(), file = stem.parent_path() / name;
     const std::string bytes = contentsOf(file);
     const std::size_t record = 8 + 3 * 4 + 8, head = bytes.size() - 2 * record;
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         write(file, bytes.substr(0, size));
         const std::size_t whole = size < head ? 0 : (size - head) / record;
-        EXPECT_EQ(numbersIn(file).size(), whole) << size;
+        EXPECT_EQ(numbersAt(stem).size(), whole) << size;
         if (size < head) continue;
         // And goes on behind it.
         write(file, bytes.substr(0, size));
         {
-            Checkpoint checkpoint(file, 7, 3);
+            Checkpoint checkpoint(stem, key, 3);
             if (whole == 0) checkpoint.keep(10, first);
             checkpoint.keep(11, second);
         }
-        EXPECT_EQ(numbersIn(file), (std::vector<std::uint64_t>{10, 11})) << size;
+        EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << size;
     }
 }
 
 TEST(ReferenceCheckpoint, EveryBitCounts) {
-    const std::filesystem::path file = twoRecords();
+    const Path stem = twoRecords(), file = stem.parent_path() / name;
     const std::string bytes = contentsOf(file);
     for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
         std::string flipped = bytes;
         flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
         write(file, flipped);
-        EXPECT_LT(numbersIn(file).size(), 2u) << bit;
+        EXPECT_LT(numbersAt(stem).size(), 2u) << bit;
     }
 }
 
-TEST(ReferenceCheckpoint, OfAnotherPictureItIsWrittenAnew) {
-    EXPECT_TRUE(numbersIn(twoRecords(), 8).empty());
-    EXPECT_TRUE(numbersIn(twoRecords(), 7, 2).empty());
-    const std::filesystem::path file = twoRecords();
-    numbersIn(file, 8);
-    EXPECT_TRUE(numbersIn(file).empty()) << "what it held is gone";
+// ---- of other pictures -------------------------------------------------------------------------------
+
+TEST(ReferenceCheckpoint, AnotherPictureHasAnotherFile) {
+    const Path stem = twoRecords();
+    EXPECT_TRUE(numbersAt(stem, other_key).empty());
+    EXPECT_EQ(namesIn(stem.parent_path()), (Names{name, other_name}));
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << "nothing is lost";
 }
+
+// Pictures whose keys differ in what the name does not show, or whose records are of another size.
+TEST(ReferenceCheckpoint, WhatHasItsNameByChanceIsLeftAlone) {
+    const Path stem = twoRecords();
+    EXPECT_TRUE(numbersAt(stem, key ^ 1).empty());
+    EXPECT_TRUE(numbersAt(stem, key, 2).empty());
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11}));
+    EXPECT_EQ(namesIn(stem.parent_path()), (Names{name, std::string(name) + "-2", std::string(name) + "-3"}));
+    const std::string text(5000, 'x');
+    write(stem.parent_path() / other_name, text);
+    {
+        Checkpoint checkpoint(stem, other_key, 3);
+        EXPECT_TRUE(checkpoint.takeEarlier().empty());
+        EXPECT_EQ(checkpoint.file().filename(), std::string(other_name) + "-2");
+        checkpoint.keep(10, first);
+    }
+    EXPECT_EQ(numbersAt(stem, other_key), (Numbers{10}));
+    EXPECT_EQ(contentsOf(stem.parent_path() / other_name), text);
+}
+
+TEST(ReferenceCheckpoint, WhatOthersLeftIsNamed) {
+    const Path stem = twoRecords(), file = stem.parent_path() / name;
+    write(stem.parent_path() / "kept-1", "as they were called once");
+    write(stem.parent_path() / "kept-notes.txt", "not ours");
+    write(stem.parent_path() / "kept-", "not ours");
+    write(stem.parent_path() / "kept", "not ours");
+    std::filesystem::create_directory(stem.parent_path() / "kept-2");
+    const std::vector<Path> all{file, stem.parent_path() / "kept-1"};
+    EXPECT_EQ(abandonedCheckpoints(stem), all);
+    {
+        const Checkpoint checkpoint(stem, key, 3);
+        EXPECT_EQ(abandonedCheckpoints(stem), std::vector<Path>{all[1]}) << "one that is written to";
+    }
+    EXPECT_EQ(abandonedCheckpoints(stem), all);
+    EXPECT_TRUE(abandonedCheckpoints(folder() / "absent" / "kept").empty());
+}
+
+// ---- of one picture, at once -------------------------------------------------------------------------
+
+TEST(ReferenceCheckpoint, TwoAtOnceHaveAFileEach) {
+    const Path stem = twoRecords();
+    {
+        Checkpoint one(stem, key, 3);
+        Checkpoint two(stem, key, 3);
+        EXPECT_EQ(two.file().filename(), std::string(name) + "-2");
+        EXPECT_EQ(numbersIn(one), (Numbers{10, 11}));
+        EXPECT_EQ(numbersIn(two), (Numbers{10, 11})) << "what the other has done is not done twice";
+        one.keep(12, second);
+        two.keep(13, second);
+        two.keep(12, second);
+    }
+    // Both have ended, and neither has finished.
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
+    EXPECT_EQ(namesIn(stem.parent_path()), Names{name}) << "one file holds it all";
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
+}
+
+TEST(ReferenceCheckpoint, TheFirstToFinishTakesNothingFromTheOther) {
+    const Path stem = twoRecords();
+    {
+        Checkpoint one(stem, key, 3), two(stem, key, 3);
+        two.keep(12, second);
+        one.remove();
+        one.keep(13, second);  // nothing is kept any more
+        EXPECT_EQ(namesIn(stem.parent_path()), Names{std::string(name) + "-2"});
+    }
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12})) << "with what it had from the first";
+    EXPECT_EQ(namesIn(stem.parent_path()), Names{name});
+    Checkpoint(stem, key, 3).remove();
+    EXPECT_TRUE(namesIn(stem.parent_path()).empty());
+}
+
+// ---- faults ------------------------------------------------------------------------------------------
 
 TEST(ReferenceCheckpoint, WhatCannotBeWrittenIsNamed) {
-    const std::filesystem::path file = folder() / "absent" / "kept";
+    const Path stem = folder() / "absent" / "kept";
     try {
-        Checkpoint checkpoint(file, 7, 3);
+        Checkpoint checkpoint(stem, key, 3);
         ADD_FAILURE() << "nothing can be kept there";
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find(file.string()), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find((stem.parent_path() / name).string()), std::string::npos)
+            << e.what();
         EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
     }
-    // A disk that is full.
-    if (!std::filesystem::exists("/dev/full")) return;
-    EXPECT_THROW(
-        {
-            Checkpoint full("/dev/full", 7, 3);
-            full.keep(1, first);
-        },
-        std::runtime_error);
 }
 
-TEST(ReferenceCheckpoint, WithoutAFileNothingIsKept) {
-    Checkpoint checkpoint({}, 7, 3);
-    checkpoint.keep(1, first);
-    EXPECT_TRUE(checkpoint.takeEarlier().empty());
+// A disk that is full: here a limit that only the head keeps to.
+TEST(ReferenceCheckpoint, WhatFindsNoRoomIsAnError) {
+    const Path stem = folder() / "kept";
+    struct rlimit before {};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    struct rlimit small = before;
+    small.rlim_cur = 40;
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    bool thrown = false;
+    {
+        Checkpoint checkpoint(stem, key, 3);
+        ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+        try {
+            checkpoint.keep(10, first);
+        } catch (const std::runtime_error&) {
+            thrown = true;
+        }
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_TRUE(thrown);
+    EXPECT_TRUE(numbersAt(stem).empty());
 }
 
 }  // namespace

@@ -264,7 +264,7 @@ TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
                            if (++tiles == 4) throw std::runtime_error("stop");
                        }),
                  std::runtime_error);
-    ASSERT_TRUE(std::filesystem::exists(keep));
+    EXPECT_EQ(namesIn(keep.parent_path()).size(), 1u);
     std::atomic<int> rest{0};
     const Drawn again = drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; });
     expectSame(whole.picture, again.picture);
@@ -278,7 +278,6 @@ TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
 
 // What decides a pixel decides whether a file is of the same picture.
 TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
-    const std::filesystem::path keep = folder() / "kept";
     Scene scene = sampledScene();
     scene.lights[0].kind = LightKind::point;
     const std::vector<std::pair<const char*, void (*)(Scene&, View&)>> changes{
@@ -293,6 +292,7 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
         {"camera", [](Scene&, View& v) { v.camera.world_from_camera[3].x += 0.1; }},
         {"size", [](Scene&, View& v) { v.width = 39; }}};
     for (const auto& [name, change] : changes) {
+        const std::filesystem::path keep = folder() / "kept";
         std::atomic<int> done{0};
         const auto stop = [&](double) {
             if (++done == 2) throw std::runtime_error("stop");
@@ -311,6 +311,8 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
         };
         EXPECT_THROW(drawn(changed, view, true, 1, keep, first), std::runtime_error);
         EXPECT_EQ(least, 1.0 / 9) << name;
+        EXPECT_EQ(namesIn(keep.parent_path()).size(), 2u)
+            << name << ": what is kept of the first is left alone";
     }
 }
 

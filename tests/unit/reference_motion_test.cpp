@@ -14,6 +14,7 @@ namespace {
 Picture drawnAt(const Scene& scene, double seconds, const View& view, const std::filesystem::path& keep = {},
                 const std::function<void(double)>& progress = {}) {
     const Pose pose = poseAt(scene, seconds);
+    std::optional<Checkpoint> checkpoint;
     return draw({.scene = scene,
                  .pose = pose,
                  .view = view,
@@ -22,7 +23,7 @@ Picture drawnAt(const Scene& scene, double seconds, const View& view, const std:
                  .mode = ReferenceMode::scene,
                  .samples = 1,
                  .surfaces = nullptr,
-                 .keep = keep,
+                 .keep = keptAt(keep, checkpoint),
                  .progress = progress});
 }
 

@@ -4,9 +4,12 @@
 
 #include "tests/unit/reference_maker.h"
 
+#include "compare/reference/checkpoint.h"
 #include "shared/contract/debug_mode.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+
+#include <optional>
 
 namespace diptych::reference {
 
@@ -59,6 +62,16 @@ inline View viewFrom(const glm::dvec3& eye, const glm::dvec3& target, int width,
     return view;
 }
 
+// Keeps tiles in a file of that stem, which `checkpoint` then owns; nowhere where the stem is empty.
+inline auto keptAt(const std::filesystem::path& stem, std::optional<Checkpoint>& checkpoint) {
+    std::function<Checkpoint&(std::uint64_t, std::size_t)> keep;
+    if (!stem.empty())
+        keep = [stem, &checkpoint](std::uint64_t key, std::size_t floats) -> Checkpoint& {
+            return checkpoint.emplace(stem, key, floats);
+        };
+    return keep;
+}
+
 struct Drawn {
     Pose pose;
     Picture picture;
@@ -67,6 +80,7 @@ struct Drawn {
 inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,
                    const std::filesystem::path& keep = {}, const std::function<void(double)>& progress = {}) {
     Drawn result{poseAt(scene, 0), {}};
+    std::optional<Checkpoint> checkpoint;
     result.picture = draw({.scene = scene,
                            .pose = result.pose,
                            .view = view,
@@ -75,7 +89,7 @@ inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, i
                            .mode = ReferenceMode::scene,
                            .samples = samples,
                            .surfaces = nullptr,
-                           .keep = keep,
+                           .keep = keptAt(keep, checkpoint),
                            .progress = progress});
     return result;
 }
