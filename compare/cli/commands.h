@@ -4,6 +4,7 @@
 #pragma once
 
 #include "compare/cli/options.h"
+#include "compare/render/reference_frame.h"
 #include "compare/render/renderer.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/comparison.h"

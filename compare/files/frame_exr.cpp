@@ -4,7 +4,9 @@
 #include "compare/files/frame_json.h"
 #include "compare/files/layers.h"
 #include "compare/files/our_files.h"
+#include "compare/render/reference_frame.h"
 #include "compare/run/version.h"
+#include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/exr.h"
 #include "shared/image/picture_file.h"
@@ -15,6 +17,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <charconv>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -45,20 +48,38 @@ bool isOurs(const PictureFile& file) {
     return valueOr(file.attributes, "software") == softwareName && file.attributes.contains("settings");
 }
 
+// Of a reference that was sampled: what the Frame had when it was written.
+void readUncertainty(PictureFile& file, Frame& frame) {
+    frame.uncertainty = takeUncertainty(file);
+    if (frame.uncertainty.empty()) return;
+    const std::string relative = valueOr(file.attributes, "relative_uncertainty");
+    const char* const end = relative.data() + relative.size();
+    const auto read = std::from_chars(relative.data(), end, frame.relative_uncertainty);
+    if (read.ec != std::errc{} || read.ptr != end)
+        throw std::runtime_error(
+            fmt::format("its attribute relative_uncertainty, \"{}\", is no number", relative));
+    frame.notes.push_back(uncertaintyNote(frame.relative_uncertainty));
+}
+
 }  // namespace
 
 void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device) {
     std::vector<ExrLayerView> layers;
     for (const auto& [mode, image] : frame.channels)
         if (frame.isAsked(mode)) layers.push_back({exrChannels(debugMode(mode)), &image});
-    writeExr(file, layers,
-             {{"camera", jsonOf(frame.camera).dump()},
-              {"commit", commitName()},
-              {"device", device.name},
-              {"driver", device.driver},
-              {"scene", frame.scene},
-              {"settings", toJson(frame.settings, -1)},
-              {"software", softwareName}});
+    std::vector<ExrAttribute> attributes{{"camera", jsonOf(frame.camera).dump()},
+                                         {"commit", commitName()},
+                                         {"device", device.name},
+                                         {"driver", device.driver},
+                                         {"scene", frame.scene},
+                                         {"settings", toJson(frame.settings, -1)},
+                                         {"software", softwareName}};
+    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
+    if (!frame.uncertainty.empty() && frame.channels.contains(lit) && frame.isAsked(lit)) {
+        layers.push_back({{uncertainty_channel}, &frame.uncertainty});
+        attributes.push_back({"relative_uncertainty", fmt::format("{}", frame.relative_uncertainty)});
+    }
+    writeExr(file, layers, attributes);
 }
 
 Frame frameFromExr(const std::filesystem::path& path) {
@@ -71,6 +92,7 @@ Frame frameFromExr(const std::filesystem::path& path) {
             readOrigin(file, frame);
         else
             frame.settings.path = Path::reference;
+        if (isReferenceFrame(frame)) readUncertainty(file, frame);
         frame.settings.size = {file.width, file.height};
         std::vector<std::string> others;
         for (PictureChannel& channel : channelsOf(std::move(file), {})) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/layers.h"
 
+#include "compare/files/our_files.h"
 #include "shared/text/one_line.h"
 #include "shared/text/wildcard.h"
 
@@ -212,8 +213,21 @@ std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::
         }
     }
     remove(file, used);
+    takeUncertainty(file);
     for (PictureLayer& layer : file.layers) Splitter(std::move(layer), channels).split();
     return channels;
+}
+
+Image takeUncertainty(PictureFile& file) {
+    const auto software = file.attributes.find("software");
+    if (software == file.attributes.end() || software->second != softwareName) return {};
+    const auto layer = std::ranges::find_if(file.layers, [](const PictureLayer& l) {
+        return l.channels == std::vector<std::string>{uncertainty_channel};
+    });
+    if (layer == file.layers.end()) return {};
+    Image uncertainty = std::move(layer->image);
+    file.layers.erase(layer);
+    return uncertainty;
 }
 
 void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std::string>& names) {

@@ -24,11 +24,20 @@ struct PictureChannel {
 };
 
 // `names`: what another renderer's channels are called here, "albedo=diffuse.R,diffuse.G,diffuse.B". Used
-// channels are taken out of the layers they were in. Throws std::runtime_error where such words are wrong.
+// channels are taken out of the layers they were in. Of our own files the uncertainty is left out. Throws
+// std::runtime_error where such words are wrong.
 std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names);
 
 // Throws std::runtime_error where the channels of one of `names` are not together in either file.
 void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std::string>& names);
+
+// The channel in which a reference's EXR says how far its lit is known (Frame::uncertainty). In a file that
+// diptych wrote it is no channel of the picture, and nothing compares it; --map can give it a name that is
+// compared.
+inline constexpr const char* uncertainty_channel = "uncertainty.Y";
+
+// Takes it out of such a file: W x H x 1, empty where there is none.
+Image takeUncertainty(PictureFile& file);
 
 struct MatchedChannel {
     std::string name;

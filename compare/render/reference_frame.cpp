@@ -84,17 +84,6 @@ Settings surfaceSettings(const Settings& settings) {
     return surfaces;
 }
 
-bool isReferenceFrame(const Frame& frame) {
-    return frame.settings.path == Path::reference &&
-           (frame.origin.file.empty() || !frame.origin.device.empty());
-}
-
-std::string uncertaintyNote(double relative) {
-    return fmt::format(
-        "reference: lit is known to {:.2g} of itself with a confidence of 95 %, at 99.9 % of the pixels",
-        relative);
-}
-
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();

@@ -26,16 +26,10 @@ Settings withoutReference(const Settings& settings);
 // What mode surface shades: forward+, one sample, with nothing packed.
 Settings surfaceSettings(const Settings& settings);
 
-// A Frame of our reference: drawn now, or read from a file that we wrote. Another renderer's file is none.
-bool isReferenceFrame(const Frame& frame);
-
 // `view` is the one that the Settings ask for. `surfaces` is the Frame of surfaceSettings() with
 // reference::surfaceChannels(); nullptr in mode scene.
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options);
-
-// What readers of such a Frame must know of its relative_uncertainty, as a note of the Frame.
-std::string uncertaintyNote(double relative);
 
 // Where references keep what is done of them until a command ends: beside its output, one file each, named
 // after the picture (.NAME.reference-HASH). They are gone on from when the same command is given again.

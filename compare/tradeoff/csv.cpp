@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/render/frame_facts.h"
 #include "compare/tradeoff/tradeoff.h"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 // What a sweep measures of one Settings.
 #pragma once
 
+#include "compare/render/frame_facts.h"
 #include "shared/frame/frame.h"
 
 #include <nlohmann/json.hpp>

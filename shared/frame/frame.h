@@ -93,4 +93,10 @@ struct Frame {
     std::vector<std::string> notes;  // what a reader must know: what was drawn otherwise than asked
 };
 
+// A Frame of our reference: drawn now, or read from a file that we wrote. Another renderer's file is none.
+bool isReferenceFrame(const Frame& frame);
+
+// What readers of such a Frame must know of its relative_uncertainty, as a note of the Frame.
+std::string uncertaintyNote(double relative);
+
 }  // namespace diptych

@@ -72,6 +72,23 @@ TEST(Layers, NamesOfOthersAreGivenOurs) {
                   0u);
 }
 
+// How far a reference is known is no part of its picture. In a file of somebody else a layer may be called
+// so.
+TEST(Layers, OurUncertaintyIsNoChannel) {
+    PictureFile ours = file({layer("", {"R", "G", "B"}), layer("uncertainty", {"uncertainty.Y"})});
+    EXPECT_EQ(namesOf(channelsOf(ours, {})), (std::vector<std::string>{"lit", "uncertainty"}));
+    ours.attributes["software"] = "diptych";
+    EXPECT_EQ(namesOf(channelsOf(ours, {})), std::vector<std::string>{"lit"});
+    EXPECT_EQ(namesOf(channelsOf(ours, {"known=uncertainty.Y"})), (std::vector<std::string>{"known", "lit"}));
+    const auto matched = match(channelsOf(ours, {}), channelsOf(file({layer("", {"R", "G", "B"})}), {}), {});
+    EXPECT_TRUE(matched.notes.empty()) << "nor is it said to be missing";
+
+    PictureFile taken = ours;
+    EXPECT_EQ(takeUncertainty(taken).data, (std::vector<float>{0, 1}));
+    EXPECT_TRUE(takeUncertainty(taken).empty());
+    EXPECT_EQ(taken.layers.size(), 1u);
+}
+
 TEST(Layers, WhatOnlyOneHasIsSaid) {
     const auto matched = match(channelsOf(file({layer("a", {"a.Y"}), layer("b", {"b.Y"})}), {}),
                                channelsOf(file({layer("b", {"b.Y"}, "half"), layer("c", {"c.Y"})}), {}), {});
