@@ -33,7 +33,7 @@ std::vector<T> valuesOf(const std::string& list, std::string_view option, std::s
     for (const std::string& word : wordsOf(list, option)) {
         Settings settings;
         try {
-            set(settings, setting, word);
+            settings.set(setting, word);
         } catch (const std::runtime_error&) {
             throw std::runtime_error(
                 fmt::format("{} {}: takes {}, separated by commas", option, word, acceptedValues(setting)));
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
 
 BenchCases planBench(const std::string& scene, const Settings& given, const BenchOptions& options) {
     const std::vector<Path> paths =
-        options.paths.empty() ? std::vector{Path::deferred, Path::forward_plus} : options.paths;
+        options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
     const std::vector<Assignment> assignments = options.assign.empty() ? all<Assignment>() : options.assign;
     const std::vector<Size> sizes = options.sizes.empty() ? std::vector{given.size} : options.sizes;
     std::vector<std::optional<std::uint32_t>> counts(options.light_counts.begin(),

@@ -52,8 +52,9 @@ bool againstReference(const Options& options) {
 }
 
 std::vector<Path> pathsOf(const Options& options) {
-    if (againstReference(options)) return {Path::reference, Path::deferred, Path::forward_plus};
-    return {Path::deferred, Path::forward_plus};
+    std::vector<Path> paths(drawn_paths.begin(), drawn_paths.end());
+    if (againstReference(options)) paths.insert(paths.begin(), Path::reference);
+    return paths;
 }
 
 std::vector<std::string> materialNames(const Scene& scene) {

@@ -63,7 +63,7 @@ Settings settingsFromFile(const std::string& file) {
 Settings settingsOf(const ParsedOptions& said) {
     Settings settings;
     if (!said.settings_file.empty()) settings = settingsFromFile(said.settings_file);
-    for (const auto& [option, value] : said.settings) set(settings, option, value);
+    for (const auto& [option, value] : said.settings) settings.set(option, value);
     if (!said.cameras.empty()) settings.camera = said.cameras.front();
     return settings;
 }

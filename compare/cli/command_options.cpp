@@ -50,19 +50,18 @@ void addLater(CLI::App& app, ParsedOptions& said, const std::string& option, con
 void addSettings(CLI::App& app, ParsedOptions& said, const std::string& except = "") {
     app.option_defaults()->group(pixel_group);
     const Settings usual;
-    Settings::fields(usual, [&](const Field& field, const auto&) {
+    for (const Field& field : settingFields()) {
         const std::string option(field.option);
-        if (option == "camera" || option == except) return;
-        const std::string value = valueOf(usual, option);
+        if (option == "camera" || option == except) continue;
+        const std::string value = usual.valueOf(option);
         app.add_option_function<std::string>(
                "--" + option,
                [&said, option](const std::string& words) { said.settings.emplace_back(option, words); },
                std::string(field.help) + (value.empty() ? "" : " (" + value + ")"))
             ->type_name(acceptedValues(option));
-    });
-    app.add_option(
-           "--camera", said.cameras,
-           "index, name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\"; may be given several times")
+    }
+    app.add_option("--camera", said.cameras,
+                   std::string(settingField("camera").help) + "; may be given several times")
         ->type_name("CAMERA")
         ->allow_extra_args(false);
     app.add_option("--settings", said.settings_file,

@@ -72,7 +72,7 @@ void print(const ScenePlan& plan) {
 
 int runPlan(const Options& options) {
     refuseOut(options);
-    std::vector<Path> paths{Path::deferred, Path::forward_plus};
+    std::vector<Path> paths(drawn_paths.begin(), drawn_paths.end());
     if (options.path_given) paths = {options.settings.path};
     if (paths.front() == Path::reference)
         throw std::runtime_error("--path reference: has no passes; plan tells of deferred and forward_plus");

@@ -160,14 +160,14 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const std::v
     return places;
 }
 
-// What was asked for and the path does not read.
-void noteUnread(const Options& options) {
+// What was asked for and the path ignores.
+void noteIgnored(const Options& options) {
     const Settings &asked = options.settings, usual;
-    Settings::fields(asked, [&](const Field& field, const auto&) {
-        const std::string_view why = unreadBecause(asked.path, field.option);
-        if (!why.empty() && valueOf(asked, field.option) != valueOf(usual, field.option))
+    for (const Field& field : settingFields()) {
+        const std::string_view why = ignoredBecause(asked.path, field.option);
+        if (!why.empty() && asked.valueOf(field.option) != usual.valueOf(field.option))
             note(options, fmt::format("--{} is not used: {}", field.option, why));
-    });
+    }
 }
 
 }  // namespace
@@ -176,7 +176,7 @@ int runRender(const Options& options) {
     if (options.list_scenes) return listScenes(options);
     const std::vector<Settings> settings = settingsOf(options, {options.settings.path});
     checkChannels(options);
-    noteUnread(options);
+    noteIgnored(options);
     const Output output = outputIn(options);
     const std::size_t count = settings.size() * options.scenes.size();
     if (count > 1 && output.kind != OutputKind::folder)

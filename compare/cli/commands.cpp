@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 
-#include "compare/render/reference_frame.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/load.h"
 

@@ -4,7 +4,6 @@
 #include "compare/files/frame_json.h"
 #include "compare/files/layers.h"
 #include "compare/files/our_files.h"
-#include "compare/render/reference_frame.h"
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"

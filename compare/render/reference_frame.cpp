@@ -45,45 +45,6 @@ double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverag
 
 }  // namespace
 
-Settings referenceSettings(const Settings& settings) {
-    Settings truth;
-    truth.path = Path::reference;
-    truth.size = settings.size;
-    truth.camera = settings.camera;
-    truth.time = settings.time;
-    truth.env = settings.env;
-    truth.ibl_intensity = settings.ibl_intensity;
-    truth.ambient = settings.ambient;
-    truth.lights = settings.lights;
-    truth.seed = settings.seed;
-    truth.shadows = settings.shadows;
-    truth.haze = settings.haze;
-    truth.spp = settings.spp;
-    truth.reference_mode = settings.reference_mode;
-    return truth;
-}
-
-Settings withoutReference(const Settings& settings) {
-    const Settings usual;
-    Settings path = settings;
-    path.spp = usual.spp;
-    path.reference_mode = usual.reference_mode;
-    return path;
-}
-
-Settings surfaceSettings(const Settings& settings) {
-    const Settings usual;
-    Settings surfaces = withoutReference(referenceSettings(settings));
-    surfaces.path = Path::forward_plus;
-    surfaces.prepass = Switch::on;
-    surfaces.gbuffer = GBufferEncoding::full;  // the geometric normal is not packed either
-    surfaces.shadows = usual.shadows;
-    surfaces.env = usual.env;
-    surfaces.ibl_intensity = usual.ibl_intensity;
-    surfaces.ambient = usual.ambient;
-    return surfaces;
-}
-
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
@@ -108,7 +69,8 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
 
     Frame frame = describedFrame(scene, view, settings);
     if (surfaces)
-        std::ranges::move(leftOutMotion(Path::forward_plus, view.needs), std::back_inserter(frame.notes));
+        std::ranges::move(leftOutMotion(surfaces->settings.path, view.needs),
+                          std::back_inserter(frame.notes));
     frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
     frame.channels = std::move(picture.channels);
     frame.asked = options.asked;

@@ -17,15 +17,6 @@
 
 namespace diptych {
 
-// What of Settings the truth depends on, with path = reference; the rest is as usual.
-Settings referenceSettings(const Settings& settings);
-
-// What a path is told: no Setting of the reference alone.
-Settings withoutReference(const Settings& settings);
-
-// What mode surface shades: forward+, one sample, with nothing packed.
-Settings surfaceSettings(const Settings& settings);
-
 // `view` is the one that the Settings ask for. `surfaces` is the Frame of surfaceSettings() with
 // reference::surfaceChannels(); nullptr in mode scene.
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,

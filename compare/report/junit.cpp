@@ -69,8 +69,8 @@ private:
         };
         add("scene", left_.scene);
         add("camera", cameraTitle(left_));
-        add("size", valueOf(left_.settings, "size"));
-        if (left_.origin.file.empty()) add("gbuffer", valueOf(left_.settings, "gbuffer"));
+        add("size", left_.settings.valueOf("size"));
+        if (left_.origin.file.empty()) add("gbuffer", left_.settings.valueOf("gbuffer"));
         add("baseline", left_.name);
         add("test", right_.name);
         add("device", report_.device.name);

@@ -2,7 +2,6 @@
 // What diff prints: for people and for scripts.
 #include "compare/report/picture_diff_text.h"
 
-#include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
 #include "compare/report/titles.h"
 

@@ -30,14 +30,16 @@ std::vector<std::string> wordsOf(const std::string& command, const std::string& 
                                  const Settings& settings) {
     std::vector<std::string> words{command};
     const Settings usual;
-    Settings::fields(settings, [&](const Field& field, const auto&) {
-        const std::string value = valueOf(settings, field.option);
-        if (value == valueOf(usual, field.option) || (command == "compare" && field.option == "path")) return;
+    for (const Field& field : settingFields()) {
+        const std::string value = settings.valueOf(field.option);
+        if (value == usual.valueOf(field.option) || (command == "compare" && field.option == "path"))
+            continue;
         const std::string option = "--" + std::string(field.option);
-        if (value.starts_with('-')) return words.push_back(option + "=" + value);
-        words.push_back(option);
-        words.push_back(value);
-    });
+        if (value.starts_with('-'))
+            words.push_back(option + "=" + value);
+        else
+            words.insert(words.end(), {option, value});
+    }
     if (scene.starts_with('-')) words.emplace_back("--");  // a file's name, no option
     words.push_back(scene);
     return words;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "compare/render/frame_facts.h"
 #include "compare/tradeoff/tradeoff.h"
 
 #include <fmt/format.h>
@@ -32,10 +31,8 @@ std::string digits(double value) {
 // Beside the path, which has a column of its own.
 std::vector<std::string> sweptOptions() {
     std::vector<std::string> options;
-    const Settings usual;
-    Settings::fields(usual, [&](const Field& field, const auto&) {
+    for (const Field& field : settingFields())
         if (!field.sweep.empty() && field.option != "path") options.emplace_back(field.option);
-    });
     return options;
 }
 
@@ -72,8 +69,8 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
         const TradeoffRow& row = tradeoff.rows[i];
         std::vector<std::string> fields{fmt::format("{}", i + 1), std::string(nameOf(row.settings.path))};
         for (const std::string& option : sweptOptions())
-            fields.push_back(unreadBecause(row.settings.path, option).empty() ? valueOf(row.settings, option)
-                                                                              : "");
+            fields.push_back(ignoredBecause(row.settings.path, option).empty() ? row.settings.valueOf(option)
+                                                                               : "");
         const Spread time = timeOf(row);
         for (const double ms : {time.value, time.low, time.high}) fields.push_back(digits(ms));
         fields.push_back(fmt::format("{}", tradeoff.runs));

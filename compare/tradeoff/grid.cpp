@@ -61,12 +61,11 @@ std::string optionOf(const std::string& key) {
     std::string option, all, key_ = key;
     std::ranges::replace(key_, '_', '-');
     bool content = false;
-    const Settings usual;
-    Settings::fields(usual, [&](const Field& field, const auto&) {
+    for (const Field& field : settingFields()) {
         if (field.option == key_ && !field.sweep.empty()) option = key_;
         if (field.option == key_ && field.sweep.empty()) content = true;
         if (!field.sweep.empty()) all += (all.empty() ? "" : ", ") + std::string(field.option);
-    });
+    }
     if (content)
         throw std::runtime_error(fmt::format(
             "\"{}\": is no choice between speed and accuracy; --{} says it for every row", key, key_));
@@ -80,10 +79,10 @@ std::string valueFrom(const std::string& key, const std::string& option, const J
                       const Settings& given) {
     Settings settings = given;
     if (json.is_string())
-        set(settings, option, wordsFor(given, option, json.get<std::string>()));
+        settings.set(option, wordsFor(given, option, json.get<std::string>()));
     else
         settings = settingsFromJson(Json::object({{key, json}}).dump(), given);
-    return valueOf(settings, option);
+    return settings.valueOf(option);
 }
 
 Grid gridOf(const Json& json, const Settings& given) {

@@ -3,7 +3,6 @@
 
 #include "compare/page/page.h"
 #include "compare/page/text.h"
-#include "compare/render/frame_facts.h"
 #include "compare/tradeoff/page/page.h"
 #include "compare/tradeoff/plot.h"
 

@@ -2,7 +2,6 @@
 #include "compare/tradeoff/measure.h"
 
 #include "compare/page/text.h"
-#include "compare/render/reference_frame.h"
 #include "compare/tradeoff/upsample.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"

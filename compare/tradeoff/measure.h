@@ -3,7 +3,6 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/picture/picture.h"
-#include "compare/render/reference_frame.h"
 #include "compare/render/renderer.h"
 #include "compare/tradeoff/row.h"
 

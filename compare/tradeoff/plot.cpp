@@ -4,7 +4,6 @@
 #include "compare/page/text.h"
 #include "compare/plot/drawing.h"
 #include "compare/plot/log_axis.h"
-#include "compare/render/frame_facts.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/row.h"
-#include "compare/render/frame_facts.h"
 
 #include <algorithm>
 #include <cmath>

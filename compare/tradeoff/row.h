@@ -2,7 +2,6 @@
 // What a sweep measures of one Settings.
 #pragma once
 
-#include "compare/render/frame_facts.h"
 #include "shared/frame/frame.h"
 
 #include <nlohmann/json.hpp>

@@ -13,10 +13,8 @@ constexpr std::string_view each = "*";
 
 std::vector<std::string> sweptOptions() {
     std::vector<std::string> options;
-    const Settings usual;
-    Settings::fields(usual, [&](const Field& field, const auto&) {
+    for (const Field& field : settingFields())
         if (!field.sweep.empty()) options.emplace_back(field.option);
-    });
     return options;
 }
 
@@ -27,22 +25,22 @@ std::pair<std::string, std::vector<std::string>> axis(const Settings& given, std
 // Every combination of the values of what is paired with each other Setting: from there those are tried.
 void addStarts(const Settings& given, std::vector<Settings>& starts) {
     starts.push_back(given);
-    for (const SweepPair& pair : sweepPairs) {
+    for (const SweepPair& pair : sweepPairs()) {
         if (pair.b != each) continue;
         const std::vector<Settings> before = starts;
         for (const Settings& start : before)
             for (const std::string& value : sweptValues(given, pair.a)) {
                 Settings other = start;
-                set(other, pair.a, value);
+                other.set(pair.a, value);
                 if (std::ranges::count(starts, other) == 0 && other.path != Path::reference &&
-                    !readSettings(other).problem())
+                    !effectiveSettings(other).problem())
                     starts.push_back(other);
             }
     }
 }
 
 bool isCrossedWithEach(std::string_view option) {
-    return std::ranges::any_of(sweepPairs,
+    return std::ranges::any_of(sweepPairs(),
                                [&](const SweepPair& pair) { return pair.b == each && pair.a == option; });
 }
 
@@ -52,14 +50,14 @@ public:
 
     void add(const std::vector<Choice>& choices) {
         Settings asked = given_;
-        for (const auto& [option, value] : choices) set(asked, option, value);
+        for (const auto& [option, value] : choices) asked.set(option, value);
         const std::vector<Choice> tried = changed(asked);
         if (asked.path == Path::reference)
             return skip({{"path", "reference"}}, "is what the others are measured against");
         for (const auto& [option, value] : tried)
-            if (const std::string_view why = unreadBecause(asked.path, option); !why.empty())
+            if (const std::string_view why = ignoredBecause(asked.path, option); !why.empty())
                 skip({{"path", std::string(nameOf(asked.path))}, {option, value}}, std::string(why));
-        const Settings row = readSettings(asked);
+        const Settings row = effectiveSettings(asked);
         if (const auto problem = row.problem()) return skip(tried, *problem);
         if (std::ranges::count(plan_.rows, row) == 0) plan_.rows.push_back(row);
     }
@@ -68,11 +66,11 @@ public:
 private:
     std::vector<Choice> changed(const Settings& asked) const {
         std::vector<Choice> choices;
-        Settings::fields(asked, [&](const Field& field, const auto&) {
-            const std::string value = valueOf(asked, field.option);
-            if (field.option == "path" || value != valueOf(given_, field.option))
+        for (const Field& field : settingFields()) {
+            const std::string value = asked.valueOf(field.option);
+            if (field.option == "path" || value != given_.valueOf(field.option))
                 choices.emplace_back(field.option, value);
-        });
+        }
         return choices;
     }
     // ParsedOptions once: not again of what holds more choices than those that were the reason.
@@ -110,8 +108,8 @@ std::vector<Grid> usualGrids(const Settings& given) {
     // The start in words, and the axes beside it that it does not fix.
     const auto from = [&](const Settings& start) {
         Grid grid;
-        for (const SweepPair& pair : sweepPairs)
-            if (pair.b == each) grid.push_back({std::string(pair.a), {valueOf(start, pair.a)}});
+        for (const SweepPair& pair : sweepPairs())
+            if (pair.b == each) grid.push_back({std::string(pair.a), {start.valueOf(pair.a)}});
         return grid;
     };
     std::vector<Grid> grids;
@@ -125,9 +123,9 @@ std::vector<Grid> usualGrids(const Settings& given) {
             grids.back().push_back(axis(given, option));
         }
     for (const Settings& start : starts)
-        for (const SweepPair& pair : sweepPairs) {
-            if (pair.b == each || !unreadBecause(start.path, pair.a).empty() ||
-                !unreadBecause(start.path, pair.b).empty())
+        for (const SweepPair& pair : sweepPairs()) {
+            if (pair.b == each || !ignoredBecause(start.path, pair.a).empty() ||
+                !ignoredBecause(start.path, pair.b).empty())
                 continue;
             grids.push_back(from(start));
             for (const std::string_view option : {pair.a, pair.b})
@@ -160,12 +158,12 @@ SweepRows planSweep(const Settings& given, const std::vector<Grid>& grids) {
 
 std::vector<Choice> choicesOf(const Settings& row, const Settings& given) {
     std::vector<Choice> choices{{"path", std::string(nameOf(row.path))}};
-    Settings::fields(row, [&](const Field& field, const auto&) {
-        const std::string value = valueOf(row, field.option);
-        if (field.option != "path" && value != valueOf(given, field.option) &&
-            unreadBecause(row.path, field.option).empty())
+    for (const Field& field : settingFields()) {
+        const std::string value = row.valueOf(field.option);
+        if (field.option != "path" && value != given.valueOf(field.option) &&
+            ignoredBecause(row.path, field.option).empty())
             choices.emplace_back(field.option, value);
-    });
+    }
     return choices;
 }
 

@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-// A Setting by its option, and a value in words for set().
+// A Setting by its option, and a value in words for Settings::set().
 using Choice = std::pair<std::string, std::string>;
 
 // Every combination of these values of these Settings; of none, the given Settings alone.
@@ -27,10 +27,10 @@ struct SweepRows {
 };
 
 // What is tried where nobody says what: of each path that can be drawn each Setting that it reads by itself,
-// and the pairs of sweepPairs.
+// and the pairs of sweepPairs().
 std::vector<Grid> usualGrids(const Settings& given);
 
-// Combinations without meaning, or that cannot be drawn, are skips; a value that its path does not read is
+// Combinations without meaning, or that cannot be drawn, are skips; a value that its path ignores is
 // one, too, and the row is drawn without it. Throws std::runtime_error where nothing is left to draw, or more
 // than mostCombinations are asked for.
 SweepRows planSweep(const Settings& given, const std::vector<Grid>& grids);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/tradeoff.h"
 
-#include "compare/render/reference_frame.h"
 #include "compare/run/command_text.h"
 #include "compare/tradeoff/pareto.h"
 
@@ -33,14 +32,14 @@ AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& r
     AgainstReference against{row.settings, {}, true};
     nlohmann::ordered_json swept = nlohmann::ordered_json::object();
     const Settings& given = tradeoff.given;
-    Settings::fields(given, [&](const Field& field, const auto&) {
-        const std::string value = valueOf(row.settings, field.option), usual = valueOf(given, field.option);
+    for (const Field& field : settingFields()) {
+        const std::string value = row.settings.valueOf(field.option);
         Settings other = given;
-        set(other, field.option, value);
-        if (referenceSettings(other) == referenceSettings(given)) return;
-        set(against.settings, field.option, usual);
-        if (unreadBecause(row.settings.path, field.option).empty()) swept[std::string(field.option)] = value;
-    });
+        other.set(field.option, value);
+        if (referenceSettings(other) == referenceSettings(given)) continue;
+        against.settings.set(field.option, given.valueOf(field.option));
+        if (ignoredBecause(row.settings.path, field.option).empty()) swept[std::string(field.option)] = value;
+    }
     against.sameReference = swept.empty();
     against.grid = nlohmann::ordered_json{{"settings", swept}}.dump();
     if (tradeoff.cameras.size() > 1) against.settings.camera.clear();
@@ -101,7 +100,7 @@ std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     const AgainstReference against = againstReference(tradeoff, row);
     if (!against.sameReference) return {};
     // compare draws both paths, and one of them may not know these Settings.
-    for (const Path path : {Path::deferred, Path::forward_plus}) {
+    for (const Path path : drawn_paths) {
         Settings other = row.settings;
         other.path = path;
         if (other.problem()) return {};

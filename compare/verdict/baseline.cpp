@@ -59,11 +59,8 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
     if (!sameView(baseline.camera, frame.camera))
         lines.push_back("baseline: seen from another place or with another lens");
     Settings now = frame.settings;
-    if (isReferenceFrame(baseline)) {  // of what a path is drawn with it depends on these alone
-        now = referenceSettings(now);
-        now.spp = baseline.settings.spp;
-        now.reference_mode = baseline.settings.reference_mode;
-    }
+    // Of what a path is drawn with, the reference depends on these alone.
+    if (isReferenceFrame(baseline)) now = withReferenceOf(referenceSettings(now), baseline.settings);
     if (const std::string settings = differing(baseline.settings, now); !settings.empty())
         lines.push_back(fmt::format("baseline: other Settings: {}", settings));
     return lines;

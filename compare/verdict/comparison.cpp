@@ -293,9 +293,7 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
             here.progress = options.progress.part(done / all, (done + 1) / all).about(report.frames[i].scene);
             report.comparisons.push_back(compareFrames(report, left, right, needs.at(i), here));
             const Frame& truth = report.frames[i];
-            Settings settings = report.frames[right].settings;  // both paths' and what the truth has beside
-            settings.spp = truth.settings.spp;
-            settings.reference_mode = truth.settings.reference_mode;
+            const Settings settings = withReferenceOf(report.frames[right].settings, truth.settings);
             report.comparisons.back().command = with(
                 with(wordsOf("compare", truth.scene, settings), options.words), "--baseline", "reference");
         }

@@ -16,66 +16,6 @@
 
 namespace diptych {
 
-template <>
-const std::vector<std::pair<Path, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<Path, std::string_view>> names{
-        {Path::deferred, "deferred"}, {Path::forward_plus, "forward_plus"}, {Path::reference, "reference"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<Assignment, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<Assignment, std::string_view>> names{
-        {Assignment::every, "every"},
-        {Assignment::tiled, "tiled"},
-        {Assignment::clustered, "clustered"},
-        {Assignment::per_object, "per_object"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<LightKernel, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<LightKernel, std::string_view>> names{
-        {LightKernel::automatic, "auto"}, {LightKernel::scatter, "scatter"}, {LightKernel::gather, "gather"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<Switch, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<Switch, std::string_view>> names{
-        {Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<GBufferEncoding, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<GBufferEncoding, std::string_view>> names{
-        {GBufferEncoding::compact, "compact"},
-        {GBufferEncoding::standard, "standard"},
-        {GBufferEncoding::full, "full"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<AreaLights, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<AreaLights, std::string_view>> names{
-        {AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<Shadows, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<Shadows, std::string_view>> names{
-        {Shadows::off, "off"}, {Shadows::pcf, "pcf"}, {Shadows::evsm, "evsm"}, {Shadows::clipmap, "clipmap"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<EvsmPrecision, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<EvsmPrecision, std::string_view>> names{
-        {EvsmPrecision::automatic, "auto"}, {EvsmPrecision::fp32, "fp32"}, {EvsmPrecision::fp16, "fp16"}};
-    return names;
-}
-template <>
-const std::vector<std::pair<ReferenceMode, std::string_view>>& enumNames() {
-    static const std::vector<std::pair<ReferenceMode, std::string_view>> names{
-        {ReferenceMode::surface, "surface"}, {ReferenceMode::scene, "scene"}};
-    return names;
-}
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -221,34 +161,27 @@ std::string keyOf(std::string_view option) {
 }
 
 // "off" and "none" say the same of whatever can be called off: the setting's own word for it.
-std::string_view ownWord(std::string_view option, std::string_view word) {
-    constexpr std::pair<std::string_view, std::string_view> called_off[] = {
-        {"prepass", "off"},    {"env", "none"},        {"ambient", "0,0,0"}, {"lights", ""},
-        {"light-cutoff", "0"}, {"shadow-lights", "0"}, {"shadows", "off"},   {"evsm-bleed", "0"},
-        {"msaa", "1"},         {"sort", "off"},        {"haze", "off"}};
-    if (word == "off" || word == "none")
-        for (const auto& [name, own] : called_off)
-            if (name == option) return own;
-    return word;
+std::string ownWord(const Field& field, const std::string& word) {
+    return field.off && (word == "off" || word == "none") ? std::string(*field.off) : word;
 }
 
 template <class Value, class Member>
-bool readJson(Member& member, std::string_view option, const Json& json) {
-    if (option == "camera" && json.is_number_unsigned()) return Value::read(member, json.dump());
+bool readJson(Member& member, const Field& field, const Json& json) {
+    if (field.option == "camera" && json.is_number_unsigned()) return Value::read(member, json.dump());
     if (!json.is_string()) return Value::fromJson(member, json);
     const auto& word = json.get_ref<const std::string&>();
-    const std::string_view own = ownWord(option, word);
+    const std::string own = ownWord(field, word);
     return own == word ? Value::fromJson(member, json) : Value::read(member, own);
 }
 
-// Calls visit(member) for the one field called `option`; throws where there is none.
+// Calls visit(Field, member) for the one row of `option`; throws where there is none.
 template <class Self, class Visit>
 void visitField(Self& settings, std::string_view option, Visit&& visit) {
     bool found = false;
     Settings::fields(settings, [&](const Field& field, auto& member) {
         if (field.option != option) return;
         found = true;
-        visit(member);
+        visit(field, member);
     });
     if (!found) throw std::runtime_error(fmt::format("--{}: no such setting", option));
 }
@@ -289,7 +222,7 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
         const std::string key = keyOf(field.option);
         if (unknown.erase(key) == 0) return;
         using Value = CodecOf<decltype(member)>;
-        if (!readJson<Value>(member, field.option, object[key]))
+        if (!readJson<Value>(member, field, object[key]))
             throw std::runtime_error(
                 fmt::format("settings: \"{}\": {} is not {}", key,
                             oneLine(object[key].dump(-1, ' ', false, Json::error_handler_t::replace)),
@@ -308,28 +241,43 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
     return settings;
 }
 
-void set(Settings& settings, std::string_view option, const std::string& value) {
-    visitField(settings, option, [&](auto& member) {
+void Settings::set(std::string_view option, const std::string& value) {
+    visitField(*this, option, [&](const Field& field, auto& member) {
         using Value = CodecOf<decltype(member)>;
-        if (!Value::read(member, ownWord(option, value)))
+        if (!Value::read(member, ownWord(field, value)))
             throw std::runtime_error(
                 fmt::format("--{} {}: not {}", option, value, inWords(Value::accepted())));
     });
 }
 
-std::string valueOf(const Settings& settings, std::string_view option) {
+std::string Settings::valueOf(std::string_view option) const {
     std::string words;
-    visitField(settings, option,
-               [&](const auto& member) { words = CodecOf<decltype(member)>::words(member); });
+    visitField(*this, option,
+               [&](const Field&, const auto& member) { words = CodecOf<decltype(member)>::words(member); });
     return words;
 }
 
 std::string acceptedValues(std::string_view option) {
-    Settings settings;
+    const Settings settings;
     std::string accepted;
     visitField(settings, option,
-               [&](const auto& member) { accepted = CodecOf<decltype(member)>::accepted(); });
+               [&](const Field&, const auto& member) { accepted = CodecOf<decltype(member)>::accepted(); });
     return accepted;
+}
+
+std::span<const Field> settingFields() {
+    static const std::vector<Field> fields = [] {
+        std::vector<Field> all;
+        Settings::rows([&](const Field& field, auto) { all.push_back(field); });
+        return all;
+    }();
+    return fields;
+}
+
+const Field& settingField(std::string_view option) {
+    for (const Field& field : settingFields())
+        if (field.option == option) return field;
+    throw std::runtime_error(fmt::format("--{}: no such setting", option));
 }
 
 }  // namespace diptych

@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Everything that may change a pixel of a Frame, described once: the command line, the JSON that every
-// report prints, equality and sweeps all walk Settings::fields().
+// Everything that may change a pixel of a Frame. A Setting is a member of Settings and a row of
+// Settings::rows(), and the row holds every fact about it: the command line, JSON, what can be rendered,
+// what a path ignores, what a sweep tries and what the reference follows are read from there.
 #pragma once
 
+#include "shared/frame/setting_values.h"
+
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace diptych {
-
-enum class Path { deferred, forward_plus, reference };
-enum class Assignment { every, tiled, clustered, per_object };
-enum class LightKernel { automatic, scatter, gather };
-enum class Switch { automatic, on, off };
-enum class GBufferEncoding { compact, standard, full };
-enum class AreaLights { ltc, representative };
-enum class Shadows { off, pcf, evsm, clipmap };
-enum class EvsmPrecision { automatic, fp32, fp16 };
-enum class ReferenceMode { surface, scene };
-
-struct Size {
-    int width = 640, height = 360;
-    bool operator==(const Size&) const = default;
-};
-
-struct Rgb {
-    float r = 0, g = 0, b = 0;
-    bool operator==(const Rgb&) const = default;
-};
 
 struct Settings {
     Path path = Path::forward_plus;
@@ -62,132 +47,340 @@ struct Settings {
 
     bool operator==(const Settings&) const = default;
 
-    // Calls visit(Field, member) for every member, in the order above. `self` may be const.
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit&& visit);
+    // One value from the words of the command line, e.g. set("size", "640x360"). Throws std::runtime_error
+    // naming option, value and what is accepted. "off" and "none" both call off whatever can be.
+    void set(std::string_view option, const std::string& value);
+    // The way back: the words that set() understands. Throws std::runtime_error of an unknown option.
+    std::string valueOf(std::string_view option) const;
 
     // Why this combination has no meaning or is not built yet, naming the option and its value;
     // nothing where it can be rendered.
     std::optional<std::string> problem() const;
+
+    // Calls visit(Field, pointer to member) for every row, in the order of the members.
+    template <class Visit>
+    static void rows(Visit&& visit);
+    // Calls visit(Field, member) for every member of `self`, which may be const, in the same order.
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit);
 };
 
-// How a setting is called on the command line ("--" + option, in JSON with _ for -) and what it does.
-// What a sweep of speed against accuracy tries of it: nothing (a scene's content, which the truth depends on,
-// is no such choice), "all" values of an enumeration or switch, or these words for set(), separated by
-// commas; of a size, parts of the given one.
+// By path, why a Setting changes no bit of what the path draws; empty where the path reads it.
+struct IgnoredBecause {
+    std::string_view deferred = {};
+    std::string_view forward_plus = {};
+    std::string_view reference = {};
+
+    constexpr std::string_view of(Path path) const {
+        switch (path) {
+            case Path::deferred:
+                return deferred;
+            case Path::forward_plus:
+                return forward_plus;
+            case Path::reference:
+                return reference;
+        }
+        return {};
+    }
+};
+
+// Which values mean something at all. Where there is no check, all that the type can hold do.
+struct ValidValues {
+    std::string_view are = {};  // "is at least 0"
+    bool (*check)(const Settings&) = nullptr;
+};
+
+// Why no value but the default can be rendered; empty where every one can.
+struct DefaultOnly {
+    std::string_view because = {};              // "is not built yet"
+    bool (*unless)(const Settings&) = nullptr;  // what lifts it; nullptr: nothing
+};
+
+// All facts about one Setting. Values stand in the words of Settings::set().
 struct Field {
-    std::string_view option;
+    std::string_view option;  // "--" + option on the command line; in JSON with _ for -
     std::string_view help;
+
+    // What the words "off" and "none" set; nothing where it cannot be called off.
+    std::optional<std::string_view> off = std::nullopt;
+    ValidValues valid = {};
+    DefaultOnly default_only = {};
+    IgnoredBecause ignored = {};
+
+    // What a sweep of speed against accuracy tries: nothing (a scene's content, on which the reference
+    // depends, is no such choice), "all" values of an enumeration or switch, or these, separated by commas;
+    // of a size, parts of the given one.
     std::string_view sweep = {};
+    // Whose swept values are combined with this one's, separated by commas, "*" for every other Setting.
+    // All else is tried one at a time.
+    std::string_view sweep_with = {};
+
+    // The reference in mode surface shades what forward+ captures: what that capture is told in place of
+    // what the reference is. Nothing: the same as the reference, and the default of what it alone reads.
+    std::optional<std::string_view> for_surfaces = std::nullopt;
 };
 
-template <class Self, class Visit>
-void Settings::fields(Self& s, Visit&& visit) {
-    visit(Field{"path", "deferred, forward_plus or reference", "all"}, s.path);
-    visit(Field{"assign", "how lights are chosen for a pixel", "all"}, s.assign);
-    visit(Field{"light-kernel", "how lists are filled: by a thread a light, or a workgroup a cell",
-                "scatter,gather"},
-          s.light_kernel);
-    visit(Field{"prepass", "depth pre-pass of the forward+ path", "on,off"}, s.prepass);
-    visit(Field{"gbuffer", "encoding of the deferred path's G-buffer", "all"}, s.gbuffer);
-    visit(Field{"size", "picture size, WxH", "1/4,1/2,3/4"}, s.size);
-    visit(Field{"camera", "index, name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\""}, s.camera);
-    visit(Field{"time", "animation time, seconds"}, s.time);
-    visit(Field{"env", "lat-long environment, .exr or .hdr, or none"}, s.env);
-    visit(Field{"ibl-intensity", "factor on the environment's radiance"}, s.ibl_intensity);
-    visit(Field{"ambient", "constant ambient radiance R,G,B"}, s.ambient);
-    visit(Field{"lights", "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights"}, s.lights);
-    visit(Field{"seed", "seed of the light rig"}, s.seed);
-    visit(Field{"light-cutoff", "luminance of a white surface where a light without a range ends; 0: nowhere",
-                "0,1e-4,1e-3,1e-2"},
-          s.light_cutoff);
-    visit(Field{"pixel-lights", "lights shaded per pixel with --assign per_object", "0,1,2,4,8"},
-          s.pixel_lights);
-    visit(Field{"area-lights", "how area lights are evaluated", "all"}, s.area_lights);
-    visit(Field{"shadows", "shadow technique", "all"}, s.shadows);
-    visit(Field{"shadow-lights", "local lights that cast shadows", "0,1,4"}, s.shadow_lights);
-    visit(Field{"evsm-precision", "moments' format", "fp32,fp16"}, s.evsm_precision);
-    visit(Field{"evsm-exponent", "warp exponent", "5,10,20,40"}, s.evsm_exponent);
-    visit(Field{"evsm-bleed", "light-bleeding reduction, 0 to 1", "0,0.2,0.5"}, s.evsm_bleed);
-    visit(Field{"evsm-min-variance", "smallest variance", "0,1e-6,1e-4"}, s.evsm_min_variance);
-    visit(Field{"msaa", "samples per pixel, 1 or 4", "1,4"}, s.msaa);
-    visit(Field{"sort", "sort transparent draws", "all"}, s.sort);
-    visit(Field{"haze", "participating medium"}, s.haze);
-    visit(Field{"spp", "samples per pixel of the reference"}, s.spp);
-    visit(Field{"reference-mode", "what the reference shades"}, s.reference_mode);
+// What several rows say.
+namespace row {
+
+inline constexpr std::string_view not_built = "is not built yet";
+inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm";
+inline constexpr std::string_view needs_reference = "has no meaning without --path reference";
+inline constexpr std::string_view every_light = "the reference evaluates every light";
+inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
+inline constexpr std::string_view only_reference = "the reference alone takes samples of what it shades";
+inline constexpr std::string_view not_blended = "no path blends yet";
+
+inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulkan 1.3 device in use, or less
+inline constexpr int most_samples = 65536;  // more take a day for a small picture
+
+constexpr bool isSide(int pixels) {
+    return pixels >= 1 && pixels <= largest_side;
+}
+inline bool isFiniteFrom0(double value) {
+    return value >= 0 && std::isfinite(value);
+}
+inline bool isReference(const Settings& s) {
+    return s.path == Path::reference;
+}
+inline bool hasEvsm(const Settings& s) {
+    return s.shadows == Shadows::evsm;
 }
 
-// Two Settings whose swept values are crossed; all others are tried one at a time. "*": every other one.
+}  // namespace row
+
+template <class Visit>
+void Settings::rows(Visit&& visit) {
+    visit(Field{.option = "path",
+                .help = "deferred, forward_plus or reference",
+                .sweep = "all",
+                .sweep_with = "*",
+                .for_surfaces = "forward_plus"},
+          &Settings::path);
+    visit(Field{.option = "assign",
+                .help = "how lights are chosen for a pixel",
+                .ignored = {.reference = row::every_light},
+                .sweep = "all"},
+          &Settings::assign);
+    visit(Field{.option = "light-kernel",
+                .help = "how lists are filled: by a thread a light, or a workgroup a cell",
+                .ignored = {.reference = row::every_light},
+                .sweep = "scatter,gather"},
+          &Settings::light_kernel);
+    visit(Field{.option = "prepass",
+                .help = "depth pre-pass of the forward+ path",
+                .off = "off",
+                .ignored = {.deferred = "deferred has no depth pre-pass",
+                            .reference = "the reference has no depth pre-pass"},
+                .sweep = "on,off",
+                .for_surfaces = "on"},
+          &Settings::prepass);
+    visit(Field{.option = "gbuffer",
+                .help = "encoding of the deferred path's G-buffer",
+                .ignored = {.forward_plus = "forward_plus has no G-buffer",
+                            .reference = "the reference has no G-buffer"},
+                .sweep = "all",
+                .for_surfaces = "full"},  // the geometric normal is not packed either
+          &Settings::gbuffer);
+    visit(Field{.option = "size",
+                .help = "picture size, WxH",
+                .valid = {"width and height are 1 to 16384",
+                          [](const Settings& s) {
+                              return row::isSide(s.size.width) && row::isSide(s.size.height);
+                          }},
+                .sweep = "1/4,1/2,3/4",
+                .sweep_with = "gbuffer"},
+          &Settings::size);
+    visit(
+        Field{.option = "camera", .help = "index, name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\""},
+        &Settings::camera);
+    visit(Field{.option = "time",
+                .help = "animation time, seconds",
+                .valid = {"is finite and at least 0 s",
+                          [](const Settings& s) { return row::isFiniteFrom0(s.time); }},
+                .default_only = {"is not built yet but in --path reference --reference-mode scene",
+                                 [](const Settings& s) {
+                                     return row::isReference(s) && s.reference_mode == ReferenceMode::scene;
+                                 }}},
+          &Settings::time);
+    visit(Field{.option = "env",
+                .help = "lat-long environment, .exr or .hdr, or none",
+                .off = "none",
+                .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
+                .for_surfaces = "none"},
+          &Settings::env);
+    visit(Field{.option = "ibl-intensity",
+                .help = "factor on the environment's radiance",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(s.ibl_intensity); }},
+                .default_only = {"has no meaning without --env",
+                                 [](const Settings& s) { return s.env != Settings().env; }},
+                .for_surfaces = "1"},
+          &Settings::ibl_intensity);
+    visit(Field{.option = "ambient",
+                .help = "constant ambient radiance R,G,B",
+                .off = "0,0,0",
+                .valid = {"components are finite and at least 0",
+                          [](const Settings& s) {
+                              return row::isFiniteFrom0(s.ambient.r) && row::isFiniteFrom0(s.ambient.g) &&
+                                     row::isFiniteFrom0(s.ambient.b);
+                          }},
+                .for_surfaces = "0,0,0"},
+          &Settings::ambient);
+    visit(Field{.option = "lights",
+                .help = "KIND:N[,KIND:N...] for a seeded rig, or a JSON file of lights",
+                .off = ""},
+          &Settings::lights);
+    visit(Field{.option = "seed", .help = "seed of the light rig"}, &Settings::seed);
+    visit(Field{.option = "light-cutoff",
+                .help = "luminance of a white surface where a light without a range ends; 0: nowhere",
+                .off = "0",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(s.light_cutoff); }},
+                .ignored = {.reference = "the reference lets every light go on as far as its range"},
+                .sweep = "0,1e-4,1e-3,1e-2",
+                .sweep_with = "assign"},
+          &Settings::light_cutoff);
+    visit(Field{.option = "pixel-lights",
+                .help = "lights shaded per pixel with --assign per_object",
+                .valid = {"is at least 0", [](const Settings& s) { return s.pixel_lights >= 0; }},
+                .default_only = {"has no meaning without --assign per_object",
+                                 [](const Settings& s) { return s.assign == Assignment::per_object; }},
+                .ignored = {.reference = row::every_light},
+                .sweep = "0,1,2,4,8",
+                .sweep_with = "assign"},
+          &Settings::pixel_lights);
+    visit(Field{.option = "area-lights",
+                .help = "how area lights are evaluated",
+                .ignored = {.reference = "the reference integrates area lights"},
+                .sweep = "all"},
+          &Settings::area_lights);
+    visit(Field{.option = "shadows",
+                .help = "shadow technique",
+                .off = "off",
+                .default_only = {row::not_built, row::isReference},
+                .sweep = "all",
+                .for_surfaces = "off"},
+          &Settings::shadows);
+    visit(Field{.option = "shadow-lights",
+                .help = "local lights that cast shadows",
+                .off = "0",
+                .default_only = {row::not_built},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "0,1,4",
+                .sweep_with = "shadows"},
+          &Settings::shadow_lights);
+    visit(Field{.option = "evsm-precision",
+                .help = "moments' format",
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "fp32,fp16",
+                .sweep_with = "shadows"},
+          &Settings::evsm_precision);
+    visit(Field{.option = "evsm-exponent",
+                .help = "warp exponent",
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "5,10,20,40",
+                .sweep_with = "shadows"},
+          &Settings::evsm_exponent);
+    visit(Field{.option = "evsm-bleed",
+                .help = "light-bleeding reduction, 0 to 1",
+                .off = "0",
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "0,0.2,0.5",
+                .sweep_with = "shadows"},
+          &Settings::evsm_bleed);
+    visit(Field{.option = "evsm-min-variance",
+                .help = "smallest variance",
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "0,1e-6,1e-4",
+                .sweep_with = "shadows"},
+          &Settings::evsm_min_variance);
+    visit(Field{.option = "msaa",
+                .help = "samples per pixel, 1 or 4",
+                .off = "1",
+                .valid = {"a pixel has 1 or 4 samples",
+                          [](const Settings& s) { return s.msaa == 1 || s.msaa == 4; }},
+                .default_only = {row::not_built},
+                .ignored = {.reference = "the reference takes as many samples as --spp says"},
+                .sweep = "1,4",
+                .sweep_with = "gbuffer,size"},
+          &Settings::msaa);
+    visit(Field{.option = "sort",
+                .help = "sort transparent draws",
+                .off = "off",
+                .ignored = {.deferred = row::not_blended,
+                            .forward_plus = row::not_blended,
+                            .reference = "the reference blends by depth"},
+                .sweep = "all"},
+          &Settings::sort);
+    visit(Field{.option = "haze",
+                .help = "participating medium",
+                .off = "off",
+                .default_only = {row::not_built},
+                .for_surfaces = "off"},
+          &Settings::haze);
+    visit(Field{.option = "spp",
+                .help = "samples per pixel of the reference",
+                .valid = {"1 to 65536",
+                          [](const Settings& s) { return s.spp >= 1 && s.spp <= row::most_samples; }},
+                .default_only = {row::needs_reference, row::isReference},
+                .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
+          &Settings::spp);
+    visit(Field{.option = "reference-mode",
+                .help = "what the reference shades",
+                .default_only = {row::needs_reference, row::isReference},
+                .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
+          &Settings::reference_mode);
+}
+
+template <class Self, class Visit>
+void Settings::fields(Self& self, Visit&& visit) {
+    rows([&](const Field& field, auto member) { visit(field, self.*member); });
+}
+
+// Every row's Field, in order; and the one of an option, which throws std::runtime_error where there is none.
+std::span<const Field> settingFields();
+const Field& settingField(std::string_view option);
+
+// What Settings::set() accepts in short: "deferred|forward_plus|reference", "WxH", "F". Throws
+// std::runtime_error where there is no such option.
+std::string acceptedValues(std::string_view option);
+
+// Why a path ignores a Setting, "deferred has no depth pre-pass"; empty where the path reads it.
+std::string_view ignoredBecause(Path path, std::string_view option);
+// The same with what its path ignores at its default: equal where they are one picture.
+Settings effectiveSettings(const Settings& settings);
+
+// What the reference is told beside a path with these Settings: the effective ones of path = reference.
+Settings referenceSettings(const Settings& settings);
+// What a path is told beside the reference: the same without what the reference alone reads.
+Settings withoutReference(const Settings& settings);
+// The same with what the reference alone reads taken from `reference`.
+Settings withReferenceOf(const Settings& settings, const Settings& reference);
+// What forward+ is told to capture for the reference in mode surface: the surfaces that these Settings show,
+// with nothing packed and nothing of what lights them that a capture does not need.
+Settings surfaceSettings(const Settings& settings);
+
+// Two Settings whose swept values are combined, `a` the slower; b is "*" for every other one.
 struct SweepPair {
     std::string_view a, b;
 };
-inline constexpr SweepPair sweepPairs[] = {
-    {"path", "*"},
-    {"gbuffer", "size"},
-    {"msaa", "gbuffer"},
-    {"msaa", "size"},
-    {"assign", "light-cutoff"},
-    {"assign", "pixel-lights"},
-    {"shadows", "shadow-lights"},
-    {"shadows", "evsm-precision"},
-    {"shadows", "evsm-exponent"},
-    {"shadows", "evsm-bleed"},
-    {"shadows", "evsm-min-variance"},
-};
+std::vector<SweepPair> sweepPairs();
 
-// The words of Field::sweep for set(), in order; of a size as parts of `given`'s. Empty: it is not swept.
+// The words of Field::sweep for Settings::set(), in order; of a size as parts of `given`'s. Empty: it is not
+// swept. Throws std::runtime_error where there is no such option.
 std::vector<std::string> sweptValues(const Settings& given, std::string_view option);
 // "1/2" of a size is that part of `given`'s, each side rounded and at least 1; any other word stays.
 std::string wordsFor(const Settings& given, std::string_view option, const std::string& word);
-
-// Why a path does not read a Setting, "deferred has no depth pre-pass"; empty where it does.
-std::string_view unreadBecause(Path path, std::string_view option);
-// The same with what its path does not read at its usual value: equal where they are one picture.
-Settings readSettings(const Settings& settings);
-
-// The values of an enumeration by name, in order: "automatic" is written auto.
-template <class E>
-const std::vector<std::pair<E, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<Path, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<Assignment, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<LightKernel, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<Switch, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<GBufferEncoding, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<AreaLights, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<Shadows, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<EvsmPrecision, std::string_view>>& enumNames();
-template <>
-const std::vector<std::pair<ReferenceMode, std::string_view>>& enumNames();
-
-template <class E>
-std::string_view nameOf(E value) {
-    for (const auto& [candidate, name] : enumNames<E>())
-        if (candidate == value) return name;
-    return "?";
-}
 
 // Every setting by its option's name (- written _), as JSON text; and the way back: a key that is absent
 // keeps the value of `base`, an unknown key or a value of the wrong kind throws std::runtime_error. The
 // object may stand alone or in { "settings": ... }.
 std::string toJson(const Settings& settings, int indent = 2);
 Settings settingsFromJson(const std::string& text, const Settings& base = {});
-
-// One value from the words of the command line, e.g. set(s, "size", "640x360"). Throws
-// std::runtime_error naming option, value and what is accepted. Here and in JSON "off" and "none" both call
-// off whatever can be.
-void set(Settings& settings, std::string_view option, const std::string& value);
-
-// The way back, and what set() accepts in short: "deferred|forward_plus|reference", "WxH", "F". Both throw
-// std::runtime_error where there is no such option.
-std::string valueOf(const Settings& settings, std::string_view option);
-std::string acceptedValues(std::string_view option);
 
 }  // namespace diptych

@@ -7,16 +7,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 
 namespace diptych {
 namespace {
 
-std::vector<std::string> split(std::string_view list, char separator) {
-    std::vector<std::string> words;
+std::vector<std::string_view> split(std::string_view list, char separator) {
+    std::vector<std::string_view> words;
     while (!list.empty()) {
         const std::size_t end = std::min(list.find(separator), list.size());
-        words.emplace_back(list.substr(0, end));
+        words.push_back(list.substr(0, end));
         list.remove_prefix(std::min(end + 1, list.size()));
     }
     return words;
@@ -43,16 +42,21 @@ std::string wordsFor(const Settings& given, std::string_view option, const std::
 }
 
 std::vector<std::string> sweptValues(const Settings& given, std::string_view option) {
+    const Field& field = settingField(option);
+    const bool isAll = field.sweep == "all";
+    const std::string list = isAll ? acceptedValues(option) : std::string(field.sweep);
     std::vector<std::string> words;
-    bool found = false;
-    Settings::fields(given, [&](const Field& field, const auto&) {
-        if (field.option != option) return;
-        found = true;
-        words = field.sweep == "all" ? split(acceptedValues(option), '|') : split(field.sweep, ',');
-    });
-    if (!found) throw std::runtime_error(fmt::format("--{}: no such setting", option));
-    for (std::string& word : words) word = wordsFor(given, option, word);
+    for (const std::string_view word : split(list, isAll ? '|' : ','))
+        words.push_back(wordsFor(given, option, std::string(word)));
     return words;
+}
+
+std::vector<SweepPair> sweepPairs() {
+    std::vector<SweepPair> pairs;
+    for (const Field& field : settingFields())
+        for (const std::string_view other : split(field.sweep_with, ','))
+            pairs.push_back(other == "*" ? SweepPair{field.option, other} : SweepPair{other, field.option});
+    return pairs;
 }
 
 }  // namespace diptych

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Scenes that use as much of glTF 2.0 as fits into a few kilobytes.
-#include "compare/files/data_uri.h"
 #include "tests/fuzz/base64.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/unit/draco_maker.h"

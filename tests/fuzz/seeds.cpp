@@ -2,7 +2,6 @@
 // fuzz_seeds OUT [ASSETS]
 #include "tests/fuzz/seeds.h"
 
-#include "compare/files/data_uri.h"
 #include "shared/frame/settings.h"
 #include "tests/fuzz/base64.h"
 

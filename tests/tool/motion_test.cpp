@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What moves in a file, through the whole program: the reference at a time, and what the paths say of it.
-#include "compare/files/data_uri.h"
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 

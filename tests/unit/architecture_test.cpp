@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The rules of the architecture, checked on the project's own files. Each check has a negative control that
 // plants a fault and must find it.
-#include "compare/page/text.h"
 #include "shared/frame/debug_modes.h"
 
 #include <gtest/gtest.h>

@@ -128,9 +128,9 @@ TEST(BenchCases, PredictsAlongTheLastTwo) {
 BenchRow row(const char* path, const char* assign, const char* size, std::uint32_t lights, double ms,
              std::vector<PassTime> passes) {
     BenchRow made;
-    set(made.settings, "path", path);
-    set(made.settings, "assign", assign);
-    set(made.settings, "size", size);
+    made.settings.set("path", path);
+    made.settings.set("assign", assign);
+    made.settings.set("size", size);
     made.scene = "builtin:spheres";
     made.asked = lights;
     made.counters.lights = lights + 1;

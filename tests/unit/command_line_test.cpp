@@ -38,7 +38,7 @@ TEST(CommandLine, EverySettingIsAnOptionOfEveryRenderingCommand) {
     for (const std::string& command : rendering)
         Settings::fields(usual, [&](const Field& field, const auto&) {
             const std::string option(field.option);
-            EXPECT_EQ(parseCommandLine({command, "--" + option, valueOf(usual, option)}).settings, usual)
+            EXPECT_EQ(parseCommandLine({command, "--" + option, usual.valueOf(option)}).settings, usual)
                 << option;
         });
 }

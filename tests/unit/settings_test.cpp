@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <set>
@@ -84,20 +86,126 @@ TEST(Settings, WordsRoundTrip) {
     const Settings changed = everythingChanged();
     Settings back;
     Settings::fields(changed, [&](const Field& field, const auto&) {
-        EXPECT_NE(valueOf(changed, field.option), valueOf(back, field.option)) << field.option;
-        set(back, field.option, valueOf(changed, field.option));
+        EXPECT_NE(changed.valueOf(field.option), back.valueOf(field.option)) << field.option;
+        back.set(field.option, changed.valueOf(field.option));
     });
     EXPECT_EQ(back, changed);
 }
 
 TEST(Settings, FieldsNameEachMemberOnce) {
     std::set<std::string_view> names;
-    const Settings s;
-    Settings::fields(s, [&](const Field& field, const auto&) {
+    for (const Field& field : settingFields()) {
         EXPECT_TRUE(names.insert(field.option).second) << field.option;
-        EXPECT_FALSE(field.help.empty()) << field.option;
         EXPECT_FALSE(acceptedValues(field.option).empty()) << field.option;
-    });
+    }
+}
+
+// Values other than the default that a Setting can have, in words: what a sweep tries, and one more of each
+// kind.
+std::vector<std::string> otherValues(const Field& field) {
+    const Settings defaults;
+    std::vector<std::string> values = sweptValues(defaults, field.option);
+    values.push_back(everythingChanged().valueOf(field.option));
+    std::erase(values, defaults.valueOf(field.option));
+    return values;
+}
+
+TEST(Settings, EveryRowIsComplete) {
+    std::set<std::string_view> options;
+    for (const Field& field : settingFields()) options.insert(field.option);
+    const Settings defaults;
+    for (const Field& field : settingFields()) {
+        SCOPED_TRACE(field.option);
+        EXPECT_EQ(&settingField(field.option), &field);
+        EXPECT_FALSE(field.help.empty());
+        EXPECT_EQ(field.valid.are.empty(), field.valid.check == nullptr);
+        EXPECT_TRUE(!field.valid.check || field.valid.check(defaults));
+        EXPECT_TRUE(!field.default_only.unless || !field.default_only.because.empty());
+        for (const auto& word : {field.off, field.for_surfaces})
+            if (word) {
+                Settings settings;
+                EXPECT_NO_THROW(settings.set(field.option, std::string(*word))) << *word;
+                EXPECT_TRUE(!field.valid.check || field.valid.check(settings)) << *word;
+            }
+        for (const std::string& value : sweptValues(defaults, field.option)) {
+            Settings settings;
+            EXPECT_NO_THROW(settings.set(field.option, value)) << value;
+            EXPECT_TRUE(!field.valid.check || field.valid.check(settings)) << value;
+        }
+        EXPECT_FALSE(otherValues(field).empty());
+        EXPECT_TRUE(field.sweep_with.empty() || !field.sweep.empty()) << "nothing of it is swept";
+    }
+    for (const SweepPair& pair : sweepPairs())
+        for (const std::string_view option : {pair.a, pair.b})
+            if (option != "*") {
+                EXPECT_TRUE(options.contains(option)) << option;
+                EXPECT_FALSE(settingField(option).sweep.empty()) << option << " is not swept";
+            }
+    EXPECT_THROW(settingField("gamma"), std::runtime_error);
+}
+
+TEST(Settings, TheFuzzersDictionaryNamesThemAll) {
+    std::ifstream stream(DIPTYCH_SOURCE_DIR "/tests/fuzz/settings.dict");
+    const std::string words(std::istreambuf_iterator<char>(stream), {});
+    for (const Field& field : settingFields()) {
+        std::string key(field.option);
+        std::ranges::replace(key, '-', '_');
+        EXPECT_NE(words.find("\"\\\"" + key + "\\\"\""), std::string::npos) << key;
+    }
+}
+
+// What a row calls ignored by a path is gone from that path's effective Settings, and nothing else is.
+TEST(Settings, EffectiveOnesAreWithoutWhatTheirPathIgnores) {
+    for (const auto& [path, name] : enumNames<Path>())
+        for (const Field& field : settingFields()) {
+            if (field.option == "path") continue;
+            Settings plain;
+            plain.path = path;
+            EXPECT_EQ(effectiveSettings(plain), plain) << name;
+            for (const std::string& value : otherValues(field)) {
+                Settings changed = plain;
+                changed.set(field.option, value);
+                const bool ignored = !ignoredBecause(path, field.option).empty();
+                EXPECT_EQ(effectiveSettings(changed), ignored ? plain : changed)
+                    << name << " " << field.option << " " << value;
+            }
+        }
+}
+
+TEST(Settings, TheReferenceFollowsWhatItsRowsSayAndNothingElse) {
+    Settings reference;
+    reference.path = Path::reference;
+    for (const Field& field : settingFields())
+        for (const std::string& value : otherValues(field)) {
+            SCOPED_TRACE(std::string(field.option) + " " + value);
+            Settings changed;
+            changed.set(field.option, value);
+            const bool follows = field.option != "path" && field.ignored.reference.empty();
+            EXPECT_EQ(referenceSettings(changed) == reference, !follows);
+            EXPECT_EQ(referenceSettings(changed), effectiveSettings(referenceSettings(changed)));
+            const bool alone = field.option == "spp" || field.option == "reference-mode";
+            EXPECT_EQ(withoutReference(changed), alone ? Settings() : changed);
+            EXPECT_EQ(withReferenceOf(Settings(), changed), alone ? changed : Settings());
+        }
+}
+
+// Whatever was asked for, the reference in mode surface shades the same surfaces of one scene, view and time.
+TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
+    Settings asked = everythingChanged();
+    asked.spp = 1;
+    asked.reference_mode = ReferenceMode::surface;
+    Settings expected;
+    expected.path = Path::forward_plus;
+    expected.prepass = Switch::on;
+    expected.gbuffer = GBufferEncoding::full;
+    expected.size = asked.size;
+    expected.camera = asked.camera;
+    expected.time = asked.time;
+    expected.lights = asked.lights;
+    expected.seed = asked.seed;
+    EXPECT_EQ(surfaceSettings(asked), expected);
+    asked.time = 0;
+    EXPECT_EQ(surfaceSettings(asked).problem().value_or("none"), "none");
 }
 
 TEST(Settings, AbsentKeysKeepTheBase) {
@@ -157,11 +265,11 @@ TEST(Settings, BadWordsAreRefusedByOptionAndValue) {
     };
     for (const auto& [option, value] : bad) {
         Settings s;
-        const std::string what = whatIsThrown([&, o = option, v = value] { set(s, o, v); });
+        const std::string what = whatIsThrown([&, o = option, v = value] { s.set(o, v); });
         EXPECT_EQ(what.find(std::string("--") + option + " " + value), 0u) << what;
     }
     Settings s;
-    EXPECT_NE(whatIsThrown([&] { set(s, "gamma", "2"); }).find("gamma"), std::string::npos);
+    EXPECT_NE(whatIsThrown([&] { s.set("gamma", "2"); }).find("gamma"), std::string::npos);
 }
 
 TEST(Settings, TheUsualOnesHaveNoProblem) {
@@ -200,7 +308,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
     };
     for (const auto& [option, value] : built) {
         Settings s;
-        set(s, option, value);
+        s.set(option, value);
         EXPECT_EQ(s.problem().value_or("none"), "none");
     }
 }
@@ -232,7 +340,7 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
     };
     for (const auto& [option, value] : rest) {
         Settings s;
-        set(s, option, value);
+        s.set(option, value);
         const std::string problem = s.problem().value_or("none");
         EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
     }
@@ -276,6 +384,35 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
     s.path = Path::deferred;
     EXPECT_EQ(s.problem().value_or("none"),
               "--reference-mode scene has no meaning without --path reference; use surface");
+}
+
+// The reference traces shadows and takes samples: what belongs to one technique of them changes no picture.
+TEST(Settings, TheReferenceIgnoresHowShadowsAndSamplesAreMade) {
+    Settings plain;
+    plain.path = Path::reference;
+    plain.shadows = Shadows::evsm;
+    for (const char* option :
+         {"shadow-lights", "evsm-precision", "evsm-exponent", "evsm-bleed", "evsm-min-variance", "msaa"}) {
+        Settings changed = plain;
+        changed.set(option, everythingChanged().valueOf(option));
+        EXPECT_NE(changed, plain) << option;
+        EXPECT_EQ(effectiveSettings(changed), plain) << option;
+        EXPECT_EQ(referenceSettings(changed), plain) << option;
+    }
+}
+
+// They belong to one technique of shadows, not to any.
+TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
+    Settings s;
+    s.path = Path::reference;
+    s.evsm_exponent = 5;
+    for (const Shadows shadows : {Shadows::off, Shadows::pcf, Shadows::clipmap}) {
+        s.shadows = shadows;
+        EXPECT_EQ(s.problem().value_or("none"),
+                  "--evsm-exponent 5 has no meaning without --shadows evsm; use 40");
+    }
+    s.shadows = Shadows::evsm;
+    EXPECT_EQ(s.problem().value_or("none"), "none");
 }
 
 // Beside a path's capture it stands where the path does.
@@ -343,7 +480,7 @@ TEST(Settings, OffAndNoneCallOffWhateverCanBe) {
                                "shadows", "evsm-bleed", "msaa", "sort", "haze"})
         for (const std::string word : {"off", "none"}) {
             Settings said;
-            ASSERT_NO_THROW(set(said, option, word)) << option << " " << word;
+            ASSERT_NO_THROW(said.set(option, word)) << option << " " << word;
             EXPECT_EQ(said.problem().value_or(""), "") << option << " " << word;
             std::string key = option;
             std::ranges::replace(key, '-', '_');
@@ -351,11 +488,11 @@ TEST(Settings, OffAndNoneCallOffWhateverCanBe) {
             EXPECT_EQ(settingsFromJson(toJson(said)), said) << option;
         }
     Settings settings;
-    set(settings, "env", "off");
+    settings.set("env", "off");
     EXPECT_EQ(settings.env, "none");
-    set(settings, "shadows", "none");
-    EXPECT_EQ(valueOf(settings, "shadows"), "off");
-    EXPECT_THROW(set(settings, "gbuffer", "off"), std::runtime_error);
+    settings.set("shadows", "none");
+    EXPECT_EQ(settings.valueOf("shadows"), "off");
+    EXPECT_THROW(settings.set("gbuffer", "off"), std::runtime_error);
 }
 
 TEST(DebugModes, NumbersAscendAndNamesAreUnique) {

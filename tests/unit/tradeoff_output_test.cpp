@@ -18,8 +18,8 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 TradeoffRow row(const char* path, const char* option, const char* value, double ms, const Errors& errors) {
     TradeoffRow made;
-    set(made.settings, "path", path);
-    if (*option) set(made.settings, option, value);
+    made.settings.set("path", path);
+    if (*option) made.settings.set(option, value);
     CameraRow camera;
     camera.camera = "a, \"b\" <c>";
     camera.visits = {{ms, 0.9 * ms, 1.5 * ms, 5}};

@@ -40,7 +40,7 @@ TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
         EXPECT_EQ(std::ranges::count(plan.rows, plan.rows[i]), 1) << i;
         EXPECT_EQ(plan.rows[i].problem(), std::nullopt) << i;
-        EXPECT_EQ(readSettings(plan.rows[i]), plan.rows[i]) << i;
+        EXPECT_EQ(effectiveSettings(plan.rows[i]), plan.rows[i]) << i;
     }
 }
 
@@ -55,8 +55,8 @@ TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
             for (const Path path : {Path::deferred, Path::forward_plus}) {
                 Settings asked = given;
                 asked.path = path;
-                set(asked, field.option, value);
-                const Choice choice{std::string(field.option), valueOf(asked, field.option)};
+                asked.set(field.option, value);
+                const Choice choice{std::string(field.option), asked.valueOf(field.option)};
                 const auto skipped = [&](const SweepSkip& skip) {
                     return !skip.reason.empty() && std::ranges::count(skip.tried, choice) == 1 &&
                            std::ranges::count(skip.tried, Choice{"path", std::string(nameOf(path))}) == 1;
@@ -80,7 +80,7 @@ TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
     EXPECT_FALSE(holds(rows, "forward_plus, prepass off, size 320x180")) << "no declared pair";
 }
 
-TEST(TradeoffSweep, WhatAPathDoesNotReadIsSaidOnce) {
+TEST(TradeoffSweep, WhatAPathIgnoresIsSaidOnce) {
     const SweepRows plan = usualPlan();
     const std::vector<std::string> gbuffer = reasonsOf(plan, "gbuffer"), prepass = reasonsOf(plan, "prepass");
     EXPECT_EQ(gbuffer, (std::vector<std::string>(2, "forward_plus has no G-buffer"))) << "compact and full";
@@ -125,7 +125,7 @@ TEST(TradeoffSweep, AGridIsItsProduct) {
     EXPECT_TRUE(plan.skips.empty());
 }
 
-TEST(TradeoffSweep, OneThatIsNotReadIsDrawnWithoutAndSaid) {
+TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
     const SweepRows plan = planSweep({}, {{{"gbuffer", {"compact", "full"}}}});
     EXPECT_EQ(wordsOfRows(plan), std::vector<std::string>{"forward_plus"});
     EXPECT_EQ(plan.skips.size(), 2u);
@@ -162,23 +162,23 @@ TEST(TradeoffSweep, SkipsOfOneReasonAreOneLine) {
     EXPECT_EQ(groups[2].tried, std::vector<std::string>{"deferred, msaa 4, size 9x9"});
 }
 
-TEST(TradeoffSweep, DeclaredPairsAndUnreadSettingsExist) {
+TEST(TradeoffSweep, DeclaredPairsAndIgnoredSettingsExist) {
     const Settings usual;
     std::set<std::string> options{"*"};
     Settings::fields(usual, [&](const Field& field, const auto&) {
         options.emplace(field.option);
         for (const std::string& value : sweptValues(usual, field.option)) {
             Settings other;
-            EXPECT_NO_THROW(set(other, field.option, value)) << field.option << " " << value;
+            EXPECT_NO_THROW(other.set(field.option, value)) << field.option << " " << value;
         }
     });
-    for (const SweepPair& pair : sweepPairs)
+    for (const SweepPair& pair : sweepPairs())
         for (const std::string_view option : {pair.a, pair.b})
             EXPECT_TRUE(options.contains(std::string(option))) << option;
     for (const auto& [path, name] : enumNames<Path>()) {
         Settings settings;
         settings.path = path;
-        EXPECT_EQ(readSettings(settings), settings) << name << ": an unknown option would throw";
+        EXPECT_EQ(effectiveSettings(settings), settings) << name << ": an unknown option would throw";
     }
 }
 

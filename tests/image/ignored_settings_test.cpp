@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path is said not to read changes no bit of what it draws: so that a sweep may leave it out.
+// What a path is said to ignore changes no bit of what it draws: so that a sweep may leave it out.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
@@ -16,7 +16,7 @@ Image litOf(Renderer& renderer, const Settings& settings) {
     return renderer.draw(settings, options).channels.at(lit);
 }
 
-TEST(Unread, ChangesNoBit) {
+TEST(IgnoredSettings, ChangeNoBit) {
     const Scene scene = loadScene("builtin:gallery");
     Renderer renderer(device(), scene);
     std::size_t compared = 0, changed = 0;
@@ -25,19 +25,19 @@ TEST(Unread, ChangesNoBit) {
         usual.path = path;
         usual.size = {96, 54};
         const Image before = litOf(renderer, usual);
-        Settings::fields(usual, [&](const Field& field, const auto&) {
-            if (field.option == "path" || field.option == "size") return;
-            const bool unread = !unreadBecause(path, field.option).empty();
+        for (const Field& field : settingFields()) {
+            if (field.option == "path" || field.option == "size") continue;
+            const bool ignored = !ignoredBecause(path, field.option).empty();
             for (const std::string& value : sweptValues(usual, field.option)) {
                 Settings other = usual;
-                set(other, field.option, value);
-                if (other == usual || (other.problem() && !unread)) continue;
+                other.set(field.option, value);
+                if (other == usual || (other.problem() && !ignored)) continue;
                 const std::uint64_t pixels = unequalPixels(before, litOf(renderer, other), 0);
-                compared += unread;
-                changed += !unread && pixels > 0;
-                EXPECT_FALSE(unread && pixels > 0) << nameOf(path) << " " << field.option << " " << value;
+                compared += ignored;
+                changed += !ignored && pixels > 0;
+                EXPECT_FALSE(ignored && pixels > 0) << nameOf(path) << " " << field.option << " " << value;
             }
-        });
+        }
     }
     EXPECT_GE(compared, 4u) << "gbuffer of forward+, prepass of deferred";
     EXPECT_GE(changed, 2u) << "what is read is told from it: the G-buffer of deferred";

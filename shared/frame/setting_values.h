@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The kinds of value that a Setting may have: enumerations, each with its names, and small structs.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace diptych {
+
+template <class E>
+using EnumName = std::pair<E, std::string_view>;
+
+// The values of an enumeration and their names on the command line and in JSON, in the order of --help.
+// Specialised below each enumeration.
+template <class E>
+inline constexpr std::array<EnumName<E>, 0> enum_names{};
+
+template <class E>
+constexpr std::span<const EnumName<E>> enumNames() {
+    static_assert(!enum_names<E>.empty(), "an enumeration without names");
+    return enum_names<E>;
+}
+
+// "?" of what is no value of the enumeration.
+template <class E>
+constexpr std::string_view nameOf(E value) {
+    for (const auto& [candidate, name] : enumNames<E>())
+        if (candidate == value) return name;
+    return "?";
+}
+
+enum class Path { deferred, forward_plus, reference };
+template <>
+inline constexpr auto enum_names<Path> = std::to_array<EnumName<Path>>({{Path::deferred, "deferred"},
+                                                                        {Path::forward_plus, "forward_plus"},
+                                                                        {Path::reference, "reference"}});
+
+// The paths that a device draws, in the order in which they are compared.
+inline constexpr std::array drawn_paths{Path::deferred, Path::forward_plus};
+
+enum class Assignment { every, tiled, clustered, per_object };
+template <>
+inline constexpr auto enum_names<Assignment> =
+    std::to_array<EnumName<Assignment>>({{Assignment::every, "every"},
+                                         {Assignment::tiled, "tiled"},
+                                         {Assignment::clustered, "clustered"},
+                                         {Assignment::per_object, "per_object"}});
+
+enum class LightKernel { automatic, scatter, gather };
+template <>
+inline constexpr auto enum_names<LightKernel> = std::to_array<EnumName<LightKernel>>(
+    {{LightKernel::automatic, "auto"}, {LightKernel::scatter, "scatter"}, {LightKernel::gather, "gather"}});
+
+enum class Switch { automatic, on, off };
+template <>
+inline constexpr auto enum_names<Switch> =
+    std::to_array<EnumName<Switch>>({{Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}});
+
+enum class GBufferEncoding { compact, standard, full };
+template <>
+inline constexpr auto enum_names<GBufferEncoding> =
+    std::to_array<EnumName<GBufferEncoding>>({{GBufferEncoding::compact, "compact"},
+                                              {GBufferEncoding::standard, "standard"},
+                                              {GBufferEncoding::full, "full"}});
+
+enum class AreaLights { ltc, representative };
+template <>
+inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
+    {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
+
+enum class Shadows { off, pcf, evsm, clipmap };
+template <>
+inline constexpr auto enum_names<Shadows> = std::to_array<EnumName<Shadows>>(
+    {{Shadows::off, "off"}, {Shadows::pcf, "pcf"}, {Shadows::evsm, "evsm"}, {Shadows::clipmap, "clipmap"}});
+
+enum class EvsmPrecision { automatic, fp32, fp16 };
+template <>
+inline constexpr auto enum_names<EvsmPrecision> = std::to_array<EnumName<EvsmPrecision>>(
+    {{EvsmPrecision::automatic, "auto"}, {EvsmPrecision::fp32, "fp32"}, {EvsmPrecision::fp16, "fp16"}});
+
+enum class ReferenceMode { surface, scene };
+template <>
+inline constexpr auto enum_names<ReferenceMode> = std::to_array<EnumName<ReferenceMode>>(
+    {{ReferenceMode::surface, "surface"}, {ReferenceMode::scene, "scene"}});
+
+struct Size {
+    int width = 640, height = 360;  // pixels
+    bool operator==(const Size&) const = default;
+};
+
+struct Rgb {
+    float r = 0, g = 0, b = 0;
+    bool operator==(const Rgb&) const = default;
+};
+
+}  // namespace diptych

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Which of the Settings a path reads, and what the reference follows.
+#include "shared/frame/settings.h"
+
+#include <algorithm>
+
+namespace diptych {
+namespace {
+
+const Settings& defaults() {
+    static const Settings settings;
+    return settings;
+}
+
+bool isOfTheReferenceAlone(const Field& field) {
+    return field.ignored.reference.empty() &&
+           std::ranges::none_of(drawn_paths, [&](Path path) { return field.ignored.of(path).empty(); });
+}
+
+}  // namespace
+
+std::string_view ignoredBecause(Path path, std::string_view option) {
+    return settingField(option).ignored.of(path);
+}
+
+Settings effectiveSettings(const Settings& settings) {
+    Settings effective = settings;
+    Settings::rows([&](const Field& field, auto member) {
+        if (!field.ignored.of(settings.path).empty()) effective.*member = defaults().*member;
+    });
+    return effective;
+}
+
+Settings referenceSettings(const Settings& settings) {
+    Settings reference = settings;
+    reference.path = Path::reference;
+    return effectiveSettings(reference);
+}
+
+Settings withReferenceOf(const Settings& settings, const Settings& reference) {
+    Settings result = settings;
+    Settings::rows([&](const Field& field, auto member) {
+        if (isOfTheReferenceAlone(field)) result.*member = reference.*member;
+    });
+    return result;
+}
+
+Settings withoutReference(const Settings& settings) {
+    return withReferenceOf(settings, defaults());
+}
+
+Settings surfaceSettings(const Settings& settings) {
+    Settings surfaces = withoutReference(referenceSettings(settings));
+    for (const Field& field : settingFields())
+        if (field.for_surfaces) surfaces.set(field.option, std::string(*field.for_surfaces));
+    return surfaces;
+}
+
+}  // namespace diptych
