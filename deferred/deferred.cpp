@@ -3,11 +3,12 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/draw/light_batches.h"
+#include "shared/draw/record.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 namespace diptych {
@@ -36,9 +37,7 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
 
 // The attachments as SET_GBUFFER. Owned by the pass that reads it.
 DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
-    std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> types;
-    types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-    DescriptorSets sets(inputs.device, inputs.layouts.gbuffer, types, 1);
+    DescriptorSets sets(inputs.device, inputs.layouts.gbuffer, gbufferBindings(), 1);
     for (std::uint32_t i = 0; i < frame.gbuffer.size(); ++i) {
         // One that is not there is never read; albedo, of the same kind, keeps its binding valid.
         const ImageRef image =
@@ -53,14 +52,14 @@ DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, con
 
 // A full-screen pass over what the G-buffer holds: the triangle lies at the least depth that can be drawn,
 // and LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded.
-void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
-                const std::string& fragment, Variant variant, const std::vector<VkFormat>& colors,
-                const LightChunk& chunk) {
+void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
+                         const std::string& fragment, Variant variant, const std::vector<VkFormat>& colors,
+                         const LightBatch& batch) {
     for (const ImageRef image : frame.gbuffer)
         if (image.valid()) pass.samples(image);
-    chunk.read(pass);
+    batch.read(pass);
     pass.samples(frame.depth).depthTest(frame.depth);
-    variant.set(gpu::FEATURE_light_chunk, chunk.kind);
+    variant.set(gpu::FEATURE_light_chunk, batch.kind);
     if (inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
         variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "resolve.vert",
@@ -72,8 +71,8 @@ void addResolve(PassList& passes, Pass& pass, const FrameInputs& inputs, const F
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
                                                                  .depth_write = false});
     const auto set = std::make_shared<DescriptorSets>(gbufferSet(passes, inputs, frame));
-    pass.record([&inputs, pipeline, set, chunk](VkCommandBuffer commands) {
-        recordFullScreen(commands, inputs, pipeline, (*set)[0], chunk);
+    pass.record([&inputs, pipeline, set, batch](VkCommandBuffer commands) {
+        recordFullScreen(commands, inputs, pipeline, (*set)[0], batch);
     });
 }
 
@@ -86,10 +85,10 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
         recordDraws(inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item, captured); }));
 }
 
-LightChunk addEarlier(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
-    return addEarlierLights(passes, inputs, [&](Pass& pass, const LightChunk& chunk) {
-        addResolve(passes, pass, inputs, frame, "deferred_carry.frag", inputs.variant, {litFormat, litFormat},
-                   chunk);
+LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
+    return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
+        addDeferredLighting(passes, pass, inputs, frame, "deferred_carry.frag", inputs.variant,
+                            {litFormat, litFormat}, batch);
     });
 }
 
@@ -105,10 +104,11 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     }
     addGBuffer(passes, inputs, images, false);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
-    const LightChunk last = addEarlier(passes, inputs, images);
+    const LightBatch last = addEarlierLighting(passes, inputs, images);
     images.lit = passes.image("lit", litFormat);
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
-    addResolve(passes, shade, inputs, images, "deferred_shade.frag", inputs.variant, {litFormat}, last);
+    addDeferredLighting(passes, shade, inputs, images, "deferred_shade.frag", inputs.variant, {litFormat},
+                        last);
     return images;
 }
 
@@ -119,14 +119,15 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
         request.modes.end())
         addGBuffer(passes, inputs, frame, true);
-    const LightChunk last = addEarlier(passes, inputs, frame);
+    const LightBatch last = addEarlierLighting(passes, inputs, frame);
     for (const CaptureGroup& group : captureGroups(request.modes)) {
         Pass& pass = passes.draw("capture");
         for (const CapturedImage& image : addCaptureImages(passes, pass, group)) images.push_back(image);
         Variant variant = inputs.variant;
         group.specialise(variant);
-        addResolve(passes, pass, inputs, frame, fmt::format("deferred_capture.frag.{}", group.modes.size()),
-                   variant, group.formats, last);
+        addDeferredLighting(passes, pass, inputs, frame,
+                            fmt::format("deferred_capture.frag.{}", group.modes.size()), variant,
+                            group.formats, last);
     }
     return images;
 }

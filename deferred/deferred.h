@@ -2,6 +2,7 @@
 // The deferred path: surfaces go to a G-buffer, one full-screen pass shades what is left visible.
 #pragma once
 
+#include "shared/draw/captures.h"
 #include "shared/draw/frame_inputs.h"
 
 #include <vector>

@@ -4,6 +4,7 @@
 #include "shared/contract/geometry.h"
 #include "shared/contract/light_list.h"
 #include "shared/draw/frame_inputs.h"
+#include "shared/draw/layouts.h"
 #include "shared/vulkan/check.h"
 
 #include <array>
@@ -93,9 +94,9 @@ private:
         static_assert(gpu::SET_FRAME == 0 && gpu::SET_MATERIAL == 1);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.pipeline, 0, sets.size(),
                                 sets.data(), 0, nullptr);
-        const VkDescriptorSet carried = nothing_.set();
+        const VkDescriptorSet sums = nothing_.set();
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.pipeline,
-                                gpu::SET_CARRIED, 1, &carried, 0, nullptr);
+                                gpu::SET_CARRIED, 1, &sums, 0, nullptr);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
         vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
         const gpu::DrawConstants constants{static_cast<gpu::uint>(workload_.tilesAcross()),
@@ -113,7 +114,7 @@ private:
     Pipelines pipelines_;
     GpuBuffer lights_, indices_;
     Uploader uploader_;
-    NothingCarried nothing_;
+    NoPartialSums nothing_;
     GpuBuffer unread_;
     OwnedBufferView lightsView_, indicesView_;
     DescriptorSets frameSets_, lightSets_;

@@ -13,9 +13,9 @@ namespace {
 
 // The paths, one row each.
 const PathFunctions paths[] = {
-    {Path::deferred, addDeferred, addDeferredCapture,
-     [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; }},
-    {Path::forward_plus, addForwardPlus, addForwardPlusCapture,
+    {Path::deferred, [](FrameInputs&, const Settings&) { return std::vector<std::string>{}; }, addDeferred,
+     addDeferredCapture, [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; }},
+    {Path::forward_plus, prepareForwardPlus, addForwardPlus, addForwardPlusCapture,
      [](const FrameInputs&) { return std::uint32_t{4}; }},
 };
 

@@ -2,10 +2,12 @@
 // The two paths, as everything that draws asks for them.
 #pragma once
 
+#include "shared/draw/captures.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/frame/settings.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -13,6 +15,8 @@ namespace diptych {
 // What a path is made of.
 struct PathFunctions {
     Path path;
+    // Decides what the Settings leave to the path; notes on it. Called once, before the others.
+    std::vector<std::string> (*prepare)(FrameInputs&, const Settings&);
     FrameImages (*add)(PassList&, const FrameInputs&);
     std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, const FrameImages&,
                                           const CaptureRequest&);

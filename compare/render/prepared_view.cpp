@@ -3,7 +3,6 @@
 
 #include "compare/render/frame_facts.h"
 #include "compare/render/left_out.h"
-#include "shared/draw/overdraw.h"
 #include "shared/light/cutoff.h"
 
 #include <fmt/format.h>
@@ -70,42 +69,22 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings)),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
-      inputs{device,
-             shared.layouts,
-             shared.pipelines,
-             shared.geometry,
-             shared.materials,
-             draws,
-             buffers.draws(),
-             buffers.set(),
-             buffers.carriedNothing(),
-             buffers.lists(),
-             sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
-             gbuffer,
-             settings.prepass != Switch::off} {
+      inputs{device,           shared.layouts,
+             shared.pipelines, shared.geometry,
+             shared.materials, draws,
+             lights,           buffers.draws(),
+             buffers.set(),    buffers.noPartialSums(),
+             buffers.lists(),  sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
+             gbuffer} {
     buffers.lists().specialise(inputs.variant);
     if (device.info().isCpu()) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
     const LightLists& lists = buffers.lists();
     const ObjectLightBuffers& objects = buffers.objects();
     inputs.variant.set(gpu::FEATURE_object_lights, objects.features());
-    inputs.light_groups = lists.any()               ? lists.grid().all_end
+    inputs.longest_list = lists.any()               ? lists.grid().all_end
                           : objects.features() != 0 ? objects.longest()
                                                     : lights.local();
-    if (settings.path == Path::forward_plus && settings.prepass == Switch::automatic) decidePrepass(settings);
-}
-
-void PreparedView::decidePrepass(const Settings& settings) {
-    if (settings.assign == Assignment::tiled) return;
-    const LightLists& lists = buffers.lists();
-    const gpu::LightGrid& grid = lists.grid();
-    const std::uint64_t atPixel =
-        lists.any() ? std::uint64_t{grid.capacity} * grid.width / grid.lists : lights.local();
-    const PrepassChoice choice =
-        choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
-                                      static_cast<std::uint32_t>(settings.size.height)),
-                      static_cast<double>(atPixel + lights.directional), inputs.device.info().isCpu());
-    inputs.prepass = choice.on;
-    notes.push_back(choice.because);
+    notes = functionsOf(settings.path).prepare(inputs, settings);
 }
 
 PreparedFrame::PreparedFrame(Device& device, SharedResources& shared, const SceneView& scene,

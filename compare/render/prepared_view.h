@@ -4,6 +4,7 @@
 #pragma once
 
 #include "compare/render/path_table.h"
+#include "shared/draw/frame_buffers.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
@@ -38,10 +39,6 @@ public:
     FrameBuffers buffers;
     GBufferLayout gbuffer;
     FrameInputs inputs;
-
-private:
-    // Tiles are bounded by depth, so they need it first.
-    void decidePrepass(const Settings& settings);
 };
 
 // A PreparedView with its passes, images and pipelines: all that running it again needs.

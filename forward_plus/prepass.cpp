@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "shared/draw/overdraw.h"
+#include "forward_plus/prepass.h"
 
+#include "forward_plus/forward_plus.h"
+#include "shared/draw/pipeline_keys.h"
+#include "shared/draw/record.h"
 #include "shared/vulkan/check.h"
 
 #include <fmt/format.h>
@@ -12,12 +15,12 @@ namespace diptych {
 
 namespace {
 
-// What a device takes, ns: a triangle and a pixel of a depth pass; a fragment's surface, each of its
-// textures, and a light at it.
+// Times in ns: of a triangle and of a pixel in a depth pass; in shading of a fragment's surface, of each of
+// its textures and of each light.
 struct Costs {
     double triangle, depth, surface, texture, light;
 };
-// lavapipe on two cores, measured; a GPU takes about a hundredth of each, and has been estimated only.
+// Measured on lavapipe with two cores. A GPU is assumed to take about a hundredth of each.
 constexpr Costs cpuCosts{65, 1, 20, 10, 3}, gpuCosts{0.6, 0.01, 0.2, 0.1, 0.03};
 
 int texturesOf(const Variant& variant) {
@@ -82,7 +85,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
         draws(commands);
         queries.end(commands, 0);
     });
-    // As the deferred path's full-screen triangle: it passes where something was drawn.
+    // The full-screen triangle passes the depth test where something was drawn, as in deferred lighting.
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "full_screen.vert",
                                                                  .fragment = "",
                                                                  .variant = {},
@@ -117,6 +120,21 @@ PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, bool cpu) {
                     "{:.2g} ms on {} device and save {:.2g} ms of shading",
                     on ? "on" : "off", covered > 0 ? fragments / covered : 0.0, cost,
                     cpu ? "this CPU" : "this GPU", saved)};
+}
+
+std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings& settings) {
+    inputs.prepass = settings.prepass != Switch::off;
+    // Tiles are bounded by depth, so they need a pre-pass.
+    if (settings.prepass != Switch::automatic || settings.assign == Assignment::tiled) return {};
+    const gpu::LightGrid& grid = inputs.lists.grid();
+    const std::uint64_t atPixel =
+        inputs.lists.any() ? std::uint64_t{grid.capacity} * grid.width / grid.lists : inputs.lights.local();
+    const PrepassChoice choice =
+        choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
+                                      static_cast<std::uint32_t>(settings.size.height)),
+                      static_cast<double>(atPixel + inputs.lights.directional), inputs.device.info().isCpu());
+    inputs.prepass = choice.on;
+    return {choice.because};
 }
 
 }  // namespace diptych

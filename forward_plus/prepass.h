@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How often forward shading would shade a pixel without a depth pre-pass, and whether one pays.
+// How often forward shading would shade a pixel without a depth pre-pass, and whether a pre-pass costs less
+// than it saves.
 #pragma once
 
 #include "shared/draw/frame_inputs.h"
@@ -16,13 +17,14 @@ struct Overdraw {
     double textures = 0;          // of a triangle's material, on average
 };
 
-// Counted by occlusion queries at the list's order and at most 320x180 pixels, where what is counted is
-// scaled to `width` x `height`. Needs occlusionQueryPrecise; without it `fragments` is `covered`, both 0.
+// Counts by occlusion queries, in the order of the draw list, at no more than 320x180 pixels, and scales the
+// counts to `width` x `height` pixels. Needs occlusionQueryPrecise; without it `fragments` is `covered`, both
+// 0.
 Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::uint32_t height);
 
-// Whether the pre-pass costs less than the shading that it saves, by the device's type and measured figures
-// (README, "Many lights"), and that in words: "on: 2.1 fragments a covered pixel; ...". `lights`: evaluated
-// at a pixel, about.
+// Whether the pre-pass costs less than the shading that it saves, by figures measured on a CPU device
+// (estimated for others), and the reason in words: "--prepass auto is on: 2.1 fragments a covered pixel;
+// ...". `lights`: about as many as are evaluated at a pixel.
 struct PrepassChoice {
     bool on = true;
     std::string because;

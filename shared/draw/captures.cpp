@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/captures.h"
+
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/features.h"
+#include "shared/frame/debug_modes.h"
+
+#include <algorithm>
+#include <string>
+
+namespace diptych {
+
+namespace {
+
+VkFormat formatFor(const DebugMode& mode) {
+    return mode.width == 1   ? VK_FORMAT_R32_SFLOAT
+           : mode.width == 2 ? VK_FORMAT_R32G32_SFLOAT
+                             : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+}  // namespace
+
+void CaptureGroup::specialise(Variant& variant) const {
+    for (gpu::uint i = 0; i < gpu::CAPTURE_ATTACHMENTS; ++i)
+        variant.set(gpu::FEATURE_capture_0 + i,
+                    i < modes.size() ? static_cast<gpu::uint>(modes[i]) : gpu::DEBUG_none);
+}
+
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
+    std::vector<int> ordered(modes.begin(), modes.end());
+    std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !isLit(mode); });
+    std::vector<CaptureGroup> groups;
+    for (std::size_t i = 0; i < ordered.size(); ++i) {
+        if (i % gpu::CAPTURE_ATTACHMENTS == 0) groups.emplace_back();
+        groups.back().modes.push_back(ordered[i]);
+        groups.back().formats.push_back(formatFor(debugMode(ordered[i])));
+    }
+    return groups;
+}
+
+std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group) {
+    std::vector<CapturedImage> images;
+    for (std::size_t i = 0; i < group.modes.size(); ++i) {
+        const ImageRef image = passes.image(std::string(debugMode(group.modes[i]).name), group.formats[i]);
+        const float background = group.modes[i] == static_cast<int>(gpu::DEBUG_material_id) ? -1.0f : 0.0f;
+        pass.color(image, Load::clear, {.float32 = {background, 0, 0, 0}});
+        images.push_back({group.modes[i], image});
+    }
+    return images;
+}
+
+}  // namespace diptych

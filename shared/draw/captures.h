@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Capture passes, which write channels (debug modes) to attachments.
+#pragma once
+
+#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/pipelines.h"
+
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+// A capture pass: up to CAPTURE_ATTACHMENTS channels. Channels that need no light come first, so that as few
+// passes as the attachments allow hold them all and only the last ones shade.
+struct CaptureGroup {
+    std::vector<int> modes;         // debug modes, one an attachment
+    std::vector<VkFormat> formats;  // float32, as wide as the channel
+    void specialise(Variant& variant) const;
+};
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes);
+
+struct CapturedImage {
+    int mode = 0;
+    ImageRef image;
+    bool through_gbuffer = false;  // forward+: of a surface that was encoded and decoded
+};
+
+// What a capture is asked for: channels as they are, and channels of surfaces that went through the
+// G-buffer's encoding (forward+ only; what the deferred path has to show).
+struct CaptureRequest {
+    std::vector<int> modes, through_gbuffer;
+};
+
+// Adds the group's attachments to a pass, cleared to what the background holds (0; material_id -1).
+std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group);
+
+}  // namespace diptych

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/frame_buffers.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/contract/view.h"
+#include "shared/environment/directional_albedo.h"
+
+#include <algorithm>
+
+namespace diptych {
+
+namespace {
+
+gpu::PackedView packedView(const gpu::View& view, const gpu::LightGrid& grid) {
+    return {view.direction_0,
+            view.depth_numerator.x,
+            view.direction_x,
+            view.depth_numerator.y,
+            view.direction_y,
+            view.depth_denominator.x,
+            view.depth_denominator.y,
+            grid.slice_offset,
+            grid.slice_shift | (grid.tile_shift << 16),
+            grid.tiles.x | (grid.tiles.y << 16),
+            grid.slices,
+            view.directional_light_count,
+            view.point_light_count,
+            view.spot_light_count};
+}
+
+}  // namespace
+
+FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
+                           const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
+                           std::optional<std::uint32_t> objectPixelLights)
+    : lists_(device, uploader, layouts.lists, choice, view, lights),
+      objects_(device, uploader, draws, lights, objectPixelLights),
+      no_partial_sums_(device, uploader, layouts),
+      sets_(device, layouts.frame, frameBindings(), 1) {
+    gpu::View gpuView = view.gpuView();
+    gpuView.directional_light_count = lights.directional;
+    gpuView.point_light_count = lights.point;
+    gpuView.spot_light_count = lights.spot;
+    gpuView.rect_light_count = lights.rect;
+    gpuView.disc_light_count = lights.disc;
+    gpuView.tube_light_count = lights.tube;
+    gpuView.ambient = lights.ambient;
+    view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
+                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    const gpu::PackedView packed = packedView(gpuView, lists_.grid());
+    packed_view_ = makeBuffer<gpu::PackedView>(device, uploader, "packed view", std::span(&packed, 1),
+                                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    packed_view_texels_ = makeTexelView(device, "packed view", packed_view_, VK_FORMAT_R32G32B32A32_UINT);
+    draws_ = makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,
+                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    spot_cones_ = makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones,
+                                            VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    lights_view_ = makeTexelView(device, "lights", lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    spot_cones_view_ = makeTexelView(device, "spot cones", spot_cones_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    area_lights_ = makeBuffer<gpu::AreaLight>(device, uploader, "area lights", lights.area_lights,
+                                              VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    area_lights_view_ = makeTexelView(device, "area lights", area_lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    ltc_ = LtcImage(device, uploader, lights.area() > 0);
+    std::span<const glm::vec2> albedo;
+    const bool lightmaps = std::ranges::any_of(draws.items, [](const DrawItem& item) {
+        return item.variant.get(gpu::FEATURE_lightmap_texture) != 0;
+    });
+    if (lightmaps || lights.ambient != glm::vec3(0) || objects_.features() > gpu::OBJECT_LIGHTS_LISTS)
+        albedo = directionalAlbedoTable();
+    albedo_ = makeBuffer<glm::vec2>(device, uploader, "directional albedo", albedo,
+                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    uploader.flush();
+    sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
+    sets_.texels(0, gpu::BINDING_VIEW_TEXELS, packed_view_texels_);
+    sets_.texels(0, gpu::BINDING_LIGHTS, lights_view_);
+    sets_.texels(0, gpu::BINDING_SPOT_CONES, spot_cones_view_);
+    sets_.texels(0, gpu::BINDING_AREA_LIGHTS, area_lights_view_);
+    sets_.image(0, gpu::BINDING_LTC_TABLE, ltc_.view(), ltc_.sampler(),
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    sets_.buffer(0, gpu::BINDING_ALBEDO, albedo_.handle());
+    lists_.bind(sets_);
+    objects_.bind(sets_);
+}
+
+}  // namespace diptych

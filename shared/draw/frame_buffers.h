@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The buffers of one view and the descriptor set that binds them.
+#pragma once
+
+#include "shared/draw/draw_list.h"
+#include "shared/draw/layouts.h"
+#include "shared/draw/object_lights.h"
+#include "shared/light/ltc_image.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace diptych {
+
+// The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
+class FrameBuffers {
+public:
+    // `objectPixelLights`: --pixel-lights of --assign per_object; nothing with any other assignment.
+    FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
+                 const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
+                 std::optional<std::uint32_t> objectPixelLights = {});
+    VkDescriptorSet set() const { return sets_[0]; }
+    VkBuffer draws() const { return draws_.handle(); }
+    VkDescriptorSet noPartialSums() const { return no_partial_sums_.set(); }
+    LightLists& lists() { return lists_; }
+    const ObjectLightBuffers& objects() const { return objects_; }
+    std::uint64_t bytes() const {
+        return view_.size() + packed_view_.size() + draws_.size() + lights_.size() + spot_cones_.size() +
+               area_lights_.size() + ltc_.bytes() + albedo_.size() + lists_.bytes() + objects_.bytes();
+    }
+
+private:
+    GpuBuffer view_, packed_view_, draws_, lights_, spot_cones_, area_lights_, albedo_;
+    OwnedBufferView packed_view_texels_, lights_view_, spot_cones_view_, area_lights_view_;
+    LtcImage ltc_;
+    LightLists lists_;
+    ObjectLightBuffers objects_;
+    NoPartialSums no_partial_sums_;
+    DescriptorSets sets_;
+};
+
+}  // namespace diptych

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/layouts.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/contract/gbuffer.h"
+#include "shared/contract/geometry.h"
+#include "shared/vulkan/check.h"
+
+#include <array>
+#include <cstddef>
+
+namespace diptych {
+
+namespace {
+
+constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                           storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                           texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+// In the order of BINDING_* of SET_FRAME.
+constexpr std::array frameTypes{
+    uniform, uniform, texels,  texels,  texels, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, texels, texels,
+    storage, storage, storage, storage, texels};
+
+constexpr std::array partialSumTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+
+constexpr auto gbufferTypes = [] {
+    std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> types{};
+    types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    return types;
+}();
+
+}  // namespace
+
+std::span<const VkDescriptorType> frameBindings() {
+    return frameTypes;
+}
+std::span<const VkDescriptorType> gbufferBindings() {
+    return gbufferTypes;
+}
+std::span<const VkDescriptorType> partialSumBindings() {
+    return partialSumTypes;
+}
+
+Layouts::Layouts(Device& device, VkDescriptorSetLayout material)
+    : frame(makeSetLayout(device, frameTypes)),
+      gbuffer(makeSetLayout(device, gbufferTypes)),
+      partial_sums(makeSetLayout(device, partialSumTypes)) {
+    const std::array<VkDescriptorSetLayout, 4> sets{frame, material, gbuffer, partial_sums};
+    const VkPushConstantRange constants{drawStages, 0, sizeof(gpu::DrawConstants)};
+    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .pNext = nullptr,
+                                          .flags = 0,
+                                          .setLayoutCount = sets.size(),
+                                          .pSetLayouts = sets.data(),
+                                          .pushConstantRangeCount = 1,
+                                          .pPushConstantRanges = &constants};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    pipeline = OwnedPipelineLayout(device.handle(), layout);
+    nearest = makeNearestSampler(device);
+    lists = ListLayouts(device, frame);
+}
+
+NoPartialSums::NoPartialSums(Device& device, Uploader& uploader, const Layouts& layouts)
+    : image_(device, {"black texel", VK_FORMAT_R32G32B32A32_SFLOAT, 1, 1, 1,
+                      VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}),
+      sets_(device, layouts.partial_sums, partialSumTypes, 1) {
+    constexpr std::array<float, 4> black{};
+    uploader.level(image_, 0, std::as_bytes(std::span(black)));
+    uploader.flush();
+    for (gpu::uint i = 0; i < partialSumTypes.size(); ++i)
+        sets_.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+}  // namespace diptych

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The descriptor set layouts and the pipeline layout that all draws share.
+#pragma once
+
+#include "shared/light/light_lists.h"
+#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/resources.h"
+
+#include <span>
+
+namespace diptych {
+
+// The pipeline layout of every draw: SET_FRAME, SET_MATERIAL, SET_GBUFFER, SET_PARTIAL_SUMS, and push
+// constants of struct DrawConstants. Made once a device; all views share it.
+struct Layouts {
+    // `material`: the layout of SET_MATERIAL.
+    Layouts(Device& device, VkDescriptorSetLayout material);
+    OwnedDescriptorSetLayout frame, gbuffer, partial_sums;
+    OwnedPipelineLayout pipeline;
+    OwnedSampler nearest;
+    ListLayouts lists;
+};
+
+// The shader stages that read the push constants of a draw.
+constexpr VkShaderStageFlags drawStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+// Descriptor types of a set's bindings, indexed by binding.
+std::span<const VkDescriptorType> frameBindings();
+std::span<const VkDescriptorType> gbufferBindings();
+std::span<const VkDescriptorType> partialSumBindings();
+
+// SET_PARTIAL_SUMS of draws that continue no sums, and a black texel for any other image that a shader
+// declares and does not read: lavapipe and the validation layers follow every descriptor.
+class NoPartialSums {
+public:
+    NoPartialSums(Device& device, Uploader& uploader, const Layouts& layouts);
+    VkDescriptorSet set() const { return sets_[0]; }
+    VkImageView texel() const { return image_.view(); }
+
+private:
+    GpuImage image_;
+    DescriptorSets sets_;
+};
+
+}  // namespace diptych

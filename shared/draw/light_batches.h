@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Lists of more lights than one draw can walk are shaded in batches: each draw adds its batch of the lights
+// to the float32 sums that the one before it left, so the result has the same bits as one loop's.
+#pragma once
+
+#include "shared/contract/light_list.h"
+#include "shared/draw/frame_inputs.h"
+
+#include <array>
+#include <functional>
+#include <memory>
+
+namespace diptych {
+
+// The packets of each light list that one draw walks, and the sums that it continues from.
+struct LightBatch {
+    gpu::uint kind = gpu::CHUNK_WHOLE;
+    gpu::uint first = 0, end = 0;                     // packets, counted from a list's begin
+    std::array<ImageRef, 2> images = {};              // the sums of earlier batches: diffuse, specular
+    std::shared_ptr<const DescriptorSets> sums = {};  // the same as SET_PARTIAL_SUMS; null: none
+
+    // Declares that the pass samples the sums, where there are some.
+    void read(Pass& pass) const;
+};
+
+// Adds a draw for each batch of the lights but the last, which is returned for the pass that completes the
+// sum: lists of up to MAX_LIGHTS_PER_DRAW packets are one batch, CHUNK_WHOLE, without an extra draw. `add`
+// declares depth and what else is read, and records the drawing of one batch into attachments 0 (diffuse) and
+// 1 (specular).
+using AddBatch = std::function<void(Pass&, const LightBatch&)>;
+LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add);
+
+}  // namespace diptych

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The pipelines of draws that several passes make: depth alone, and surfaces that are shaded as they are
+// drawn.
+#pragma once
+
+#include "shared/draw/captures.h"
+#include "shared/draw/light_batches.h"
+
+namespace diptych {
+
+// Depth alone. Of the material only what can cut holes matters.
+PipelineKey depthKey(const DrawItem& item);
+
+// A surface that is shaded as it is drawn, to `lit`. Depth is tested (GREATER_OR_EQUAL) and not written;
+// whoever draws without a pre-pass sets depth_write.
+PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);
+
+// The same for a batch of lights that is not the last: to the two partial sums.
+PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);
+
+// The same for a capture: to the group's channels.
+PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, const CaptureGroup& group,
+                              const LightBatch& batch);
+
+// Lets a forward key quantise as the frame's G-buffer would. With `surface` the whole surface is encoded and
+// decoded before it is shaded; without, only the geometric normal is, as both paths must have the same one.
+PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface);
+
+}  // namespace diptych

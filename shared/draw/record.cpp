@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/record.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/contract/geometry.h"
+
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+namespace {
+
+void bind(VkCommandBuffer commands, const FrameInputs& inputs, gpu::uint set, VkDescriptorSet descriptors) {
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inputs.layouts.pipeline, set, 1,
+                            &descriptors, 0, nullptr);
+}
+
+// SET_FRAME and SET_PARTIAL_SUMS.
+void bindFrame(VkCommandBuffer commands, const FrameInputs& inputs, const LightBatch& batch) {
+    bind(commands, inputs, gpu::SET_FRAME, inputs.frame_set);
+    bind(commands, inputs, gpu::SET_CARRIED, batch.sums ? (*batch.sums)[0] : inputs.no_partial_sums);
+}
+
+void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawConstants& constants) {
+    vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
+}
+
+}  // namespace
+
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
+                                                 const LightBatch& batch) {
+    std::vector<PipelineKey> keys;
+    for (const DrawItem& item : inputs.draws.items) keys.push_back(keyOf(item));
+    std::vector<VkPipeline> pipelines = inputs.pipelines.get(keys);
+    return [&inputs, batch, pipelines = std::move(pipelines)](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, batch);
+        inputs.geometry.bind(commands, inputs.draw_buffer);
+        const DrawItem* last = nullptr;
+        VkPipeline lastPipeline = VK_NULL_HANDLE;
+        for (std::size_t i = 0; i < pipelines.size(); ++i) {
+            const DrawItem& item = inputs.draws.items[i];
+            if (pipelines[i] != lastPipeline)
+                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
+            if (last == nullptr || item.range.material != last->range.material)
+                bind(commands, inputs, gpu::SET_MATERIAL, inputs.materials.set(item.range.material));
+            const bool twoSided = item.variant.get(gpu::FEATURE_double_sided) != 0;
+            vkCmdSetCullMode(commands, twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+            // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
+            vkCmdSetFrontFace(commands,
+                              item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+            push(commands, inputs, {item.draw, item.range.material, batch.first, batch.end});
+            vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
+                             item.range.vertex_offset, item.draw);
+            last = &item;
+            lastPipeline = pipelines[i];
+        }
+    };
+}
+
+void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline) {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
+void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
+                      VkDescriptorSet gbuffer, const LightBatch& batch) {
+    bindFrame(commands, inputs, batch);
+    bind(commands, inputs, gpu::SET_GBUFFER, gbuffer);
+    push(commands, inputs, {0, 0, batch.first, batch.end});
+    recordTriangle(commands, pipeline);
+}
+
+}  // namespace diptych
