@@ -19,19 +19,18 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
     std::vector<VkFormat> formats;
     for (const VkFormat format : inputs.gbuffer.formats)
         if (format != VK_FORMAT_UNDEFINED) formats.push_back(format);
+    constexpr FeatureMask read = featuresReadBy(gpu::PASS_GBUFFER);
     PipelineKey key{.vertex = "surface.vert",
                     .fragment = fmt::format("gbuffer.frag.{}", formats.size()),
-                    .variant = item.variant,
+                    .variant = item.variant.only(read & featuresSetBy(FeatureSource::item)),
                     .input = VertexInput::all,
                     .colors = formats,
                     .depth = depthFormat,
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                     .depth_write = true};
-    for (const gpu::uint feature : {gpu::FEATURE_emission, gpu::FEATURE_dielectric_specular,
-                                    gpu::FEATURE_lightmap, gpu::FEATURE_orthographic})
-        key.variant.set(feature, inputs.variant.get(feature));
+    key.variant.take(inputs.variant,
+                     read & (featuresSetBy(FeatureSource::frame) | featuresSetBy(FeatureSource::gbuffer)));
     key.variant.set(gpu::FEATURE_captured, captured);
-    inputs.gbuffer.specialise(key.variant);
     return key;
 }
 
@@ -50,6 +49,13 @@ DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, con
     return sets;
 }
 
+Variant lightingVariant(const FrameInputs& inputs) {
+    Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_LIGHTING));
+    if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
+        variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
+    return variant;
+}
+
 // A full-screen pass over what the G-buffer holds: the triangle lies at the least depth that can be drawn,
 // and LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
@@ -59,10 +65,8 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
         if (image.valid()) pass.samples(image);
     batch.read(pass);
     pass.samples(frame.depth).depthTest(frame.depth);
-    variant.set(gpu::FEATURE_light_chunk, batch.kind);
-    if (inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
-        variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "resolve.vert",
+    variant.set(gpu::FEATURE_light_batch, batch.kind);
+    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "deferred_lighting.vert",
                                                                  .fragment = fragment,
                                                                  .variant = variant,
                                                                  .input = VertexInput::none,
@@ -87,7 +91,7 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
 
 LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
     return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
-        addDeferredLighting(passes, pass, inputs, frame, "deferred_carry.frag", inputs.variant,
+        addDeferredLighting(passes, pass, inputs, frame, "deferred_light_batch.frag", lightingVariant(inputs),
                             {litFormat, litFormat}, batch);
     });
 }
@@ -107,8 +111,8 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     const LightBatch last = addEarlierLighting(passes, inputs, images);
     images.lit = passes.image("lit", litFormat);
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
-    addDeferredLighting(passes, shade, inputs, images, "deferred_shade.frag", inputs.variant, {litFormat},
-                        last);
+    addDeferredLighting(passes, shade, inputs, images, "deferred_shade.frag", lightingVariant(inputs),
+                        {litFormat}, last);
     return images;
 }
 
@@ -123,7 +127,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     for (const CaptureGroup& group : captureGroups(request.modes)) {
         Pass& pass = passes.draw("capture");
         for (const CapturedImage& image : addCaptureImages(passes, pass, group)) images.push_back(image);
-        Variant variant = inputs.variant;
+        Variant variant = lightingVariant(inputs);
         group.specialise(variant);
         addDeferredLighting(passes, pass, inputs, frame,
                             fmt::format("deferred_capture.frag.{}", group.modes.size()), variant,

@@ -25,11 +25,7 @@ constexpr Costs cpuCosts{65, 1, 20, 10, 3}, gpuCosts{0.6, 0.01, 0.2, 0.1, 0.03};
 
 int texturesOf(const Variant& variant) {
     int count = 0;
-    for (const gpu::uint feature :
-         {gpu::FEATURE_base_color_texture, gpu::FEATURE_metallic_roughness_texture,
-          gpu::FEATURE_normal_texture, gpu::FEATURE_occlusion_texture, gpu::FEATURE_emissive_texture,
-          gpu::FEATURE_specular_texture, gpu::FEATURE_specular_color_texture})
-        count += variant.get(feature) != 0;
+    for (const gpu::uint feature : slotFeatures) count += variant.get(feature) != 0;
     return count;
 }
 

@@ -96,7 +96,7 @@ private:
                                 sets.data(), 0, nullptr);
         const VkDescriptorSet sums = nothing_.set();
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.pipeline,
-                                gpu::SET_CARRIED, 1, &sums, 0, nullptr);
+                                gpu::SET_PARTIAL_SUMS, 1, &sums, 0, nullptr);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
         vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
         const gpu::DrawConstants constants{static_cast<gpu::uint>(workload_.tilesAcross()),

@@ -19,7 +19,8 @@
 #include "shared/contract/object_lights.h"
 #include "shared/contract/view.h"
 
-#define FEATURE_CONSTANT(id, name) layout(constant_id = id) const uint feature_##name = 0;
+#define FEATURE_CONSTANT(id, name, source, inputs, passes) \
+    layout(constant_id = id) const uint feature_##name = 0;
 FEATURES(FEATURE_CONSTANT)
 #undef FEATURE_CONSTANT
 

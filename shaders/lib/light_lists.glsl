@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which lights a pixel evaluates, in the buffer's order whatever chose them. Lights and lists are texel buffers: on
-// lavapipe a fetch of four costs less than one gathered load from a storage buffer (README, "Many lights").
+// The lights that a pixel evaluates, always in the order of the light buffer, whichever assignment chose
+// them. Lights and lists are texel buffers: on lavapipe a fetch of four lanes costs less than one gathered
+// load from a storage buffer.
 #ifndef LIGHT_LISTS_GLSL
 #define LIGHT_LISTS_GLSL
 
@@ -14,18 +15,24 @@ layout(set = SET_FRAME, binding = BINDING_AREA_LIGHTS) uniform samplerBuffer are
 layout(set = SET_FRAME, binding = BINDING_LIST_HEADS) uniform usamplerBuffer list_heads;
 layout(set = SET_FRAME, binding = BINDING_LIST_INDICES) uniform usamplerBuffer list_indices;
 layout(set = SET_FRAME, binding = BINDING_LIST_COUNTS, scalar) readonly buffer Listed { uint listed[]; };
-layout(set = SET_FRAME, binding = BINDING_OBJECT_LIST, scalar) readonly buffer ObjectList { ObjectLight object_list[]; };
-layout(set = SET_FRAME, binding = BINDING_OBJECTS, scalar) readonly buffer Objects { ObjectLights object_lights[]; };
+layout(set = SET_FRAME, binding = BINDING_OBJECT_LIST, scalar) readonly buffer ObjectList {
+    ObjectLight object_list[];
+};
+layout(set = SET_FRAME, binding = BINDING_OBJECTS, scalar) readonly buffer Objects {
+    ObjectLights object_lights[];
+};
 
 Light lightAt(uint i) {
     vec4 a = texelFetch(light_texels, int(2u * i)), b = texelFetch(light_texels, int(2u * i + 1u));
-    return Light(a.xyz, a.w, b.xyz, b.w);
+    return LIGHT_OF_TEXELS(a, b);
 }
 
 SpotCone spotConeAt(uint i) {
-    uint cone = min(i - view.directional_light_count - view.point_light_count, view.spot_light_count);  // the null light's last
-    vec4 a = texelFetch(spot_cone_texels, int(2u * cone)), b = texelFetch(spot_cone_texels, int(2u * cone + 1u));
-    return SpotCone(a.xyz, a.w, b.x, b.yzw);
+    // The null light's cone is the last one.
+    uint cone = min(i - view.directional_light_count - view.point_light_count, view.spot_light_count);
+    vec4 a = texelFetch(spot_cone_texels, int(2u * cone)),
+         b = texelFetch(spot_cone_texels, int(2u * cone + 1u));
+    return SPOT_CONE_OF_TEXELS(a, b);
 }
 
 // Numbers among the area lights: rectangles, discs, tubes.
@@ -33,28 +40,31 @@ uint firstDisc() { return view.rect_light_count; }
 uint firstTube() { return view.rect_light_count + view.disc_light_count; }
 uint areaCount() { return firstTube() + view.tube_light_count; }
 AreaLight areaLightAt(uint area) {
-    vec4 a = texelFetch(area_light_texels, int(3u * area)), b = texelFetch(area_light_texels, int(3u * area + 1u)),
+    vec4 a = texelFetch(area_light_texels, int(3u * area)),
+         b = texelFetch(area_light_texels, int(3u * area + 1u)),
          c = texelFetch(area_light_texels, int(3u * area + 2u));
-    return AreaLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
+    return AREA_LIGHT_OF_TEXELS(a, b, c);
 }
 
-// A pixel's lights as groups of its list. Without lists (LISTS_NONE) a group is a light and the list all local ones;
-// with object_lights it is the draw's own list.
+// A pixel's lights as packets of its list: one or four lights each, feature_list_width. Without lists
+// (LISTS_NONE) a packet is one light and the list holds all local ones; with object_lights it is the draw's
+// own list.
 struct PixelLights {
     uint list;
-    LightListHead groups;
+    LightListHead packets;
 };
 
 // `pixel`: gl_FragCoord.xy; z: the reversed depth.
 PixelLights lightsAt(vec2 pixel, float z) {
     if (on(feature_object_lights)) {
         ObjectLights object = object_lights[constants.draw];
-        return PixelLights(0u, LightListHead(object.local_begin, object.point_end, object.spot_end, object.area_end));
+        return PixelLights(
+            0u, LightListHead(object.local_begin, object.point_end, object.spot_end, object.area_end));
     }
     if (feature_light_lists != LISTS_NONE) {
         uint list = cellOf(pixel, viewDepth(z));
         uvec4 head = texelFetch(list_heads, int(list));
-        return PixelLights(list, LightListHead(head.x, head.y, head.z, head.w));
+        return PixelLights(list, LIGHT_LIST_HEAD_OF_TEXEL(head));
     }
     uint points = view.point_light_count, spots = points + view.spot_light_count;
     uint areas = view.rect_light_count + view.disc_light_count + view.tube_light_count;
@@ -63,65 +73,65 @@ PixelLights lightsAt(vec2 pixel, float z) {
 
 // Lights that were evaluated at the pixel, the directional ones too; whether its list found no room.
 uint lightCount(PixelLights lights) {
-    if (on(feature_object_lights)) return lights.groups.end - object_lights[constants.draw].begin;
-    uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.groups.end;
+    if (on(feature_object_lights)) return lights.packets.end - object_lights[constants.draw].begin;
+    uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.packets.end;
     return view.directional_light_count + local;
 }
 bool listOverflowed(PixelLights lights) {
-    return feature_light_lists != LISTS_NONE && lights.groups.begin == 0u && lights.groups.end > 0u;
+    return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u;
 }
 
-// Of groups [begin, end) of a list those that this draw walks.
+// Of the packets [begin, end) of a list those that this draw walks: all of them, or those of its light batch.
 uvec2 walked(PixelLights lights, uint begin, uint end) {
-    if (feature_light_chunk == CHUNK_WHOLE) return uvec2(begin, end);
-    uint first = lights.groups.begin;
+    if (feature_light_batch == BATCH_WHOLE) return uvec2(begin, end);
+    uint first = lights.packets.begin;
     return clamp(uvec2(begin, end), first + constants.light_first, first + constants.light_end);
 }
 
-// Of the light of the group that lightsOfGroup() gave last: all of it but with object_lights.
-float group_share = 1.0;
+// The share of the light that lightsOfPacket() returned last; 1 without object_lights.
+float packet_share = 1.0;
 Light withShare(Light light) {
-    if (on(feature_object_lights)) light.intensity *= group_share;
+    if (on(feature_object_lights)) light.intensity *= packet_share;
     return light;
 }
 
-// The lights of a group; without lists there is one.
-uvec4 lightsOfGroup(uint group) {
+// The lights of a packet; without lists only the first component counts.
+uvec4 lightsOfPacket(uint packet) {
     if (on(feature_object_lights)) {
-        ObjectLight entry = object_list[group];
-        group_share = entry.weight;
+        ObjectLight entry = object_list[packet];
+        packet_share = entry.weight;
         return uvec4(entry.light);
     }
-    if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + group);
-    return texelFetch(list_indices, int(group));
+    if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + packet);
+    return texelFetch(list_indices, int(packet));
 }
 
-// The directional lights, the same for a whole draw: groups [x, y) of directionalAt().
-uvec2 directionalGroups() {
+// The directional lights, the same for a whole draw: directionalAt() of [x, y).
+uvec2 directionalPackets() {
     if (!on(feature_object_lights)) return uvec2(0u, view.directional_light_count);
     ObjectLights object = object_lights[constants.draw];
     return uvec2(object.begin, object.local_begin);
 }
-Light directionalAt(uint group) {
-    return withShare(lightAt(on(feature_object_lights) ? lightsOfGroup(group).x : group));
+Light directionalAt(uint packet) {
+    return withShare(lightAt(on(feature_object_lights) ? lightsOfPacket(packet).x : packet));
 }
 
-// The area lights of a list one by one: what fills the last group up would be dear.
+// The area lights of a list one by one: evaluating those that pad the last packet would be too expensive.
 struct AreaWalk {
-    uint place, end;  // of groups, list_width each
+    uint place, end;  // of lights in the list: packets times list_width
     uint light;       // in the buffer
     uint number;      // among the area lights; the null light's is areaCount()
     bool more;
 };
 void look(inout AreaWalk walk) {
     uint place = min(walk.place, max(walk.end, 1u) - 1u);
-    walk.light = lightsOfGroup(place / feature_list_width)[place % feature_list_width];
+    walk.light = lightsOfPacket(place / feature_list_width)[place % feature_list_width];
     uint first = view.directional_light_count + view.point_light_count + view.spot_light_count;
     walk.number = min(walk.light - first, areaCount());
     walk.more = walk.place < walk.end && walk.number < areaCount();
 }
-AreaWalk areaWalk(uvec2 groups) {
-    AreaWalk walk = AreaWalk(groups.x * feature_list_width, groups.y * feature_list_width, 0u, 0u, false);
+AreaWalk areaWalk(uvec2 packets) {
+    AreaWalk walk = AreaWalk(packets.x * feature_list_width, packets.y * feature_list_width, 0u, 0u, false);
     look(walk);
     return walk;
 }

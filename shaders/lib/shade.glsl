@@ -3,8 +3,8 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
-// AREA_LIGHTS: 1 in the modules for scenes that have some. They would be pruned from a pipeline that switches them off,
-// but only after a compiler has read three times as much.
+// AREA_LIGHTS: 1 in the modules for scenes that have area lights. A pipeline that switches them off would
+// have their code pruned, but only after a compiler has read three times as much.
 #ifndef AREA_LIGHTS
 #define AREA_LIGHTS 0
 #endif
@@ -14,7 +14,7 @@
 #include "shaders/lib/area.glsl"
 #endif
 #include "shaders/lib/brdf.glsl"
-#include "shaders/lib/carry.glsl"
+#include "shaders/lib/partial_sums.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/lights.glsl"
 #include "shaders/lib/object_lights.glsl"
@@ -42,8 +42,8 @@ struct Shading {
 };
 
 void addIncident(Shading shading, Incident light, inout Radiance radiance) {
-    addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance, radiance.diffuse,
-             radiance.specular);
+    addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance,
+             radiance.diffuse, radiance.specular);
 }
 
 void addPoint(Shading shading, uint i, inout Radiance radiance) {
@@ -51,17 +51,18 @@ void addPoint(Shading shading, uint i, inout Radiance radiance) {
 }
 
 void addSpot(Shading shading, uint i, inout Radiance radiance) {
-    addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position), radiance);
+    addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position),
+                radiance);
 }
 
-// The groups [x, y) of one kind. On lavapipe a loop that ends at its test first runs a body too many, for nothing; one that
-// tests last alone goes on adding to pixels that are done, where others are not: what it computes is not masked unless
-// another way out makes it a merge of two values.
-#define ADD_GROUPS(add, groups)                   \
+// Adds the packets [x, y) of one kind of light. On lavapipe a loop with its test at the top runs one body too
+// many; a loop with its test only at the bottom goes on adding to pixels that are done while others of the
+// same eight are not, because values are masked only where control flow merges. So the loop has both exits.
+#define ADD_PACKETS(add, packets)                  \
     {                                             \
-        uvec2 range = groups;                     \
+        uvec2 range = packets;                    \
         while (range.x < range.y) {               \
-            uvec4 i = lightsOfGroup(range.x);     \
+            uvec4 i = lightsOfPacket(range.x);     \
             add(shading, i.x, radiance);          \
             if (feature_list_width == 4) {        \
                 add(shading, i.y, radiance);      \
@@ -72,10 +73,12 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
         }                                         \
     }
 
-// Goes on with the area lights of one shape, numbers below `end`: a loop a shape, for a body costs what is in it.
+// Continues with the area lights of one shape, those with numbers below `end`. One loop for each shape,
+// because a loop body costs all the code in it, executed or not.
 #define ADD_AREA(add, end)                                                                              \
     while (walk.more && walk.number < end) {                                                            \
-        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, radiance.diffuse, radiance.specular); \
+        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, radiance.diffuse, \
+            radiance.specular);                                                                         \
         step(walk);                                                                                     \
     }
 
@@ -84,28 +87,30 @@ Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, makeBrdf(s, v));
     precise Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission);
-    if (feature_light_chunk == CHUNK_LATER) {
-        radiance.diffuse = carriedDiffuse();
-        radiance.specular = carriedSpecular();
+    if (feature_light_batch == BATCH_LATER) {
+        radiance.diffuse = partialDiffuse();
+        radiance.specular = partialSpecular();
     }
-    if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_chunk != CHUNK_LATER) {
-        // What of the draw's other lights the base reflects.
+    if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
+        // The base's reflection of the draw's lights that are not shaded per pixel.
         precise vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
         radiance.diffuse = reflected;
     }
-    if (on(feature_directional_lights) && feature_light_chunk != CHUNK_LATER) {
-        uvec2 range = directionalGroups();
+    if (on(feature_directional_lights) && feature_light_batch != BATCH_LATER) {
+        uvec2 range = directionalPackets();
         while (range.x < range.y) {
             addIncident(shading, fromDirectionalLight(directionalAt(range.x)), radiance);
             if (++range.x >= range.y) break;
         }
     }
-    if (on(feature_point_lights)) ADD_GROUPS(addPoint, walked(lights, lights.groups.begin, lights.groups.point_end))
-    if (on(feature_spot_lights)) ADD_GROUPS(addSpot, walked(lights, lights.groups.point_end, lights.groups.spot_end))
+    if (on(feature_point_lights))
+        ADD_PACKETS(addPoint, walked(lights, lights.packets.begin, lights.packets.point_end))
+    if (on(feature_spot_lights))
+        ADD_PACKETS(addSpot, walked(lights, lights.packets.point_end, lights.packets.spot_end))
 #if AREA_LIGHTS
     if (on(feature_area_lights)) {
         AreaView area = areaView(shading.brdf, s, v);
-        AreaWalk walk = areaWalk(walked(lights, lights.groups.spot_end, lights.groups.end));
+        AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
         if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
         if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
         if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())

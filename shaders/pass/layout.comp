@@ -2,15 +2,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Never run: every struct of the contract in a buffer of its own, so that the compiled SPIR-V holds the
-// offsets that the build proves equal to C++'s.
+// Never run. Every struct of the contract is in a buffer of its own, so that the compiled SPIR-V holds the
+// offsets that the build proves equal to those in C++.
 #include "shaders/lib/contract.glsl"
 
 layout(set = 3, binding = 0, scalar) buffer ViewArray { View view_array[]; };
 layout(set = 3, binding = 1, scalar) buffer DrawArray { Draw draw_array[]; };
 layout(set = 3, binding = 2, scalar) buffer MaterialArray { Material material_array[]; };
 layout(set = 3, binding = 3, scalar) buffer LightArray { Light light_array[]; };
-layout(set = 3, binding = 4, scalar) buffer VertexAttributesArray { VertexAttributes vertex_attributes_array[]; };
+layout(set = 3, binding = 4, scalar) buffer VertexAttributesArray {
+    VertexAttributes vertex_attributes_array[];
+};
 layout(set = 3, binding = 6, scalar) buffer DrawConstantsArray { DrawConstants draw_constants_array[]; };
 layout(set = 3, binding = 7, scalar) buffer SpotConeArray { SpotCone spot_cone_array[]; };
 layout(set = 3, binding = 8, scalar) buffer LightGridArray { LightGrid light_grid_array[]; };
@@ -18,11 +20,14 @@ layout(set = 3, binding = 9, scalar) buffer LightBoundArray { LightBound light_b
 layout(set = 3, binding = 10, scalar) buffer LightListHeadArray { LightListHead light_list_head_array[]; };
 layout(set = 3, binding = 11, scalar) buffer LightListCountArray { LightListCount light_list_count_array[]; };
 layout(set = 3, binding = 12, scalar) buffer AreaLightArray { AreaLight area_light_array[]; };
-layout(set = 3, binding = 13, scalar) buffer PackedViewArray { PackedView packed_view_array[]; };
-layout(set = 3, binding = 5, scalar) buffer TextureTransformArray { TextureTransform texture_transform_array[]; };
+layout(set = 3, binding = 5, scalar) buffer TextureTransformArray {
+    TextureTransform texture_transform_array[];
+};
 
 layout(set = 3, binding = 20, scalar) buffer ObjectLightArray { ObjectLight object_light_array[]; };
-layout(set = 3, binding = 21, scalar) buffer ObjectIrradianceArray { ObjectIrradiance object_irradiance_array[]; };
+layout(set = 3, binding = 21, scalar) buffer ObjectIrradianceArray {
+    ObjectIrradiance object_irradiance_array[];
+};
 layout(set = 3, binding = 22, scalar) buffer ObjectLightsArray { ObjectLights object_lights_array[]; };
 
 void main() {
@@ -30,7 +35,6 @@ void main() {
     object_irradiance_array[0] = object_irradiance_array[1];
     object_lights_array[0] = object_lights_array[1];
     view_array[0] = view_array[1];
-    packed_view_array[0] = packed_view_array[1];
     draw_array[0] = draw_array[1];
     material_array[0] = material_array[1];
     light_array[0] = light_array[1];

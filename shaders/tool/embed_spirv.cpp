@@ -100,7 +100,7 @@ void run(int argc, char** argv) {
                                "material", "object_lights", "view"})
         layout << "#include \"shared/contract/" << header << ".h\"\n";
     layout << "\nnamespace diptych::gpu {\n";
-    std::string table;
+    std::string table, names;
     int structs = 0;
     for (int i = 3; i < argc; ++i) {
         const std::string name =
@@ -112,11 +112,14 @@ void run(int argc, char** argv) {
         if (name == "layout.comp") structs += writeLayoutChecks(layout, reflect(words));
         writeModule(out, symbol, words);
         table += "    if (name == \"" + name + "\") return " + symbol + ";\n";
+        names += "        \"" + name + "\",\n";
     }
     if (structs == 0) throw std::runtime_error("layout.comp: no struct to check");
     out << "}  // namespace\n\nnamespace diptych {\n\nstd::span<const std::uint32_t> "
            "findSpirv(std::string_view name) {\n"
-        << table << "    return {};\n}\n\n}  // namespace diptych\n";
+        << table << "    return {};\n}\n\nstd::span<const std::string_view> spirvModules() {\n"
+        << "    static constexpr std::string_view names[] = {\n"
+        << names << "    };\n    return names;\n}\n\n}  // namespace diptych\n";
     layout << "}  // namespace diptych::gpu\n";
     out.close();
     layout.close();

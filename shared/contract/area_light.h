@@ -18,6 +18,14 @@ struct AreaLight {
     vec3 direction;   // unit; rectangle, disc: in which it shines; tube: along x
     float two_sided;  // 1: rectangle, disc: to both sides
 };
+#define AREA_LIGHT_OF_TEXELS(a, b, c) AreaLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w)
+CONTRACT_LANE(AreaLight, x, 0, 0);
+CONTRACT_LANE(AreaLight, radius, 0, 3);
+CONTRACT_LANE(AreaLight, y, 1, 0);
+CONTRACT_LANE(AreaLight, extent, 1, 3);
+CONTRACT_LANE(AreaLight, direction, 2, 0);
+CONTRACT_LANE(AreaLight, two_sided, 2, 3);
+CONTRACT_TEXELS(AreaLight, 3);
 
 // FEATURE_area_lights: the shapes that the scene has, and AREA_POINTS where each is evaluated by a
 // representative point; else by linearly transformed cosines.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Descriptor sets and bindings, named once.
+// Descriptor sets and bindings. Each set's bindings are one table, which C++ expands to descriptor types; the
+// declarations in GLSL are held against the tables by a test that reads the compiled modules.
 #ifndef DIPTYCH_CONTRACT_BINDINGS_H
 #define DIPTYCH_CONTRACT_BINDINGS_H
 
@@ -7,33 +8,42 @@
 
 CONTRACT_BEGIN
 
-CONTRACT_CONST(uint, SET_FRAME, 0);     // what every pass of a frame reads
-CONTRACT_CONST(uint, SET_MATERIAL, 1);  // one material: textures at SLOT_*, BINDING_MATERIAL
-CONTRACT_CONST(uint, SET_LISTS, 1);     // of the kernels that make light lists, bindings of light_list.h
-CONTRACT_CONST(uint, SET_CARRIED, 3);   // sums that an earlier draw's lights left: diffuse, specular
-CONTRACT_CONST(uint, SET_GBUFFER, 2);   // deferred: the attachments, bindings GBUFFER_*, then depth
+CONTRACT_CONST(uint, SET_FRAME, 0);         // what every pass of a frame reads
+CONTRACT_CONST(uint, SET_MATERIAL, 1);      // one material: textures at SLOT_*, then its factors
+CONTRACT_CONST(uint, SET_LISTS, 1);         // of the kernels that make light lists: light_list.h
+CONTRACT_CONST(uint, SET_GBUFFER, 2);       // deferred lighting: the attachments GBUFFER_*, then depth
+CONTRACT_CONST(uint, SET_PARTIAL_SUMS, 3);  // what the light batches before this one reflected
 
-CONTRACT_CONST(uint, BINDING_VIEW, 0);          // uniform View
-CONTRACT_CONST(uint, BINDING_LIGHT_GRID, 1);    // uniform LightGrid
-CONTRACT_CONST(uint, BINDING_LIGHTS, 2);        // texels of Light[]
-CONTRACT_CONST(uint, BINDING_SPOT_CONES, 3);    // texels of SpotCone[]
-CONTRACT_CONST(uint, BINDING_AREA_LIGHTS, 4);   // texels of AreaLight[]
-CONTRACT_CONST(uint, BINDING_LTC_TABLE, 5);     // image: ltc.h
-CONTRACT_CONST(uint, BINDING_LIST_HEADS, 6);    // texels of LightListHead[lists]
-CONTRACT_CONST(uint, BINDING_LIST_INDICES, 7);  // texels of uint[]: into the lights, list_width at once
-CONTRACT_CONST(uint, BINDING_LIST_COUNTS, 8);   // buffer uint[lists]
-CONTRACT_CONST(uint, BINDING_ALBEDO, 9);        // buffer vec2[], see albedo.h
-CONTRACT_CONST(uint, BINDING_OBJECT_LIST, 10);  // buffer ObjectLight[]
-CONTRACT_CONST(uint, BINDING_OBJECTS, 11);      // buffer ObjectLights[draws]
-CONTRACT_CONST(uint, BINDING_VIEW_TEXELS, 12);  // texels of PackedView
+CONTRACT_END
 
-CONTRACT_CONST(uint, BINDING_MATERIAL, 8);  // of SET_MATERIAL: uniform Material, after the slots
+// number  name  kind  what it holds
+//   kind  uniform_buffer, storage_buffer, texel_buffer (read as a sampler buffer), image (with its sampler)
+// clang-format off
+#define FRAME_BINDINGS(X)                                                                     \
+    X(0,  VIEW,         uniform_buffer, "View")                                               \
+    X(1,  LIGHT_GRID,   uniform_buffer, "LightGrid")                                          \
+    X(2,  LIGHTS,       texel_buffer,   "Light[], two texels each")                           \
+    X(3,  SPOT_CONES,   texel_buffer,   "SpotCone[], two texels each")                        \
+    X(4,  AREA_LIGHTS,  texel_buffer,   "AreaLight[], three texels each")                     \
+    X(5,  LTC_TABLE,    image,          "ltc.h")                                              \
+    X(6,  LIST_HEADS,   texel_buffer,   "LightListHead[lists], a texel each")                 \
+    X(7,  LIST_INDICES, texel_buffer,   "uint[]: numbers of lights, a packet a texel")        \
+    X(8,  LIST_COUNTS,  storage_buffer, "uint[lists]")                                        \
+    X(9,  ALBEDO,       storage_buffer, "vec2[], see albedo.h")                               \
+    X(10, OBJECT_LIST,  storage_buffer, "ObjectLight[]")                                      \
+    X(11, OBJECTS,      storage_buffer, "ObjectLights[draws]")                                \
+    X(12, VIEW_TEXELS,  texel_buffer,   "PACKED_VIEW")
 
-CONTRACT_CONST(uint, BINDING_CARRIED_DIFFUSE, 0);  // of SET_CARRIED
-CONTRACT_CONST(uint, BINDING_CARRIED_SPECULAR, 1);
+#define PARTIAL_SUM_BINDINGS(X)                                                               \
+    X(0, PARTIAL_DIFFUSE,  image, "RGBA32F, W/(sr m^2)")                                      \
+    X(1, PARTIAL_SPECULAR, image, "RGBA32F, W/(sr m^2)")
+// clang-format on
 
-CONTRACT_CONST(uint, BINDING_DEPTH, 7);  // of SET_GBUFFER
-
+CONTRACT_BEGIN
+#define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
+FRAME_BINDINGS(DIPTYCH_BINDING_NUMBER)
+PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_NUMBER)
+#undef DIPTYCH_BINDING_NUMBER
 CONTRACT_END
 
 #endif

@@ -7,63 +7,80 @@
 
 #include "types.h"
 
-// id  name  what it switches; 0 is off
+// id  name  set by  inputs  read by    what it switches; 0 is off
+//   set by   item: a draw's material or geometry; frame: the scene, the view, its lights; gbuffer: the layout
+//   of the
+//            G-buffer; pass: whatever records the pass
+//   inputs   the least set of shaders/lib/inputs.glsl that has what a surface with the feature reads
+//   read by  the passes whose modules use the constant, a sum of PASS_*; a test holds it against the modules
 // clang-format off
-#define FEATURES(X)                                                                                   \
-    X(0,  base_color_texture)         /* material slots with a texture */                             \
-    X(1,  metallic_roughness_texture)                                                                 \
-    X(2,  normal_texture)                                                                             \
-    X(3,  occlusion_texture)                                                                          \
-    X(4,  emissive_texture)                                                                           \
-    X(5,  specular_texture)                                                                           \
-    X(6,  specular_color_texture)                                                                     \
-    X(7,  texture_transform)          /* some slot has KHR_texture_transform */                       \
-    X(8,  second_texcoord)            /* some slot reads the second UV set */                         \
-    X(9,  vertex_color)                                                                               \
-    X(10, alpha_mask)                                                                                 \
-    X(11, double_sided)                                                                               \
-    X(12, emission)                   /* the scene emits light */                                     \
-    X(13, dielectric_specular)        /* KHR_materials_specular, _ior, _unlit in the scene */     \
-    X(14, directional_lights)         /* the scene has some */                                        \
-    X(15, point_lights)                                                                               \
-    X(16, gbuffer_encoding)           /* GBUFFER_* of gbuffer.h */                                    \
-    X(17, gbuffer_wide_emission)      /* emission beyond the packed format's range: float32 */        \
-    X(18, gbuffer_wide_material_id)   /* more materials than the packed bits can name */              \
-    X(19, quantise_surface)           /* forward: shade what the G-buffer would have given back */    \
-    X(20, capture_0)                  /* DEBUG_* of each attachment of a capture pass */              \
-    X(21, capture_1)                                                                                  \
-    X(22, capture_2)                                                                                  \
-    X(23, capture_3)                                                                                  \
-    X(24, capture_4)                                                                                  \
-    X(25, capture_5)                                                                                  \
-    X(26, capture_6)                                                                                  \
-    X(27, capture_7)                                                                                  \
-    X(28, orthographic)                                                                               \
-    X(29, unlit)                      /* KHR_materials_unlit: emits its base colour, reflects nothing */ \
-    X(30, spot_lights)                                                                                \
-    X(31, area_lights)                /* a sum of AREA_* of area_light.h */                           \
-    X(32, light_lists)                /* LISTS_* of light_list.h */                                   \
-    X(33, light_chunk)                /* CHUNK_* of light_list.h: a draw walks a part of each list */  \
-    X(34, list_width)                 /* lights that one turn of a list's loop takes: 1 or 4 */       \
-    X(35, lightmap_texture)                                                                           \
-    X(36, ambient)                    /* constant ambient radiance */                                 \
-    X(37, object_lights)              /* OBJECT_LIGHTS_* of object_lights.h */                        \
-    X(38, vanishing_normals)          /* an interpolated normal may be zero */                        \
-    X(39, lightmap)                   /* a material of the scene has one */                           \
-    X(40, gbuffer_wide_lightmap)      /* beyond the packed format's range: float32 */                 \
-    X(41, view_source)                /* VIEW_*: where a fragment shader has the view from */             \
-    X(42, captured)                   /* for channels, which may ask for more than shading does */
+#define FEATURES(X)                                                                                         \
+    X(0,  base_color_texture,         item,    1, PASSES_DRAW)     /* material slots with a texture */      \
+    X(1,  metallic_roughness_texture, item,    1, PASSES_SURFACE)                                           \
+    X(2,  normal_texture,             item,    2, PASSES_SURFACE)                                           \
+    X(3,  occlusion_texture,          item,    1, PASSES_SURFACE)                                           \
+    X(4,  emissive_texture,           item,    1, PASSES_SURFACE)                                           \
+    X(5,  specular_texture,           item,    1, PASSES_SURFACE)                                           \
+    X(6,  specular_color_texture,     item,    1, PASSES_SURFACE)                                           \
+    X(7,  texture_transform,          item,    3, PASSES_DRAW)     /* some slot has KHR_texture_transform */ \
+    X(8,  second_texcoord,            item,    3, PASSES_DRAW)     /* some slot reads the second UV set */  \
+    X(9,  vertex_color,               item,    3, PASSES_DRAW)                                              \
+    X(10, alpha_mask,                 item,    0, PASSES_DRAW)                                              \
+    X(11, double_sided,               item,    0, PASSES_SURFACE)                                           \
+    X(12, emission,                   frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* the scene emits light */ \
+    X(13, dielectric_specular,        frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* KHR_materials_specular, _ior, _unlit in the scene */ \
+    X(14, directional_lights,         frame,   0, PASSES_SHADE)    /* the scene has some */                 \
+    X(15, point_lights,               frame,   0, PASSES_SHADE)                                             \
+    X(16, gbuffer_encoding,           gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* GBUFFER_* of gbuffer.h */ \
+    X(17, gbuffer_wide_emission,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* emission beyond the packed format's range: float32 */ \
+    X(18, gbuffer_wide_material_id,   gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* more materials than the packed bits can name */ \
+    X(19, quantise_surface,           pass,    0, PASS_FORWARD)    /* shade what the G-buffer would have given back */ \
+    X(20, capture_0,                  pass,    0, PASSES_SHADE)    /* DEBUG_* of each attachment of a capture pass */ \
+    X(21, capture_1,                  pass,    0, PASSES_SHADE)                                             \
+    X(22, capture_2,                  pass,    0, PASSES_SHADE)                                             \
+    X(23, capture_3,                  pass,    0, PASSES_SHADE)                                             \
+    X(24, capture_4,                  pass,    0, PASSES_SHADE)                                             \
+    X(25, capture_5,                  pass,    0, PASSES_SHADE)                                             \
+    X(26, capture_6,                  pass,    0, PASSES_SHADE)                                             \
+    X(27, capture_7,                  pass,    0, PASSES_SHADE)                                             \
+    X(28, orthographic,               frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)              \
+    X(29, unlit,                      item,    0, PASSES_SURFACE)  /* KHR_materials_unlit: emits its base colour, reflects nothing */ \
+    X(30, spot_lights,                frame,   0, PASSES_SHADE | PASS_LISTS)                                \
+    X(31, area_lights,                frame,   0, PASSES_SHADE | PASS_LISTS) /* a sum of AREA_* of area_light.h */ \
+    X(32, light_lists,                frame,   0, PASSES_SHADE | PASS_LISTS) /* LISTS_* of light_list.h */  \
+    X(33, light_batch,                pass,    0, PASSES_SHADE)    /* BATCH_* of light_list.h: a draw walks a part of each list */ \
+    X(34, list_width,                 frame,   0, PASSES_SHADE | PASS_LISTS) /* lights of a packet: 1 or 4 */ \
+    X(35, lightmap_texture,           item,    1, PASSES_SURFACE)                                           \
+    X(36, ambient,                    frame,   0, PASSES_SHADE)    /* constant ambient radiance */          \
+    X(37, object_lights,              frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* OBJECT_LIGHTS_* of object_lights.h; those of vertices need inputs 3 */ \
+    X(38, vanishing_normals,          item,    2, PASSES_SURFACE)  /* an interpolated normal may be zero */ \
+    X(39, lightmap,                   frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* a material of the scene has one */ \
+    X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* beyond the packed format's range: float32 */ \
+    X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* VIEW_*: where a fragment shader has the view from */ \
+    X(42, captured,                   pass,    3, PASSES_SURFACE)  /* for channels, which may ask for more than shading does */
 // clang-format on
 
 CONTRACT_BEGIN
-#define DIPTYCH_FEATURE_ID(id, name) CONTRACT_CONST(uint, FEATURE_##name, id);
+#define DIPTYCH_FEATURE_ID(id, name, source, inputs, passes) CONTRACT_CONST(uint, FEATURE_##name, id);
 FEATURES(DIPTYCH_FEATURE_ID)
 #undef DIPTYCH_FEATURE_ID
-CONTRACT_CONST(uint, FEATURE_COUNT, 43);
+#define DIPTYCH_FEATURE_ONE(id, name, source, inputs, passes) +1
+CONTRACT_CONST(uint, FEATURE_COUNT, 0 FEATURES(DIPTYCH_FEATURE_ONE));
+#undef DIPTYCH_FEATURE_ONE
+
+// Kinds of passes, by the modules that they are made of.
+CONTRACT_CONST(uint, PASS_DEPTH, 1);           // depth.vert, surface.vert, depth_mask.frag
+CONTRACT_CONST(uint, PASS_FORWARD, 2);         // surface.vert, forward_*.frag
+CONTRACT_CONST(uint, PASS_GBUFFER, 4);         // surface.vert, gbuffer.frag
+CONTRACT_CONST(uint, PASS_LIGHTING, 8);        // deferred lighting and its captures: deferred_*
+CONTRACT_CONST(uint, PASS_LISTS, 16);          // light_*.comp
+CONTRACT_CONST(uint, PASSES_DRAW, 1 | 2 | 4);  // those that draw the scene's triangles
+CONTRACT_CONST(uint, PASSES_SURFACE, 2 | 4);   // those that make a Surface from a material
+CONTRACT_CONST(uint, PASSES_SHADE, 2 | 8);     // those that evaluate lights
 
 CONTRACT_CONST(uint, VIEW_UNIFORM, 0);  // the uniform buffers View and LightGrid
-CONTRACT_CONST(uint, VIEW_FLAT, 1);     // flat inputs, handed on by the vertex shader: texels of PackedView
-CONTRACT_CONST(uint, VIEW_TEXELS, 2);   // texels of PackedView
+CONTRACT_CONST(uint, VIEW_FLAT, 1);     // PACKED_VIEW as flat inputs, passed through by the vertex shader
+CONTRACT_CONST(uint, VIEW_TEXELS, 2);   // PACKED_VIEW as texels
 
 // Attachments of one capture pass: the fewest that every Vulkan device has.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);

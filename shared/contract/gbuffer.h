@@ -24,20 +24,32 @@
 
 #include "types.h"
 
+// The attachments, which deferred lighting reads as SET_GBUFFER at these bindings.
+// number  name  kind  what it is called
+// clang-format off
+#define GBUFFER_BINDINGS(X)                  \
+    X(0, ALBEDO,   image, "albedo")          \
+    X(1, NORMALS,  image, "normals")         \
+    X(2, PARAMS,   image, "params")          \
+    X(3, EMISSION, image, "emission")        \
+    X(4, SPECULAR, image, "specular")        \
+    X(5, IDS,      image, "material ids")    \
+    X(6, LIGHTMAP, image, "lightmap")
+// clang-format on
+
 CONTRACT_BEGIN
 
 CONTRACT_CONST(uint, GBUFFER_compact, 0);
 CONTRACT_CONST(uint, GBUFFER_standard, 1);
 CONTRACT_CONST(uint, GBUFFER_full, 2);
 
-CONTRACT_CONST(uint, GBUFFER_ALBEDO, 0);
-CONTRACT_CONST(uint, GBUFFER_NORMALS, 1);
-CONTRACT_CONST(uint, GBUFFER_PARAMS, 2);
-CONTRACT_CONST(uint, GBUFFER_EMISSION, 3);
-CONTRACT_CONST(uint, GBUFFER_SPECULAR, 4);
-CONTRACT_CONST(uint, GBUFFER_IDS, 5);
-CONTRACT_CONST(uint, GBUFFER_LIGHTMAP, 6);
-CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 7);
+#define DIPTYCH_GBUFFER_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, GBUFFER_##name, number);
+GBUFFER_BINDINGS(DIPTYCH_GBUFFER_NUMBER)
+#undef DIPTYCH_GBUFFER_NUMBER
+#define DIPTYCH_GBUFFER_ONE(number, name, kind, what) +1
+CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 0 GBUFFER_BINDINGS(DIPTYCH_GBUFFER_ONE));
+#undef DIPTYCH_GBUFFER_ONE
+CONTRACT_CONST(uint, BINDING_DEPTH, GBUFFER_ATTACHMENTS);  // of SET_GBUFFER, after the attachments: an image
 
 // Bits of each packed field, by encoding; the tolerances are derived from these.
 CONTRACT_CONST(uint, ALBEDO_BITS, 8);

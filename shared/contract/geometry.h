@@ -28,8 +28,9 @@ struct Draw {
 struct DrawConstants {
     uint draw;         // into the draws
     uint material;     // its number: the channel material_id
-    uint light_first;  // with FEATURE_light_chunk: positions of each list that this draw walks, from here
-    uint light_end;    // to below here
+    uint light_first;  // with FEATURE_light_batch: the packets of each list that this draw walks, counted
+                       // from the
+    uint light_end;    // list's begin: [light_first, light_end)
 };
 
 CONTRACT_END

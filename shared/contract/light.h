@@ -17,6 +17,13 @@ struct Light {
     float range;                  // m; infinity where the light has none
 };
 
+#define LIGHT_OF_TEXELS(a, b) Light(a.xyz, a.w, b.xyz, b.w)
+CONTRACT_LANE(Light, position, 0, 0);
+CONTRACT_LANE(Light, inverse_range_squared, 0, 3);
+CONTRACT_LANE(Light, intensity, 1, 0);
+CONTRACT_LANE(Light, range, 1, 3);
+CONTRACT_TEXELS(Light, 2);
+
 // What a spot has beside its Light; the i-th spot's is the i-th.
 struct SpotCone {
     vec3 direction;  // unit, in which the light travels, world
@@ -24,6 +31,12 @@ struct SpotCone {
     float offset;    // -cos outer * scale
     vec3 padding;    // to two texels of four floats, as a Light is
 };
+#define SPOT_CONE_OF_TEXELS(a, b) SpotCone(a.xyz, a.w, b.x, b.yzw)
+CONTRACT_LANE(SpotCone, direction, 0, 0);
+CONTRACT_LANE(SpotCone, scale, 0, 3);
+CONTRACT_LANE(SpotCone, offset, 1, 0);
+CONTRACT_LANE(SpotCone, padding, 1, 1);
+CONTRACT_TEXELS(SpotCone, 2);
 
 CONTRACT_END
 

@@ -12,11 +12,12 @@ CONTRACT_CONST(uint, LISTS_NONE, 0);       // every light at every pixel
 CONTRACT_CONST(uint, LISTS_CLUSTERED, 1);  // a cell is a froxel: a tile of pixels x a slice of view depth
 CONTRACT_CONST(uint, LISTS_TILED, 2);      // a cell is a tile with the depths that it covers
 
-// Values of FEATURE_light_chunk. Lists of more groups than MAX_LIGHTS_PER_DRAW are walked by several draws,
-// which hand the float32 sums on: so the sum is the same bits as one loop's.
-CONTRACT_CONST(uint, CHUNK_WHOLE, 0);
-CONTRACT_CONST(uint, CHUNK_FIRST, 1);  // directional lights and the first groups
-CONTRACT_CONST(uint, CHUNK_LATER, 2);  // goes on from SET_CARRIED
+// Values of FEATURE_light_batch. Lists of more packets than MAX_PACKETS_PER_DRAW are walked in batches by
+// several draws. Each continues from the float32 sums of the one before it, so the sums have the same bits as
+// one loop's.
+CONTRACT_CONST(uint, BATCH_WHOLE, 0);  // the whole list
+CONTRACT_CONST(uint, BATCH_FIRST, 1);  // directional lights and the first packets
+CONTRACT_CONST(uint, BATCH_LATER, 2);  // continues from SET_PARTIAL_SUMS
 
 // Cells over a picture, numbered (slice * tiles.y + tile y) * tiles.x + tile x. Lists are of local lights
 // (point, spot, area): directional ones reach everything. Light numbers count from the first local one.
@@ -35,21 +36,22 @@ struct LightGrid {
     uint spot_end;       // of spots below this
     uint words;          // of 32 lights each, of a list's mask
     uint segments;       // a list's words are counted and written in so many parts, SEGMENT_WORDS each
-    uint width;          // lights of a group: lists are made of whole ones; FEATURE_list_width
-    uint null_light;     // what fills a group up
-    uint capacity;       // groups that the index buffer holds
-    uint all_point_end;  // the list of all local lights begins at group 0; the ends of its parts
+    uint width;          // lights of a packet: 1 or 4; lists consist of whole packets; FEATURE_list_width
+    uint null_light;     // pads the last packet of a part
+    uint capacity;       // packets that the index buffer holds
+    uint all_point_end;  // the list of all local lights begins at packet 0; the ends of its parts
     uint all_spot_end;
     uint all_end;
     vec2 centre;  // pixel coordinates of the optical axis
     float pixel;  // side of a pixel in m per m of depth; orthographic: in m
 };
 
-// Where a light is felt, for culling alone: nothing outside of both sphere and cone. In view axes from the
-// camera: x right, y down, z forward; m. Widened by more than float32 can round.
+// The region that a light can reach, for culling alone: what lies inside both a bounding sphere and a cone.
+// In view axes from the camera: x right, y down, z forward; m. Widened by more than float32 can round.
 struct LightBound {
     vec3 centre;
-    float radius;    // at most MAX_BOUND_RADIUS, and then around the camera: everywhere
+    float radius;    // at most MAX_BOUND_RADIUS; a sphere of that radius is around the camera and reaches
+                     // everything
     vec3 apex;       // of the cone: the light
     float cos_cone;  // half the opening angle; -1: all directions
     vec3 axis;       // unit
@@ -59,39 +61,52 @@ struct LightBound {
 // How many lights of one list's segment there are, and of these the points, and the points and spots.
 struct LightListCount {
     uint all, points, points_and_spots;
-    uint begin;  // of a list's first segment: groups of the lists before it in its row of four
+    uint begin;  // of a list's first segment: packets of the lists before it among its four
 };
 
-// A list: groups [begin, end) of the index buffer in the order of the lights, points before point_end, spots
-// before spot_end; a part has at least one group where the scene has such lights at all. A list that found no
-// room is the one of all local lights, which begins at 0.
+// A list: packets [begin, end) of the index buffer in the order of the lights, points before point_end, spots
+// before spot_end; a part has at least one packet where the scene has such lights at all. A list that found
+// no room is the list of all local lights, which begins at 0. Shaders read it as one texel.
 struct LightListHead {
     uint begin, point_end, spot_end, end;
 };
+#define LIGHT_LIST_HEAD_OF_TEXEL(a) LightListHead(a.x, a.y, a.z, a.w)
+CONTRACT_LANE(LightListHead, begin, 0, 0);
+CONTRACT_LANE(LightListHead, point_end, 0, 1);
+CONTRACT_LANE(LightListHead, spot_end, 0, 2);
+CONTRACT_LANE(LightListHead, end, 0, 3);
+CONTRACT_TEXELS(LightListHead, 1);
 
 CONTRACT_CONST(uint, LIGHT_TILE, 16);       // pixels, of tiled: one of its 256 threads each
-CONTRACT_CONST(uint, SEGMENT_WORDS, 1024);  // 32,768 lights: a loop over them ends before lavapipe's limit
+CONTRACT_CONST(uint, SEGMENT_WORDS, 1024);  // 32,768 lights: a loop over them stays below lavapipe's limit
 CONTRACT_CONST(uint, LIST_GROUP, 256);      // threads of a workgroup of the kernels
-CONTRACT_CONST(uint, SCATTER_THREADS, 8);   // share a light's cells out among them
+CONTRACT_CONST(uint, SCATTER_THREADS, 8);   // threads that divide a light's cells among them
 CONTRACT_CONST(float, MAX_BOUND_RADIUS,
                4e18f);  // m, over twice as far as anything may be; its square stays finite
 
-// SET_LISTS, of the kernels that make lists.
-CONTRACT_CONST(uint, BINDING_BOUNDS, 0);  // buffer LightBound[local_lights]
-CONTRACT_CONST(uint, BINDING_MASKS, 1);  // buffer uint[words][list_stride]: bit i of word w is light 32 w + i
-CONTRACT_CONST(uint, BINDING_COUNTS, 2);       // buffer LightListCount[lists][segments]
-CONTRACT_CONST(uint, BINDING_TILE_DEPTHS, 3);  // buffer vec3[tiles]: least, largest and visible view depth, m
-CONTRACT_CONST(uint, BINDING_OVERFLOW, 4);     // buffer uint: lists that found no room
-CONTRACT_CONST(uint, BINDING_LISTS_DEPTH, 5);  // texture: the picture's depth
-CONTRACT_CONST(uint, BINDING_HEADS, 6);        // buffer LightListHead[lists]
-CONTRACT_CONST(uint, BINDING_INDICES, 7);      // buffer uint[capacity * width]
-CONTRACT_CONST(uint, BINDING_LISTED, 8);       // buffer uint[lists]: lights of each, for channels
-CONTRACT_CONST(uint, BINDING_USED_WORDS,
-               9);  // buffer uint[words / 32][list_stride]: which words have any bits
-CONTRACT_CONST(uint, BINDING_FOUR_BEGINS,
-               10);  // buffer uint[list_stride / 4]: groups of four lists, then where they begin
-CONTRACT_CONST(uint, BINDING_MASK_TEXELS, 11);  // the masks again, a row's lists four a texel
+CONTRACT_END
 
+// SET_LISTS, of the kernels that make lists; columns as in bindings.h.
+// clang-format off
+#define LIST_BINDINGS(X)                                                                                  \
+    X(0,  BOUNDS,      storage_buffer, "LightBound[local_lights]")                                        \
+    X(1,  MASKS,       storage_buffer, "uint[words][list_stride]: bit i of word w is light 32 w + i")     \
+    X(2,  COUNTS,      storage_buffer, "LightListCount[lists][segments]")                                 \
+    X(3,  TILE_DEPTHS, storage_buffer, "vec3[tiles]: least, largest and visible view depth, m")           \
+    X(4,  OVERFLOW,    storage_buffer, "uint: lists that found no room")                                  \
+    X(5,  LISTS_DEPTH, image,          "the picture's depth")                                             \
+    X(6,  HEADS,       storage_buffer, "LightListHead[lists]")                                            \
+    X(7,  INDICES,     storage_buffer, "uint[capacity * width]")                                          \
+    X(8,  LISTED,      storage_buffer, "uint[lists]: lights of each, for channels")                       \
+    X(9,  USED_WORDS,  storage_buffer, "uint[words / 32][list_stride]: which words have any bits")        \
+    X(10, FOUR_BEGINS, storage_buffer, "uint[list_stride / 4]: packets of four lists, then where they begin") \
+    X(11, MASK_TEXELS, texel_buffer,   "the masks again, a row's lists four a texel")
+// clang-format on
+
+CONTRACT_BEGIN
+#define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
+LIST_BINDINGS(DIPTYCH_BINDING_NUMBER)
+#undef DIPTYCH_BINDING_NUMBER
 CONTRACT_END
 
 #endif

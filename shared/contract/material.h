@@ -4,17 +4,29 @@
 
 #include "types.h"
 
+// The texture slots of a material, at these bindings of SET_MATERIAL. FEATURE_<name>_texture says that it has
+// one.
+// clang-format off
+#define MATERIAL_SLOTS(X)        \
+    X(0, base_color)             \
+    X(1, metallic_roughness)     \
+    X(2, normal)                 \
+    X(3, occlusion)              \
+    X(4, emissive)               \
+    X(5, specular)               \
+    X(6, specular_color)         \
+    X(7, lightmap)
+// clang-format on
+
 CONTRACT_BEGIN
 
-CONTRACT_CONST(uint, SLOT_base_color, 0);
-CONTRACT_CONST(uint, SLOT_metallic_roughness, 1);
-CONTRACT_CONST(uint, SLOT_normal, 2);
-CONTRACT_CONST(uint, SLOT_occlusion, 3);
-CONTRACT_CONST(uint, SLOT_emissive, 4);
-CONTRACT_CONST(uint, SLOT_specular, 5);
-CONTRACT_CONST(uint, SLOT_specular_color, 6);
-CONTRACT_CONST(uint, SLOT_lightmap, 7);
-CONTRACT_CONST(uint, SLOT_COUNT, 8);
+#define DIPTYCH_SLOT_NUMBER(number, name) CONTRACT_CONST(uint, SLOT_##name, number);
+MATERIAL_SLOTS(DIPTYCH_SLOT_NUMBER)
+#undef DIPTYCH_SLOT_NUMBER
+#define DIPTYCH_SLOT_ONE(number, name) +1
+CONTRACT_CONST(uint, SLOT_COUNT, 0 MATERIAL_SLOTS(DIPTYCH_SLOT_ONE));
+#undef DIPTYCH_SLOT_ONE
+CONTRACT_CONST(uint, BINDING_MATERIAL, SLOT_COUNT);  // of SET_MATERIAL, after the slots: uniform Material
 
 // KHR_texture_transform of one slot: uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
 struct TextureTransform {

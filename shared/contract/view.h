@@ -9,9 +9,10 @@ CONTRACT_BEGIN
 // The camera. GPU space has world axes and the camera as its origin, so no coordinate here is large.
 // Depth is reversed: 1 at the near plane, 0 at the far plane or at infinity.
 //
-// A pixel's position from its depth, the only position that shading uses, in both paths:
+// A pixel's position from its depth z, the only position that shading uses, in both paths:
 //     d        = (depth_numerator.x + depth_numerator.y * z) / (depth_denominator.x + depth_denominator.y *
-//     z) position = origin(p) + direction(p) * d,   origin, direction affine in the pixel centre p
+//     z) position = origin(p) + direction(p) * d
+// origin and direction are affine in the pixel centre p, in pixels.
 struct View {
     mat4 clip_from_world;  // world axes, camera as origin
     vec3 origin_0;
@@ -32,25 +33,39 @@ struct View {
     vec3 ambient;  // W/(sr m^2), from everywhere
 };
 
-// What a fragment reads of View and LightGrid, as five texels of four. Perspective only: the rays of an
-// orthographic camera are not in it.
-struct PackedView {
-    vec3 direction_0;
-    float depth_numerator_0;
-    vec3 direction_x;
-    float depth_numerator_z;
-    vec3 direction_y;
-    float depth_denominator_0;
-    float depth_denominator_z;
-    float slice_offset;
-    uint shifts;  // of a slice, and from bit 16 of a tile
-    uint tiles;   // across, and from bit 16 down
-    uint slices;
-    uint directional_light_count;
-    uint point_light_count;
-    uint spot_light_count;
-};
+CONTRACT_END
 
+// What a fragment reads of View and LightGrid, as texels of four 32-bit lanes: one table, by which C++ packs
+// and GLSL unpacks. Perspective only: the rays of an orthographic camera are not in it. Each lane is filled
+// by one row.
+//   FLOAT, UINT(texel, lane, member)    SHORTS(texel, lane, low 16 bits, high 16 bits)
+// clang-format off
+#define PACKED_VIEW(FLOAT, UINT)                \
+    FLOAT(0, x, direction_0.x)                  \
+    FLOAT(0, y, direction_0.y)                  \
+    FLOAT(0, z, direction_0.z)                  \
+    FLOAT(0, w, depth_numerator.x)              \
+    FLOAT(1, x, direction_x.x)                  \
+    FLOAT(1, y, direction_x.y)                  \
+    FLOAT(1, z, direction_x.z)                  \
+    FLOAT(1, w, depth_numerator.y)              \
+    FLOAT(2, x, direction_y.x)                  \
+    FLOAT(2, y, direction_y.y)                  \
+    FLOAT(2, z, direction_y.z)                  \
+    FLOAT(2, w, depth_denominator.x)            \
+    FLOAT(3, x, depth_denominator.y)            \
+    UINT(4, y, directional_light_count)         \
+    UINT(4, z, point_light_count)               \
+    UINT(4, w, spot_light_count)
+#define PACKED_GRID(FLOAT, UINT, SHORTS)        \
+    FLOAT(3, y, slice_offset)                   \
+    SHORTS(3, z, slice_shift, tile_shift)       \
+    SHORTS(3, w, tiles.x, tiles.y)              \
+    UINT(4, x, slices)
+// clang-format on
+
+CONTRACT_BEGIN
+CONTRACT_CONST(uint, PACKED_VIEW_TEXELS, 5);
 CONTRACT_END
 
 #endif

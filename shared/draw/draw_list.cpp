@@ -33,8 +33,9 @@ gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye, cons
             glm::mat3(normalFromObject(linear)), glm::determinant(linear) < 0 ? -1.0f : 1.0f};
 }
 
-// A sum of normals with positive weights that does not vanish in the object does not in the world either,
-// where the transform flattens nothing; short of 1 : 64 float32 is trusted with that.
+// Whether the transform may make an interpolated normal vanish. Without flattening, a weighted sum of normals
+// that is not zero in the object is not zero in the world; float32 is trusted with that up to a flattening of
+// 1 : 64.
 bool flattens(const glm::dmat4& worldFromObject) {
     const glm::dmat3 m(worldFromObject);
     const double longest = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
@@ -69,8 +70,8 @@ bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
            allBeyond([](const glm::dvec4& c) { return c.z; });
 }
 
-// How far its farthest corner is, in steps of 1/16 of an octave of view depth: near things differ by less
-// than far ones, and what is about as far can still be drawn by variant and material.
+// View depth of the box's farthest corner in steps of 1/16 octave: draws at about the same depth still get
+// sorted by variant and material.
 int farthest(const glm::dmat4& cameraFromObject, const glm::dvec3& forward, const PrimitiveRange& range) {
     double depth = 0;
     for (const glm::dvec4& corner : corners(cameraFromObject, range))

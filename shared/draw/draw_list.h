@@ -26,10 +26,10 @@ struct DrawList {
     std::uint32_t culled = 0;  // instances outside the view
 };
 
-// Opaque before masked, then from near to far by the farthest corner of the bounding box, then by variant and
-// material, then in the scene's order: what encloses others, a room, a ground, comes after them, and most of
-// what is hidden fails its depth test before it is shaded. An instance is left out only where its bounding
-// box is wholly beyond one plane of the view.
+// Orders opaque draws before masked ones, then from near to far by the farthest corner of the bounding box,
+// then by variant and material, then as in the scene. What encloses other things, a room or a ground, comes
+// after them, so most of what is hidden fails its depth test before it is shaded. An instance is left out
+// only where its bounding box lies wholly beyond one plane of the view.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view);
 

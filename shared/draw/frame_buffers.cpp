@@ -3,32 +3,12 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/view.h"
+#include "shared/draw/packed_view.h"
 #include "shared/environment/directional_albedo.h"
 
 #include <algorithm>
 
 namespace diptych {
-
-namespace {
-
-gpu::PackedView packedView(const gpu::View& view, const gpu::LightGrid& grid) {
-    return {view.direction_0,
-            view.depth_numerator.x,
-            view.direction_x,
-            view.depth_numerator.y,
-            view.direction_y,
-            view.depth_denominator.x,
-            view.depth_denominator.y,
-            grid.slice_offset,
-            grid.slice_shift | (grid.tile_shift << 16),
-            grid.tiles.x | (grid.tiles.y << 16),
-            grid.slices,
-            view.directional_light_count,
-            view.point_light_count,
-            view.spot_light_count};
-}
-
-}  // namespace
 
 FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
                            const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
@@ -47,9 +27,9 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.ambient = lights.ambient;
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    const gpu::PackedView packed = packedView(gpuView, lists_.grid());
-    packed_view_ = makeBuffer<gpu::PackedView>(device, uploader, "packed view", std::span(&packed, 1),
-                                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    const PackedView packed = packedView(gpuView, lists_.grid());
+    packed_view_ = makeBuffer<glm::uvec4>(device, uploader, "packed view", packed,
+                                          VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     packed_view_texels_ = makeTexelView(device, "packed view", packed_view_, VK_FORMAT_R32G32B32A32_UINT);
     draws_ = makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,

@@ -13,22 +13,10 @@ namespace diptych {
 
 namespace {
 
-constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                           storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                           texels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-// In the order of BINDING_* of SET_FRAME.
-constexpr std::array frameTypes{
-    uniform, uniform, texels,  texels,  texels, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, texels, texels,
-    storage, storage, storage, storage, texels};
-
-constexpr std::array partialSumTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-
-constexpr auto gbufferTypes = [] {
-    std::array<VkDescriptorType, gpu::GBUFFER_ATTACHMENTS + 1> types{};
-    types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-    return types;
-}();
+constexpr auto frameTypes = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
+constexpr auto partialSumTypes = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
+constexpr auto gbufferTypes = bindingTypes(
+    {GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image}});
 
 }  // namespace
 

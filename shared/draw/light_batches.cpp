@@ -14,9 +14,9 @@ void LightBatch::read(Pass& pass) const {
 }
 
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add) {
-    const gpu::uint packets = inputs.longest_list, most = gpu::MAX_LIGHTS_PER_DRAW;
+    const gpu::uint packets = inputs.longest_list, most = gpu::MAX_PACKETS_PER_DRAW;
     if (packets <= most) return {};
-    LightBatch batch{gpu::CHUNK_FIRST, 0, most};
+    LightBatch batch{gpu::BATCH_FIRST, 0, most};
     while (batch.first + most < packets) {
         Pass& pass = passes.draw("shade earlier lights");
         batch.read(pass);
@@ -29,7 +29,7 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
         for (gpu::uint i = 0; i < images.size(); ++i)
             sums->image(0, i, passes.view(images[i]), inputs.layouts.nearest,
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-        batch = {gpu::CHUNK_LATER, batch.end, std::min(batch.end + most, packets), images, std::move(sums)};
+        batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + most, packets), images, std::move(sums)};
     }
     return batch;
 }

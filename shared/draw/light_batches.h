@@ -14,7 +14,7 @@ namespace diptych {
 
 // The packets of each light list that one draw walks, and the sums that it continues from.
 struct LightBatch {
-    gpu::uint kind = gpu::CHUNK_WHOLE;
+    gpu::uint kind = gpu::BATCH_WHOLE;
     gpu::uint first = 0, end = 0;                     // packets, counted from a list's begin
     std::array<ImageRef, 2> images = {};              // the sums of earlier batches: diffuse, specular
     std::shared_ptr<const DescriptorSets> sums = {};  // the same as SET_PARTIAL_SUMS; null: none
@@ -24,7 +24,7 @@ struct LightBatch {
 };
 
 // Adds a draw for each batch of the lights but the last, which is returned for the pass that completes the
-// sum: lists of up to MAX_LIGHTS_PER_DRAW packets are one batch, CHUNK_WHOLE, without an extra draw. `add`
+// sum: lists of up to MAX_PACKETS_PER_DRAW packets are one batch, BATCH_WHOLE, without an extra draw. `add`
 // declares depth and what else is read, and records the drawing of one batch into attachments 0 (diffuse) and
 // 1 (specular).
 using AddBatch = std::function<void(Pass&, const LightBatch&)>;

@@ -19,7 +19,7 @@ void bind(VkCommandBuffer commands, const FrameInputs& inputs, gpu::uint set, Vk
 // SET_FRAME and SET_PARTIAL_SUMS.
 void bindFrame(VkCommandBuffer commands, const FrameInputs& inputs, const LightBatch& batch) {
     bind(commands, inputs, gpu::SET_FRAME, inputs.frame_set);
-    bind(commands, inputs, gpu::SET_CARRIED, batch.sums ? (*batch.sums)[0] : inputs.no_partial_sums);
+    bind(commands, inputs, gpu::SET_PARTIAL_SUMS, batch.sums ? (*batch.sums)[0] : inputs.no_partial_sums);
 }
 
 void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawConstants& constants) {

@@ -22,12 +22,13 @@ constexpr double rounding = 4e-6;
 constexpr gpu::uint octaveShift = 23 - 2;
 constexpr gpu::uint mostSlices = 128;
 constexpr gpu::uint finestTile = 3, coarsestTile = 6;  // pixels, log2
-// Eight threads share out the cells of a light that is felt everywhere: far below lavapipe's limit of a loop.
+// SCATTER_THREADS threads share the cells of a light that reaches all of them; their loops stay far below
+// lavapipe's limit.
 constexpr std::uint64_t mostCells = 131072;
 static_assert(mostCells / gpu::SCATTER_THREADS < 65535 / 2);
 
-// ns of lavapipe on two threads (README, "Many lights"), which only their ratios matter of: to clear, count
-// and place a list, to mark and write one of its lights, and to evaluate a light at a pixel.
+// ns, measured on lavapipe with two threads; only the ratios matter. To clear, count and place a list; to
+// mark and write one of its lights; to evaluate a light at a pixel.
 constexpr double costOfCell = 40, costOfListed = 15, costOfEvaluated = 5;
 
 double middle(std::vector<double> values, double otherwise) {
@@ -73,9 +74,9 @@ void sizeTiles(gpu::LightGrid& grid, const View& view, gpu::uint shift) {
     grid.tiles = {tilesAcross(view.width, shift), tilesAcross(view.height, shift)};
 }
 
-// Of the typical light's surroundings, m^3: how much room a cell's middle has that the light is felt in the
-// cell. By Steiner's formula for a box and a ball.
-double feltAround(const gpu::LightGrid& grid, bool orthographic, const TypicalLight& light) {
+// The volume, m^3, in which the centre of a cell lies where the typical light reaches the cell: that of the
+// Minkowski sum of a box and a sphere, by Steiner's formula.
+double reachVolume(const gpu::LightGrid& grid, bool orthographic, const TypicalLight& light) {
     const double r = light.radius, depth = light.depth + static_cast<double>(grid.slice_offset);
     const double side = static_cast<double>(grid.pixel) * (orthographic ? 1 : light.depth) *
                         static_cast<double>(1u << grid.tile_shift);
@@ -85,8 +86,8 @@ double feltAround(const gpu::LightGrid& grid, bool orthographic, const TypicalLi
            std::numbers::pi * (2 * side + deep) * r * r + 4 * std::numbers::pi / 3 * r * r * r;
 }
 
-// Of all sizes of tiles and slices those that cost least: what lists cost to make and what pixels evaluate,
-// by how many lights the cells of one grid hold and how the others' differ.
+// Chooses the sizes of tiles and slices that cost least, for making lists and for evaluating lights at pixels
+// together. The lights that cells hold are counted for one grid and scaled to the others by reachVolume().
 void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::LightBound> bounds,
                  std::uint64_t most) {
     const bool orthographic = view.camera.orthographic;
@@ -110,13 +111,13 @@ void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::Li
     const gpu::uint largest = grid.tile_shift;
     const double pixels = static_cast<double>(view.width) * view.height;
     const double lights = static_cast<double>(listedAtMost(grid, orthographic, bounds)) /
-                          (static_cast<double>(cells(grid)) * feltAround(grid, orthographic, typical));
+                          (static_cast<double>(cells(grid)) * reachVolume(grid, orthographic, typical));
     double least = std::numeric_limits<double>::infinity();
     for (gpu::uint tile = finestTile; tile <= largest; ++tile)
         for (gpu::uint slice = coarsest + 1; slice-- > 0;) {
             const gpu::LightGrid g = sized(tile, slice);
             if (g.slices > mostSlices || cells(g) > most) break;
-            const double listed = lights * feltAround(g, orthographic, typical);
+            const double listed = lights * reachVolume(g, orthographic, typical);
             const double cost = static_cast<double>(cells(g)) * (costOfCell + listed * costOfListed) +
                                 pixels * listed * costOfEvaluated;
             if (cost < least) {
@@ -145,10 +146,10 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
         if (i >= lights.directional + lights.point && spot < lights.spot) {
             const gpu::SpotCone& cone = lights.spot_cones[spot];
             axis = toView(cone.direction);
-            // The shader's cone times its scale rounds offset + scale * cos: it may shine a little beyond.
+            // The shader rounds offset + scale * cos, so the spot may shine a little beyond its cone.
             cosCone = std::clamp(static_cast<double>(-cone.offset / cone.scale) - 2e-6, -1.0, 1.0);
             sinCone = std::sqrt(1 - cosCone * cosCone);
-            // The least sphere around a sector of a ball.
+            // The smallest sphere around the sector of a sphere that the spot lights.
             if (std::isfinite(radius) && cosCone > 0) {
                 const double along = cosCone > std::sqrt(0.5) ? radius / (2 * cosCone) : radius * cosCone;
                 centre = apex + axis * along;
@@ -238,16 +239,17 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
     while (count() * grid.words * 4 > buffer_bytes || count() > mostCells)
         sizeTiles(grid, view, grid.tile_shift + 1);
     const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds);
-    // A turn of four lights costs what three turns of one do (README): it pays for lists that are long.
+    // Evaluating a packet of four lights costs as much as three packets of one, so wide packets pay for long
+    // lists.
     grid.width = pairs > 8 * std::uint64_t{grid.lists} ? 4 : 1;
     grid.null_light = static_cast<gpu::uint>(lights.lights.size()) - 1;
-    const auto groups = [&](gpu::uint ofLights) { return (ofLights + grid.width - 1) / grid.width; };
-    grid.all_point_end = groups(grid.point_end);
-    grid.all_spot_end = grid.all_point_end + groups(grid.spot_end - grid.point_end);
-    grid.all_end = grid.all_spot_end + groups(grid.local_lights - grid.spot_end);
+    const auto packets = [&](gpu::uint ofLights) { return (ofLights + grid.width - 1) / grid.width; };
+    grid.all_point_end = packets(grid.point_end);
+    grid.all_spot_end = grid.all_point_end + packets(grid.spot_end - grid.point_end);
+    grid.all_end = grid.all_spot_end + packets(grid.local_lights - grid.spot_end);
     const std::uint64_t kinds =
         (grid.point_end > 0) + (grid.spot_end > grid.point_end) + (grid.local_lights > grid.spot_end);
-    // Each part of each list may have a group that is not full.
+    // Each part of each list may end with a packet that is not full.
     const std::uint64_t wanted = grid.all_end + pairs / grid.width + kinds * grid.lists;
     grid.capacity = static_cast<gpu::uint>(std::min(wanted, buffer_bytes / (4 * grid.width)));
     return grid;

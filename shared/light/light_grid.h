@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cells that a picture is cut into for light lists, and where lights are felt. CPU alone.
+// The cells that a picture is cut into for light lists, and the bounds of lights. CPU only.
 #pragma once
 
 #include "shared/contract/light_list.h"
@@ -12,7 +12,7 @@
 
 namespace diptych {
 
-// Of the local lights, in their order.
+// The bounds of the local lights, in their order.
 std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& view);
 
 // `lists`: LISTS_CLUSTERED or LISTS_TILED. No buffer of the lists is larger than `buffer_bytes`: tiles grow
@@ -23,7 +23,8 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
 gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
                              std::span<const gpu::LightBound> bounds, std::uint64_t buffer_bytes);
 
-// At most so many (light, list) pairs are there; what index_capacity is made of.
+// An upper bound of the number of (light, list) pairs, from which the capacity of the index buffer is
+// computed.
 std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
                            std::span<const gpu::LightBound> bounds);
 

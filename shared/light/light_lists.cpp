@@ -13,18 +13,14 @@ namespace diptych {
 
 namespace {
 
-constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-// In the order of SET_LISTS's bindings.
-constexpr std::array listTypes{
-    storage, storage, storage, storage, storage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    storage, storage, storage, storage, storage, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER};
+constexpr auto listTypes = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 // No buffer of the lists is larger, whatever the device allows.
 constexpr std::uint64_t mostBytes = std::uint64_t{256} << 20;
 
 constexpr std::uint32_t threads = 64;  // of a workgroup of scatter, count and fill
 
-std::uint32_t groups(std::uint32_t count) {
+std::uint32_t workgroups(std::uint32_t count) {
     return (count + threads - 1) / threads;
 }
 
@@ -35,12 +31,12 @@ void computeBarrier(VkCommandBuffer commands) {
                       VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
 }
 
-// The list of all local lights, in groups, each kind from a new group on.
+// The list of all local lights in packets, each kind beginning a new packet.
 std::vector<gpu::uint> listOfAll(const gpu::LightGrid& grid) {
     std::vector<gpu::uint> all;
-    const auto add = [&](gpu::uint first, gpu::uint end, gpu::uint groupsEnd) {
+    const auto add = [&](gpu::uint first, gpu::uint end, gpu::uint packetsEnd) {
         for (gpu::uint i = first; i < end; ++i) all.push_back(grid.first_local + i);
-        all.resize(std::size_t{groupsEnd} * grid.width, grid.null_light);
+        all.resize(std::size_t{packetsEnd} * grid.width, grid.null_light);
     };
     add(0, grid.point_end, grid.all_point_end);
     add(grid.point_end, grid.spot_end, grid.all_spot_end);
@@ -49,6 +45,10 @@ std::vector<gpu::uint> listOfAll(const gpu::LightGrid& grid) {
 }
 
 }  // namespace
+
+std::span<const VkDescriptorType> listBindings() {
+    return listTypes;
+}
 
 ListLayouts::ListLayouts(Device& device, VkDescriptorSetLayout frame)
     : lists_(makeSetLayout(device, listTypes)) {
@@ -142,11 +142,8 @@ void LightLists::bind(DescriptorSets& frame) const {
 void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant& variant,
                            VkDescriptorSet frame_set, ImageRef depth) {
     if (!any()) return;
-    Variant own;
+    Variant own = variant.only(featuresReadBy(gpu::PASS_LISTS));
     specialise(own);
-    for (const gpu::uint feature :
-         {gpu::FEATURE_orthographic, gpu::FEATURE_spot_lights, gpu::FEATURE_area_lights})
-        own.set(feature, variant.get(feature));
     const auto kernel = [&](const std::string& name) {
         return pipelines.compute(name, own, layouts_.pipeline());
     };
@@ -159,7 +156,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         vkCmdDispatch(commands, size.x, size.y, size.z);
     };
-    // Only tiled lists read it, but lavapipe follows every descriptor of a set that is bound.
+    // Only tiled lists read the depth, but lavapipe follows every descriptor of a bound set.
     sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     if (choice_.lists == gpu::LISTS_TILED) {
@@ -173,7 +170,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     const VkPipeline mark = kernel(scatters ? "light_scatter.comp" : "light_gather.comp");
     // In rows, as no device need run more than 65,535 workgroups along an axis.
     constexpr gpu::uint row = 32768;
-    const gpu::uint scattered = groups(grid_.local_lights * gpu::SCATTER_THREADS);
+    const gpu::uint scattered = workgroups(grid_.local_lights * gpu::SCATTER_THREADS);
     const glm::uvec3 marks = scatters ? glm::uvec3(std::min(scattered, row), (scattered + row - 1) / row, 1)
                                       : glm::uvec3(grid_.tiles.x, grid_.tiles.y, grid_.slices);
     const VkPipeline count = kernel("light_count.comp"), scan = kernel("light_scan.comp"),
@@ -187,11 +184,11 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         bind(commands);
         dispatch(commands, mark, marks);
         computeBarrier(commands);
-        dispatch(commands, count, {groups(grid_.list_stride / 4), 1, 1});
+        dispatch(commands, count, {workgroups(grid_.list_stride / 4), 1, 1});
         computeBarrier(commands);
         dispatch(commands, scan, {1, 1, 1});
         computeBarrier(commands);
-        dispatch(commands, fill, {groups(grid_.lists), grid_.segments, 1});
+        dispatch(commands, fill, {workgroups(grid_.lists), grid_.segments, 1});
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });

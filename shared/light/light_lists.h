@@ -7,14 +7,18 @@
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
+#include <span>
 #include <string_view>
 #include <vector>
 
 namespace diptych {
 
-// What fills the masks: a thread a light that walks the cells it may reach, or a workgroup a cell that tests
-// all lights. Both apply the same test, so the lists are the same.
+// What fills the masks: threads of each light that walk the cells it may reach, or a workgroup of each cell
+// that tests all lights. Both apply the same test, so the lists are the same.
 enum class ListKernel { scatter, gather };
+
+// Descriptor types of SET_LISTS, indexed by binding.
+std::span<const VkDescriptorType> listBindings();
 
 // The layout of the kernels, one for all views.
 class ListLayouts {
@@ -30,9 +34,10 @@ private:
     OwnedPipelineLayout pipeline_;
 };
 
-// Lists of one view. Bit masks first, a bit a list and light, as their order needs no sorting; then counted,
-// given places by a prefix sum, and written out as indices. Nothing is ever dropped: a list that does not fit
-// into the buffer is replaced by the list of all lights, and counted.
+// The light lists of one view. Kernels first make bit masks, one bit for each list and light, whose order
+// needs no sorting; then count the bits, place the lists by a prefix sum, and write them as indices. No light
+// is ever dropped: a list that does not fit into the buffer is replaced by the list of all lights, and such
+// lists are counted.
 class LightLists {
 public:
     struct Choice {

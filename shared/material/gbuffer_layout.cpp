@@ -5,8 +5,10 @@
 
 namespace diptych {
 
+#define DIPTYCH_GBUFFER_NAME(number, name, kind, what) what,
 const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames{
-    "albedo", "normals", "params", "emission", "specular", "material ids", "lightmap"};
+    GBUFFER_BINDINGS(DIPTYCH_GBUFFER_NAME)};
+#undef DIPTYCH_GBUFFER_NAME
 
 std::uint32_t GBufferLayout::bytesPerPixel() const {
     std::uint32_t bytes = 0;

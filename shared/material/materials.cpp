@@ -19,21 +19,10 @@ namespace diptych {
 
 namespace {
 
-// Of SET_MATERIAL.
-constexpr std::array<VkDescriptorType, gpu::SLOT_COUNT + 1> setTypes = [] {
-    std::array<VkDescriptorType, gpu::SLOT_COUNT + 1> types{};
-    types.fill(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-    static_assert(gpu::BINDING_MATERIAL == gpu::SLOT_COUNT);
-    types[gpu::BINDING_MATERIAL] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    return types;
-}();
-
-// The feature that reads each slot.
-constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{
-    gpu::FEATURE_base_color_texture,     gpu::FEATURE_metallic_roughness_texture,
-    gpu::FEATURE_normal_texture,         gpu::FEATURE_occlusion_texture,
-    gpu::FEATURE_emissive_texture,       gpu::FEATURE_specular_texture,
-    gpu::FEATURE_specular_color_texture, gpu::FEATURE_lightmap_texture};
+#define DIPTYCH_SLOT_ROW(number, name) BindingRow{number, #name, binding_kind::image},
+constexpr auto setTypes = bindingTypes({MATERIAL_SLOTS(DIPTYCH_SLOT_ROW) BindingRow{
+    gpu::BINDING_MATERIAL, "MATERIAL", binding_kind::uniform_buffer}});
+#undef DIPTYCH_SLOT_ROW
 
 Variant variantOf(const Material& material) {
     Variant variant;

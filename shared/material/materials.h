@@ -2,16 +2,23 @@
 // A scene's materials on the device: one buffer of factors, one descriptor set and one Variant each.
 #pragma once
 
+#include "shared/contract/material.h"
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pipelines.h"
 #include "shared/vulkan/resources.h"
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace diptych {
+
+// The feature that says that a slot has a texture, indexed by SLOT_*.
+#define DIPTYCH_SLOT_FEATURE(number, name) gpu::FEATURE_##name##_texture,
+inline constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{MATERIAL_SLOTS(DIPTYCH_SLOT_FEATURE)};
+#undef DIPTYCH_SLOT_FEATURE
 
 class Materials {
 public:

@@ -97,8 +97,8 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("workgroups of 256 threads", l.maxComputeWorkGroupInvocations >= gpu::LIST_GROUP,
          fmt::format("{} at most", l.maxComputeWorkGroupInvocations));
     // Set layouts name every binding for every stage: SET_FRAME's 4 storage buffers and SET_LISTS' 10; the
-    // samplers of a material (8), the G-buffer and depth (8), the sums carried on (2) and the table of area
-    // lights.
+    // samplers of a material (8), the G-buffer and depth (8), partial sums of lights (2) and the table of
+    // area lights.
     need("storage buffers a shader", l.maxPerStageDescriptorStorageBuffers >= 14,
          fmt::format("{}, 14 needed", l.maxPerStageDescriptorStorageBuffers));
     need("samplers a shader", l.maxPerStageDescriptorSamplers >= 19,

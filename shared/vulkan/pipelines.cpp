@@ -26,23 +26,17 @@ struct Specialization {
     VkSpecializationInfo info;
 };
 
-// The least set of inputs (shaders/lib/inputs.glsl) that has what a variant reads.
+// The least set of inputs (shaders/lib/inputs.glsl) that has what a variant reads. Of the lights of an object
+// only those that are shaded at vertices need one.
 int inputsOf(const Variant& variant) {
-    const auto any = [&](auto... features) { return ((variant.get(features) != 0) || ...); };
-    if (any(gpu::FEATURE_vertex_color, gpu::FEATURE_texture_transform, gpu::FEATURE_second_texcoord,
-            gpu::FEATURE_captured) ||
-        (variant.get(gpu::FEATURE_object_lights) & gpu::OBJECT_LIGHTS_VERTEX) != 0)
-        return 3;
-    if (any(gpu::FEATURE_normal_texture, gpu::FEATURE_vanishing_normals)) return 2;
-    return any(gpu::FEATURE_base_color_texture, gpu::FEATURE_metallic_roughness_texture,
-               gpu::FEATURE_occlusion_texture, gpu::FEATURE_emissive_texture, gpu::FEATURE_specular_texture,
-               gpu::FEATURE_specular_color_texture, gpu::FEATURE_lightmap_texture)
-               ? 1
-               : 0;
+    if ((variant.get(gpu::FEATURE_object_lights) & gpu::OBJECT_LIGHTS_VERTEX) != 0) return 3;
+    for (int inputs = 3; inputs > 0; --inputs)
+        if (variant.any(featuresNeedingInputs(inputs))) return inputs;
+    return 0;
 }
 
-// Shaders are there more than once where a device pays for what a variant does not read: with the code of
-// area lights, and with fewer inputs.
+// Some shaders exist as several modules, because a device pays for code and inputs that a variant does not
+// use: with and without the code of area lights, and with fewer inputs.
 std::string moduleOf(const std::string& shader, const Variant& variant) {
     const auto orElse = [](std::string better, std::string plain) {
         return findSpirv(better).empty() ? plain : better;

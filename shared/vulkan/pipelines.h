@@ -2,10 +2,9 @@
 // Graphics pipelines by what they are made of; each is compiled once.
 #pragma once
 
-#include "shared/contract/features.h"
 #include "shared/vulkan/device.h"
+#include "shared/vulkan/variant.h"
 
-#include <array>
 #include <compare>
 #include <map>
 #include <span>
@@ -13,21 +12,6 @@
 #include <vector>
 
 namespace diptych {
-
-// The values of all features, 0 where not set: the key of a shader's variant.
-class Variant {
-public:
-    Variant& set(gpu::uint feature, gpu::uint value = 1) {
-        values_.at(feature) = value;
-        return *this;
-    }
-    gpu::uint get(gpu::uint feature) const { return values_.at(feature); }
-    const std::array<gpu::uint, gpu::FEATURE_COUNT>& values() const { return values_; }
-    auto operator<=>(const Variant&) const = default;
-
-private:
-    std::array<gpu::uint, gpu::FEATURE_COUNT> values_{};
-};
 
 enum class VertexInput { none, positions, all };
 

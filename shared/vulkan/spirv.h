@@ -11,4 +11,7 @@ namespace diptych {
 // there is none.
 std::span<const std::uint32_t> findSpirv(std::string_view name);
 
+// The names of all embedded modules: "depth.vert", "gbuffer.frag.3.inputs0", ...
+std::span<const std::string_view> spirvModules();
+
 }  // namespace diptych

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <random>
+#include <span>
 
 namespace diptych {
 namespace {
@@ -245,9 +246,7 @@ Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
     const GpuBuffer out(device(), "tile depths", tiles * sizeof(gpu::vec3),
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    constexpr std::array types{storage, storage, storage,
-                               storage, storage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                               storage, storage, storage};
+    const std::span<const VkDescriptorType> types = listBindings();
     DescriptorSets set(device(), frame.lists().lists(), types, 1);
     for (std::uint32_t binding = 0; binding < types.size(); ++binding)
         if (types[binding] == storage) set.buffer(0, binding, out.handle());

@@ -2,12 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// For what shades the whole picture.
+// The full-screen triangle of deferred lighting.
 #define FLAT_VIEW
 #include "shaders/lib/view.glsl"
 #include "shaders/lib/full_screen.glsl"
 
 void main() {
     gl_Position = fullScreenCorner(gl_VertexIndex);
-    handViewOn();
+    passViewThrough();
 }

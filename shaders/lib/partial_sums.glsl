@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// What the light batches before this draw reflected at the pixel, W/(sr m^2).
+#ifndef PARTIAL_SUMS_GLSL
+#define PARTIAL_SUMS_GLSL
+
+#include "shaders/lib/contract.glsl"
+
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_DIFFUSE) uniform sampler2D partial_diffuse;
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform sampler2D partial_specular;
+
+vec3 partialDiffuse() { return texelFetch(partial_diffuse, ivec2(gl_FragCoord.xy), 0).rgb; }
+vec3 partialSpecular() { return texelFetch(partial_specular, ivec2(gl_FragCoord.xy), 0).rgb; }
+
+#endif

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+// The tables of shared/contract against the modules that the program embeds: which features a pass reads, and
+// which descriptors its shaders declare. Each check has a negative control: a table with a planted fault,
+// which it must find.
+#include "shared/contract/bindings.h"
+#include "shared/contract/gbuffer.h"
+#include "shared/contract/light.h"
+#include "shared/contract/light_list.h"
+#include "shared/contract/material.h"
+#include "shared/draw/packed_view.h"
+#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/variant.h"
+#include "tests/unit/spirv_module.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+using Faults = std::vector<std::string>;
+
+std::string joined(const Faults& faults) {
+    std::string all;
+    for (const std::string& fault : faults) all += fault + "\n";
+    return all;
+}
+
+// What the test reads of each embedded module, read once.
+struct Module {
+    std::string_view name;
+    std::set<std::uint32_t> features;
+    std::vector<SpirvModule::Binding> bindings;
+};
+const std::vector<Module>& modules() {
+    static const std::vector<Module> all = [] {
+        std::vector<Module> read;
+        for (const std::string_view name : spirvModules()) {
+            const SpirvModule module(findSpirv(name));
+            read.push_back({name, module.usedConstants(), module.bindings()});
+        }
+        return read;
+    }();
+    return all;
+}
+
+// The passes that a module belongs to, by its name; nothing where no picture is made with it.
+struct ModuleKind {
+    std::string_view prefix;
+    gpu::uint passes;
+};
+constexpr ModuleKind moduleKinds[] = {
+    {"depth.vert", gpu::PASS_DEPTH},
+    {"depth_mask.frag", gpu::PASS_DEPTH},
+    {"surface.vert", gpu::PASS_DEPTH | gpu::PASS_FORWARD | gpu::PASS_GBUFFER},
+    {"forward_", gpu::PASS_FORWARD},
+    {"gbuffer.frag", gpu::PASS_GBUFFER},
+    {"deferred_", gpu::PASS_LIGHTING},
+    {"light_", gpu::PASS_LISTS},
+    {"full_screen.vert", 0},
+    {"layout.comp", 0},
+    {"bench_", 0},
+    {"probe_", 0},
+};
+const ModuleKind* kindOf(std::string_view module) {
+    const auto found = std::ranges::find_if(
+        moduleKinds, [&](const ModuleKind& kind) { return module.starts_with(kind.prefix); });
+    return found == std::end(moduleKinds) ? nullptr : found;
+}
+
+TEST(ShaderContract, EveryModuleBelongsToAPassOrToNone) {
+    ASSERT_GT(spirvModules().size(), 80u);
+    for (const std::string_view module : spirvModules()) {
+        EXPECT_NE(kindOf(module), nullptr) << module;
+        EXPECT_FALSE(findSpirv(module).empty()) << module;
+    }
+}
+
+struct PassName {
+    gpu::uint pass;
+    std::string_view name;
+};
+constexpr PassName passNames[] = {{gpu::PASS_DEPTH, "depth"},
+                                  {gpu::PASS_FORWARD, "forward"},
+                                  {gpu::PASS_GBUFFER, "G-buffer"},
+                                  {gpu::PASS_LIGHTING, "deferred lighting"},
+                                  {gpu::PASS_LISTS, "light lists"}};
+
+// The depth pass of alpha-masked materials shares surface.vert with passes that shade. What only the
+// irradiance at vertices depends on is no matter there, as depth_mask.frag does not read it.
+bool unreadOutput(gpu::uint pass, std::string_view module, gpu::uint feature) {
+    return pass == gpu::PASS_DEPTH && module.starts_with("surface.vert") &&
+           (feature == gpu::FEATURE_object_lights || feature == gpu::FEATURE_double_sided);
+}
+
+// Features that a module of a pass uses and the table does not say so, and features of which the table says
+// that a pass reads them and no module of it does.
+Faults wrongReaders(const std::function<gpu::uint(const FeatureRow&)>& passesOf) {
+    Faults faults;
+    for (const auto& [pass, name] : passNames) {
+        std::set<gpu::uint> read;
+        for (const Module& module : modules()) {
+            const ModuleKind* kind = kindOf(module.name);
+            if (!kind || (kind->passes & pass) == 0) continue;
+            for (const std::uint32_t feature : module.features)
+                if (!unreadOutput(pass, module.name, feature)) read.insert(feature);
+        }
+        for (const FeatureRow& row : featureRows) {
+            const bool stated = (passesOf(row) & pass) != 0, used = read.contains(row.id);
+            if (used && !stated)
+                faults.push_back(
+                    fmt::format("{} is read by the {} pass, FEATURES does not say so", row.name, name));
+            if (stated && !used)
+                faults.push_back(
+                    fmt::format("{} is not read by the {} pass, FEATURES says so", row.name, name));
+        }
+    }
+    return faults;
+}
+
+TEST(ShaderContract, FeaturesAreReadByThePassesThatTheTableNames) {
+    EXPECT_EQ(joined(wrongReaders([](const FeatureRow& row) { return row.passes; })), "");
+}
+
+TEST(ShaderContract, AForgottenReaderOfAFeatureIsFound) {
+    for (const auto& [feature, pass] : {std::pair(gpu::FEATURE_alpha_mask, gpu::PASS_DEPTH),
+                                        std::pair(gpu::FEATURE_ambient, gpu::PASS_FORWARD),
+                                        std::pair(gpu::FEATURE_lightmap, gpu::PASS_GBUFFER),
+                                        std::pair(gpu::FEATURE_spot_lights, gpu::PASS_LISTS),
+                                        std::pair(gpu::FEATURE_capture_7, gpu::PASS_LIGHTING)}) {
+        // Leaving the column out, and for another feature naming a pass too many, are one fault each.
+        const auto without = [&](const FeatureRow& row) {
+            return row.id == feature ? row.passes & ~pass : row.passes;
+        };
+        EXPECT_EQ(wrongReaders(without).size(), 1u) << feature;
+    }
+    EXPECT_EQ(wrongReaders([](const FeatureRow& row) {
+                  return row.id == gpu::FEATURE_quantise_surface ? row.passes | gpu::PASS_LISTS : row.passes;
+              }),
+              (Faults{"quantise_surface is not read by the light lists pass, FEATURES says so"}));
+}
+
+TEST(ShaderContract, MasksAreTheColumnsOfTheTable) {
+    constexpr FeatureMask depth = featuresReadBy(gpu::PASS_DEPTH), item = featuresSetBy(FeatureSource::item);
+    static_assert(depth.has(gpu::FEATURE_alpha_mask) && !depth.has(gpu::FEATURE_ambient));
+    static_assert(item.has(gpu::FEATURE_unlit) && !item.has(gpu::FEATURE_captured));
+    static_assert((depth & item) == depth, "a depth pass depends on the item alone");
+    static_assert(featuresNeedingInputs(3).has(gpu::FEATURE_vertex_color) &&
+                  !featuresNeedingInputs(3).has(gpu::FEATURE_normal_texture));
+    gpu::uint next = 0;
+    for (const FeatureRow& row : featureRows) EXPECT_EQ(row.id, next++) << row.name;
+    Variant all;
+    for (gpu::uint i = 0; i < gpu::FEATURE_COUNT; ++i) all.set(i, i + 1);
+    const Variant some = all.only(depth);
+    for (gpu::uint i = 0; i < gpu::FEATURE_COUNT; ++i) EXPECT_EQ(some.get(i), depth.has(i) ? i + 1 : 0u);
+    EXPECT_EQ(Variant().take(all, depth), some);
+    EXPECT_TRUE(some.any(depth));
+    EXPECT_FALSE(some.any(featuresSetBy(FeatureSource::pass)));
+}
+
+// A row of a binding table, as the modules have it.
+using Kind = SpirvModule::Kind;
+struct Declared {
+    std::string name;
+    std::uint32_t set, number;
+    Kind kind;
+    bool kernels;  // of the kernels that make light lists, whose set 1 is their own
+};
+
+std::vector<Declared> bindingTables() {
+    std::vector<Declared> rows;
+    const auto add = [&](gpu::uint set, bool kernels) {
+        return [&rows, set, kernels](const char* name, std::uint32_t number, Kind kind) {
+            rows.push_back({name, set, number, kind, kernels});
+        };
+    };
+#define ROW(number, name, kind, what) table(#name, number, Kind::kind);
+    {
+        const auto table = add(gpu::SET_FRAME, false);
+        FRAME_BINDINGS(ROW)
+    }
+    {
+        const auto table = add(gpu::SET_PARTIAL_SUMS, false);
+        PARTIAL_SUM_BINDINGS(ROW)
+    }
+    {
+        const auto table = add(gpu::SET_GBUFFER, false);
+        GBUFFER_BINDINGS(ROW)
+        table("DEPTH", gpu::BINDING_DEPTH, Kind::image);
+    }
+    {
+        const auto table = add(gpu::SET_LISTS, true);
+        LIST_BINDINGS(ROW)
+    }
+#undef ROW
+    const auto table = add(gpu::SET_MATERIAL, false);
+#define SLOT(number, name) table(#name, number, Kind::image);
+    MATERIAL_SLOTS(SLOT)
+#undef SLOT
+    table("MATERIAL", gpu::BINDING_MATERIAL, Kind::uniform_buffer);
+    return rows;
+}
+
+// Descriptors that a module of a pass declares and no row has, or a row has as another kind; rows that
+// nothing declares.
+Faults wrongBindings(const std::vector<Declared>& rows) {
+    Faults faults;
+    std::set<std::string> declared;
+    for (const Module& module : modules()) {
+        const ModuleKind* kind = kindOf(module.name);
+        if (!kind || kind->passes == 0) continue;
+        const bool kernel = (kind->passes & gpu::PASS_LISTS) != 0;
+        for (const SpirvModule::Binding& binding : module.bindings) {
+            const auto row = std::ranges::find_if(rows, [&](const Declared& r) {
+                return r.set == binding.set && r.number == binding.number &&
+                       (r.set != gpu::SET_LISTS || r.kernels == kernel);
+            });
+            if (row == rows.end())
+                faults.push_back(fmt::format("{}: set {} binding {} is in no table", module.name, binding.set,
+                                             binding.number));
+            else if (row->kind != binding.kind)
+                faults.push_back(
+                    fmt::format("{}: {} is of another kind in its table", module.name, row->name));
+            else
+                declared.insert(row->name);
+        }
+    }
+    for (const Declared& row : rows)
+        if (!declared.contains(row.name))
+            faults.push_back(row.name + " is declared by no shader of its kind");
+    return faults;
+}
+
+TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
+    EXPECT_EQ(bindingTables().size(), 13u + 2 + 8 + 12 + 9);
+    EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
+}
+
+TEST(ShaderContract, AWrongRowOfABindingTableIsFound) {
+    const std::vector<Declared> right = bindingTables();
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        std::vector<Declared> wrong = right;
+        wrong[i].kind = right[i].kind == Kind::image ? Kind::texel_buffer : Kind::image;
+        EXPECT_FALSE(wrongBindings(wrong).empty()) << right[i].name;
+    }
+    for (const std::size_t i : {std::size_t{2}, right.size() - 1}) {
+        std::vector<Declared> moved = right;
+        moved[i].number = 20;
+        EXPECT_FALSE(wrongBindings(moved).empty()) << right[i].name;
+    }
+}
+
+// PACKED_VIEW and PACKED_GRID: what one side packs by the table the other unpacks by it.
+TEST(ShaderContract, ThePackedViewHoldsEveryField) {
+    gpu::View view{};
+    gpu::LightGrid grid{};
+    float number = 1.5f;
+    gpu::uint count = 100;
+#define FILL_FLOAT(texel, lane, member) of.member = number++;
+#define FILL_UINT(texel, lane, member) of.member = count++;
+#define FILL_SHORTS(texel, lane, low, high) of.low = count++, of.high = count++;
+    {
+        gpu::View& of = view;
+        PACKED_VIEW(FILL_FLOAT, FILL_UINT)
+    }
+    {
+        gpu::LightGrid& of = grid;
+        PACKED_GRID(FILL_FLOAT, FILL_UINT, FILL_SHORTS)
+    }
+    const PackedView t = packedView(view, grid);
+    std::size_t fields = 0;
+    const auto same = [&](const char* field, auto unpacked, auto value) {
+        EXPECT_EQ(unpacked, value) << field;
+        ++fields;
+    };
+#define SAME_FLOAT(texel, lane, member) same(#member, std::bit_cast<float>(t[texel].lane), of.member);
+#define SAME_UINT(texel, lane, member) same(#member, t[texel].lane, of.member);
+#define SAME_SHORTS(texel, lane, low, high)      \
+    same(#low, t[texel].lane & 0xffffu, of.low); \
+    same(#high, t[texel].lane >> 16, of.high);
+    {
+        const gpu::View& of = view;
+        PACKED_VIEW(SAME_FLOAT, SAME_UINT)
+    }
+    {
+        const gpu::LightGrid& of = grid;
+        PACKED_GRID(SAME_FLOAT, SAME_UINT, SAME_SHORTS)
+    }
+    EXPECT_EQ(fields, 22u);
+}
+
+TEST(ShaderContract, ALaneThatIsFilledTwiceOrNotAtAllIsFound) {
+    std::vector<unsigned> lanes;
+    for (unsigned i = 0; i < 4 * gpu::PACKED_VIEW_TEXELS; ++i) lanes.push_back(i);
+    EXPECT_TRUE(eachLaneOnce(lanes));
+    lanes[7] = 8;
+    EXPECT_FALSE(eachLaneOnce(lanes));
+    lanes[7] = 20;
+    EXPECT_FALSE(eachLaneOnce(lanes));
+    lanes.erase(lanes.begin() + 7);
+    EXPECT_FALSE(eachLaneOnce(lanes));
+}
+
+// CONTRACT_LANE, which stands beside each struct that shaders read as texels.
+TEST(ShaderContract, AMemberThatMovesToAnotherLaneIsFound) {
+    struct Swapped {
+        float inverse_range_squared;
+        gpu::vec3 position, intensity;
+        float range;
+    };
+    EXPECT_TRUE(gpu::beginsAt(offsetof(gpu::Light, position), 0, 0));
+    EXPECT_TRUE(gpu::beginsAt(offsetof(gpu::Light, range), 1, 3));
+    EXPECT_FALSE(gpu::beginsAt(offsetof(Swapped, position), 0, 0));
+    EXPECT_FALSE(gpu::beginsAt(offsetof(Swapped, inverse_range_squared), 0, 3));
+    EXPECT_TRUE(gpu::beginsAt(offsetof(Swapped, range), 1, 3));
+}
+
+}  // namespace
+}  // namespace diptych
