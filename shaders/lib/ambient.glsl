@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Light that is the same from everywhere: the BRDF's integral over it, by the table of shared/contract/albedo.h.
+// Light that is the same from everywhere: the BRDF's integral over it, by the table of
+// shared/contract/albedo.h.
 #ifndef AMBIENT_GLSL
 #define AMBIENT_GLSL
 
 #include "shaders/lib/brdf.glsl"
 #include "shared/contract/albedo.h"
 
-layout(set = SET_FRAME, binding = BINDING_ALBEDO, scalar) readonly buffer AlbedoTable { vec2 albedo_table[]; };
+layout(set = SET_FRAME, binding = BINDING_ALBEDO, scalar) readonly buffer AlbedoTable {
+    vec2 albedo_table[];
+};
 
 // Lagrange's polynomial through samples at 0, 1, 2 and 3.
 vec4 cubicWeights(float t) {
@@ -24,8 +27,8 @@ uint cubicFirst(float x, uint count, out float t) {
 }
 
 vec2 cubicRow(uint first, vec4 w) {
-    precise vec2 sum = albedo_table[first] * w.x + albedo_table[first + 1u] * w.y + albedo_table[first + 2u] * w.z +
-                       albedo_table[first + 3u] * w.w;
+    precise vec2 sum = albedo_table[first] * w.x + albedo_table[first + 1u] * w.y +
+                       albedo_table[first + 2u] * w.z + albedo_table[first + 3u] * w.w;
     return sum;
 }
 
@@ -38,7 +41,8 @@ vec2 specularAlbedo(float alpha, float n_dot_v) {
     uint column = cubicFirst(x, ALBEDO_TABLE_WIDTH, tx), row = cubicFirst(y, ALBEDO_TABLE_HEIGHT, ty);
     vec4 across = cubicWeights(tx), down = cubicWeights(ty);
     uint first = row * ALBEDO_TABLE_WIDTH + column;
-    precise vec2 sum = cubicRow(first, across) * down.x + cubicRow(first + ALBEDO_TABLE_WIDTH, across) * down.y +
+    precise vec2 sum = cubicRow(first, across) * down.x +
+                       cubicRow(first + ALBEDO_TABLE_WIDTH, across) * down.y +
                        cubicRow(first + 2u * ALBEDO_TABLE_WIDTH, across) * down.z +
                        cubicRow(first + 3u * ALBEDO_TABLE_WIDTH, across) * down.w;
     return sum;
@@ -57,8 +61,8 @@ float baseShare(Brdf b) {
     return share;
 }
 
-// What `b` sends to the viewer of radiance `ambient` from everywhere and of the irradiance `lightmap` times pi,
-// which the base alone reflects; W/(sr m^2), unoccluded.
+// What `b` sends to the viewer of radiance `ambient` from everywhere and of the irradiance `lightmap` times
+// pi, which the base alone reflects; W/(sr m^2), unoccluded.
 vec3 reflectedAmbient(Brdf b, vec3 ambient, vec3 lightmap) {
     precise vec3 radiance = vec3(0.0);
     if (on(feature_ambient)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rectangles, discs and tubes of constant radiance (shared/contract/area_light.h), by feature_area_lights: with
-// linearly transformed cosines, or each by one representative point (area_point.glsl). No light throws a shadow.
+// Rectangles, discs and tubes of constant radiance (shared/contract/area_light.h), by feature_area_lights:
+// with linearly transformed cosines, or each by one representative point (area_point.glsl). No light throws a
+// shadow.
 #ifndef AREA_GLSL
 #define AREA_GLSL
 
@@ -20,7 +21,7 @@ struct AreaView {
     float fresnel;      // the same with Schlick's weight for F
 };
 
-// A light from where it shines on.
+// A light as seen from the surface point.
 struct AreaIncident {
     vec3 centre;    // from the surface, world axes, m
     vec3 radiance;  // W/(sr m^2); exactly 0 from its range on and from behind
@@ -50,7 +51,7 @@ AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, vec4 cell, float fresnel) {
 
 layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table;
 
-// Of a surface, with its cell of the table.
+// The AreaView of a surface, with its cell of the table.
 AreaView areaView(Brdf brdf, Surface s, vec3 v) {
     vec4 cell = vec4(1.0);
     float fresnel = 0.0;
@@ -78,8 +79,9 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
     return i;
 }
 
-// `plain`, `lobe`: the factors of the light (ltc.glsl) under the cosine and under the specular lobe. What a layer
-// reflects of a small light is that of the light's mean direction, exactly; of what fills the whole lobe, the table's.
+// `plain`, `lobe`: the factors of the light (ltc.glsl) under the cosine and under the specular lobe. What a
+// layer reflects of a small light is that of the light's mean direction, exactly; of what fills the whole
+// lobe, the table's.
 void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * length(unitOrZero(world * plain) + a.v));
@@ -94,42 +96,51 @@ void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 dif
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 
-// Near a huge light and far from a tiny one alike squares stay within float32: all is measured by the farthest.
+// Lengths are divided by the distance of the light's farthest point, so that squares stay within float32 both
+// near a huge light and far from a tiny one.
 float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (length(i.centre) + shape.extent); }
 
-void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
+void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
+             inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, diffuse, specular);
+        addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
+                     i.radiance, diffuse, specular);
         return;
     }
     float unit = unitOf(i, shape);
     Ltc plain = Ltc(1.0, 1.0, 0.0);
     vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
          y = a.surface * (shape.y * (-i.side * unit));
-    addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance, diffuse,
-               specular);
+    addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance,
+               diffuse, specular);
 }
 
-void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
+void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
+             inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, diffuse, specular);
+        addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
+                     i.radiance, diffuse, specular);
         return;
     }
     float unit = unitOf(i, shape);
     Ltc plain = Ltc(1.0, 1.0, 0.0);
-    vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit), y = a.surface * (shape.y * unit);
-    addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, diffuse, specular);
+    vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
+         y = a.surface * (shape.y * unit);
+    addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, diffuse,
+               specular);
 }
 
-void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse, inout vec3 specular) {
+void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
+             inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
     float along = dot(i.centre, shape.direction);
     bool within = length(i.centre - shape.direction * along) <= shape.radius && abs(along) <= length(shape.x);
     if (within) i.radiance = vec3(0.0);  // it shines outwards alone
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, diffuse, specular);
+        addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
+                     i.radiance, diffuse, specular);
         return;
     }
     float unit = unitOf(i, shape);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Area lights by one point each: the one nearest to a ray stands for all. For the specular lobe the ray is the
-// mirrored view, and the lobe's peak is lowered as if it were as much wider as the light is (Karis 2013, "Real Shading
-// in Unreal Engine 4"); for the diffuse one it is halfway from the normal to the light's centre (after Drobot 2014,
-// "Physically Based Area Lights", GPU Pro 5). Cheap, and wrong by what one point cannot know.
+// Area lights by one point each: the one nearest to a ray stands for all. For the specular lobe the ray is
+// the mirrored view, and the lobe's peak is lowered as if it were as much wider as the light is (Karis 2013,
+// "Real Shading in Unreal Engine 4"); for the diffuse one it is halfway from the normal to the light's centre
+// (after Drobot 2014, "Physically Based Area Lights", GPU Pro 5). Cheap, and inexact by nature.
 #ifndef AREA_POINT_GLSL
 #define AREA_POINT_GLSL
 
@@ -24,7 +24,8 @@ vec3 onPlane(vec3 ray, vec3 c, vec3 n) {
 }
 vec3 onRect(vec3 ray, vec3 c, AreaLight s) {
     vec3 p = onPlane(ray, c, s.direction);
-    return c + s.x * clamp(dot(p, s.x) / dot(s.x, s.x), -1.0, 1.0) + s.y * clamp(dot(p, s.y) / dot(s.y, s.y), -1.0, 1.0);
+    return c + s.x * clamp(dot(p, s.x) / dot(s.x, s.x), -1.0, 1.0) +
+           s.y * clamp(dot(p, s.y) / dot(s.y, s.y), -1.0, 1.0);
 }
 vec3 onDisc(vec3 ray, vec3 c, AreaLight s) {
     vec3 p = onPlane(ray, c, s.direction);
@@ -42,8 +43,8 @@ vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
 // Near its plane a light is no larger than half the sky: pi of cosine.
 float solidAngleOf(float area, float distance2) { return area / (distance2 + area * INVERSE_PI); }
 
-// The middle of the lobe, which a rough surface turns from the mirrored view to the normal: Lagarde and de Rousiers
-// 2014, "Moving Frostbite to Physically Based Rendering", listing 22.
+// The middle of the lobe, which a rough surface turns from the mirrored view to the normal: Lagarde and de
+// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 22.
 vec3 specularRay(Brdf b, vec3 n, vec3 v) {
     float smooth_part = max(1.0 - b.alpha, 0.0);
     return normalize(mix(n, reflect(-v, n), smooth_part * (sqrt(smooth_part) + b.alpha)));
@@ -82,7 +83,8 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     return p;
 }
 
-void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
+void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3 diffuse,
+                  inout vec3 specular) {
     vec3 l = p.diffuse_at * inversesqrt(max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED));
     float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(0.5 * length(l + v)));
     float received = max(dot(n, l), 0.0) * p.solid_angle;
@@ -93,12 +95,14 @@ void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3
     vec3 sum = l + v;
     float sum2 = dot(sum, sum);
     vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(0.5 * sqrt(sum2));
-    // Of a round lobe in whose middle a light with the tangent t stands the share t^2 / (t^2 + 4 alpha^2) meets it: so
-    // much is left of the peak that a mirror shows a large light as bright as it is. Aslant the lobe is n.v narrower.
+    // Of a round lobe in whose middle a light with the tangent t stands the share t^2 / (t^2 + 4 alpha^2)
+    // meets it: so much is left of the peak that a mirror shows a large light as bright as it is. Aslant the
+    // lobe is n.v narrower.
     vec2 tangent = 0.5 * p.half_size * to_point;
     float width2 = b.alpha2 * b.n_dot_v;
     vec2 wider = sqrt(vec2(width2) + tangent * tangent);
-    float lobe = specularLobe(b, n, sum, sum2, n_dot_l) * n_dot_l * (width2 / (wider.x * wider.y)) * p.solid_angle;
+    float lobe =
+        specularLobe(b, n, sum, sum2, n_dot_l) * n_dot_l * (width2 / (wider.x * wider.y)) * p.solid_angle;
 
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     precise vec3 from_base = b.diffuse * (base * received) * radiance;

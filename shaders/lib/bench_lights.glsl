@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A benchmark's entry point around shade(): a full-screen target of tiles of 16 x 16 pixels, each with a list of
-// point lights of its own. The includer says where the lights are: nothing, in the texel buffer that the paths read;
-// BENCH_UNIFORM or BENCH_STORAGE, in a buffer of that kind; and with BENCH_UNIFORM_BASE that all lanes read one list.
+// A benchmark's entry point around shade(): a full-screen target of tiles of 16 x 16 pixels, each with a list
+// of point lights of its own. The includer says where the lights are: nothing, in the texel buffer that the
+// paths read; BENCH_UNIFORM or BENCH_STORAGE, in a buffer of that kind; and with BENCH_UNIFORM_BASE that all
+// lanes read one list.
 #ifndef BENCH_LIGHTS_GLSL
 #define BENCH_LIGHTS_GLSL
 
@@ -22,7 +23,8 @@ Light benchLightAt(uint i) { return bench_lights[i]; }
 
 layout(location = 0) out vec4 out_lit;
 
-// A bent sheet in front of the camera, of arithmetic that is the same in every language; kernel_avx2.cpp has it, too.
+// A bent sheet in front of the camera, of arithmetic that is the same in every language; kernel_avx2.cpp has
+// it, too.
 Surface benchSurface(vec2 pixel) {
     float u = pixel.x * (1.0 / 1024.0), v = pixel.y * (1.0 / 1024.0);
     vec3 slope = vec3(0.4 * (u - 0.3), 0.6 * (v - 0.2), 1.0);
@@ -42,8 +44,8 @@ Surface benchSurface(vec2 pixel) {
     return s;
 }
 
-// Push constants: draw: tiles across; material: groups of four lights that a tile's list holds; light_end: those
-// that are walked.
+// Push constants: draw: tiles across; material: packets of four lights that a tile's list holds; light_end:
+// those that are walked.
 void main() {
     uvec2 tile = uvec2(gl_FragCoord.xy) >> 4;
     uint begin = (tile.y * constants.draw + tile.x) * constants.material;
@@ -51,7 +53,8 @@ void main() {
     begin = subgroupBroadcastFirst(begin);
 #endif
     uint end = begin + constants.light_end;
-    out_lit = vec4(lit(shade(benchSurface(gl_FragCoord.xy), PixelLights(0u, LightListHead(begin, end, end, end)))), 1.0);
+    out_lit = vec4(
+        lit(shade(benchSurface(gl_FragCoord.xy), PixelLights(0u, LightListHead(begin, end, end, end)))), 1.0);
 }
 
 #endif

@@ -34,9 +34,10 @@ Brdf makeBrdf(Surface s, vec3 v) {
     return b;
 }
 
-// The denominator of GGX for a half vector `s` of any length, |s|^2 ((n.h)^2 (alpha^2 - 1) + 1): that form cancels near
-// the highlight; by Lagrange's identity 1 - (n.h)^2 = |n x h|^2, which does not (off by over 1e-4 on 40 % of
-// near-highlight samples at roughness 0.1, against none). D = (alpha |s|^2 / denominator)^2 / pi, 1/sr.
+// The denominator of GGX for a half vector `s` of any length, |s|^2 ((n.h)^2 (alpha^2 - 1) + 1): that form
+// cancels near the highlight; by Lagrange's identity 1 - (n.h)^2 = |n x h|^2, which does not (off by over
+// 1e-4 on 40 % of near-highlight samples at roughness 0.1, against none). D = (alpha |s|^2 / denominator)^2 /
+// pi, 1/sr.
 float ggxDenominator(float alpha2, vec3 n, vec3 s) {
     vec3 n_cross_s = cross(n, s);
     float n_dot_s = dot(n, s);
@@ -44,16 +45,17 @@ float ggxDenominator(float alpha2, vec3 n, vec3 s) {
     return q;
 }
 
-// D G / (4 (n.l) (n.v)), 1/sr, in one division: GGX (Walter et al. 2007, "Microfacet Models for Refraction through
-// Rough Surfaces") with height-correlated Smith masking and shadowing (Heitz 2014, "Understanding the
+// D G / (4 (n.l) (n.v)), 1/sr, in one division: GGX (Walter et al. 2007, "Microfacet Models for Refraction
+// through Rough Surfaces") with height-correlated Smith masking and shadowing (Heitz 2014, "Understanding the
 // Masking-Shadowing Function in Microfacet-Based BRDFs"), 0.5 / (lambda_v + lambda_l). `s` is l + v.
-// No microfacet faces down: a normal map that turns from the viewer would mirror lights behind the surface. Where light
-// and viewer stand opposite, s is nothing but rounding, and nothing is reflected.
+// No microfacet faces down: a normal map that turns from the viewer would mirror lights behind the surface.
+// Where light and viewer stand opposite, s is nothing but rounding, and nothing is reflected.
 float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
     float q = ggxDenominator(b.alpha2, n, s);
     float lambda = n_dot_l * b.smith_v + b.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - b.alpha2) + b.alpha2);
     float a = b.alpha * s2;
-    // At the least alpha, 0.002, q^2 lambda is above 1e-34 where s2 is above 1e-8; the floor only keeps 0 / 0 away.
+    // At the least alpha, 0.002, q^2 lambda is above 1e-34 where s2 is above 1e-8; the floor only keeps 0 / 0
+    // away.
     precise float lobe = a * a * (0.5 * INVERSE_PI) / max(q * q * lambda, 1e-37);
     return dot(n, s) > 0.0 && s2 > 1e-12 ? lobe : 0.0;
 }

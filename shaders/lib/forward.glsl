@@ -6,7 +6,8 @@
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
 
-// With quantise_surface: what the deferred path would read back, which explains its picture bit for bit.
+// With quantise_surface it is what the deferred path would read back, which reproduces its picture bit for
+// bit.
 Surface forwardSurface() {
     vec4 base_color = baseColor();
     if (isCutOut(base_color)) discard;

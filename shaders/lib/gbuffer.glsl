@@ -45,9 +45,11 @@ GBufferTexel encodeGBuffer(Surface s) {
     if (compactGBuffer()) {
         t.attachments[GBUFFER_NORMALS].x = encodeOctahedral(s.normal, COMPACT_NORMAL_BITS) |
                                            (packUnorm(s.roughness, COMPACT_ROUGHNESS_BITS) << 24);
-        t.attachments[GBUFFER_PARAMS].x = (packUnorm(s.metallic, COMPACT_METALLIC_BITS) << 16) | (s.material_id << 22);
+        t.attachments[GBUFFER_PARAMS].x =
+            (packUnorm(s.metallic, COMPACT_METALLIC_BITS) << 16) | (s.material_id << 22);
         if (needsGeometricNormal())
-            t.attachments[GBUFFER_PARAMS].x |= encodeOctahedral(s.geometric_normal, COMPACT_GEOMETRIC_NORMAL_BITS);
+            t.attachments[GBUFFER_PARAMS].x |=
+                encodeOctahedral(s.geometric_normal, COMPACT_GEOMETRIC_NORMAL_BITS);
     } else {
         t.attachments[GBUFFER_NORMALS].x = encodeOctahedral(s.normal, STANDARD_NORMAL_BITS);
         if (needsGeometricNormal())
@@ -63,14 +65,14 @@ GBufferTexel encodeGBuffer(Surface s) {
     return t;
 }
 
-// Everything but the position, which comes from depth, and the texture coordinates, which are not carried.
+// Everything but the position, which comes from depth, and the texture coordinates, which are not stored.
 Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     Surface s;
     s.position = position;
     s.texcoord = vec2(0.0);
     s.emission = vec3(0.0);
     s.lightmap = vec3(0.0);
-    s.object_irradiance = vec3(0.0);  // not carried
+    s.object_irradiance = vec3(0.0);  // not stored
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (fullGBuffer()) {

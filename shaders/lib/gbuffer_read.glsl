@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The deferred maker of a Surface.
+// Makes a Surface from the G-buffer.
 #ifndef GBUFFER_READ_GLSL
 #define GBUFFER_READ_GLSL
 
@@ -23,7 +23,8 @@ Surface surfaceFromGBuffer(ivec2 p, float z) {
     t.attachments[GBUFFER_ALBEDO] = texelFetch(gbuffer_albedo, p, 0);
     t.attachments[GBUFFER_NORMALS] = texelFetch(gbuffer_normals, p, 0);
     t.attachments[GBUFFER_PARAMS] = texelFetch(gbuffer_params, p, 0);
-    if (on(feature_emission) || fullGBuffer()) t.attachments[GBUFFER_EMISSION] = texelFetch(gbuffer_emission, p, 0);
+    if (on(feature_emission) || fullGBuffer())
+        t.attachments[GBUFFER_EMISSION] = texelFetch(gbuffer_emission, p, 0);
     if (on(feature_dielectric_specular)) t.attachments[GBUFFER_SPECULAR] = texelFetch(gbuffer_specular, p, 0);
     if (on(feature_gbuffer_wide_material_id)) t.attachments[GBUFFER_IDS] = texelFetch(gbuffer_ids, p, 0);
     if (on(feature_lightmap)) t.attachments[GBUFFER_LIGHTMAP] = texelFetch(gbuffer_lightmap, p, 0);

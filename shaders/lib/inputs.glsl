@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a surface's vertex shader hands to its fragment shaders. lavapipe sets up every declared input of every triangle
-// (48 bytes and 5 to 10 ns each), whether or not a variant reads it, so the modules that draw scenes are there for
-// several sets; shared/vulkan/pipelines.cpp picks the least that has what the variant reads.
-// At a centroid, so that with several samples a pixel nothing is extrapolated beyond its triangle's edge; but for the
-// position, of which derivatives alone are asked: neighbours' centroids are not a pixel apart.
-// INPUTS 0: the normal; 1: and the first texture coordinates; 2: and what a normal map asks for; 3: everything.
+// The outputs of a surface's vertex shader that its fragment shaders read. lavapipe sets up every declared
+// input of every triangle (48 bytes and 5 to 10 ns each), whether or not a variant reads it. So the modules
+// that draw scenes exist for several sets of inputs, and shared/vulkan/pipelines.cpp picks the smallest that
+// has what the variant reads.
+//   INPUTS 0  the normal
+//          1  and the first texture coordinates
+//          2  and what a normal map needs
+//          3  everything
+// Inputs are interpolated at the centroid, so that with several samples a pixel nothing is extrapolated
+// beyond its triangle's edge. The position is not, because only its derivatives are used, and the centroids
+// of neighbouring pixels are not a pixel apart.
 #ifndef INPUTS_GLSL
 #define INPUTS_GLSL
 

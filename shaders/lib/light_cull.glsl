@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Whether a light is felt in a cell: never no where it is, seldom yes where it is not. View axes: x right, y down,
-// z forward.
+// Whether a light can affect a cell. Conservative: no false negatives, few false positives. View axes: x
+// right, y down, z forward.
 #ifndef LIGHT_CULL_GLSL
 #define LIGHT_CULL_GLSL
 
 #include "shaders/lib/light_grid.glsl"
 
-// Which of a cell's two sides along an axis, x = sides * z, `centre` is beyond at depth z; 0: neither.
+// The one of a cell's two sides along an axis (side * z at depth z) that `centre` lies beyond; 0: it lies
+// between them.
 float sideBeyond(vec2 sides, float centre, float z) {
     return centre < sides.x * z ? sides.x : centre > sides.y * z ? sides.y : 0.0;
 }
+// How far `centre` lies beyond the nearer of the two sides at depth z, signed, m; 0 between them.
 float beyondSides(vec2 sides, float centre, float z) {
     return min(centre - sides.x * z, 0.0) + max(centre - sides.y * z, 0.0);
 }
 
-// The square of the distance from a point to a cell; seldom a little less, never more. At depth z a cell is a rectangle,
-// so the square of the distance to it is f(z) = (z - c.z)^2 + dx(z)^2 + dy(z)^2, convex and quadratic in pieces: a step of
-// Newton's from the centre's depth nearly always finds the least value. Wherever it ends, f lies above the parabola of
-// curvature 2 that touches it there, whose least value is what is returned. `axes`: 1 counts x, y, 0 leaves them out.
+// A lower bound of the square of the distance from a point to a cell, m^2, which is nearly always exact. At
+// depth z a cell is a rectangle, so the square of the distance to it is f(z) = (z - c.z)^2 + dx(z)^2 +
+// dy(z)^2, which is convex and piecewise quadratic: one Newton step from the centre's depth nearly always
+// finds its minimum. Wherever the step ends, f lies above the parabola of curvature 2 that touches it there,
+// and the minimum of that parabola is returned. `axes`: 1 where x, y count, 0 where they are left out.
 float squaredDistance(vec3 c, CellBounds cell, vec2 axes) {
     float z = clamp(c.z, cell.depth.x, cell.depth.y);
     if (on(feature_orthographic)) {
@@ -33,15 +36,15 @@ float squaredDistance(vec3 c, CellBounds cell, vec2 axes) {
     return (z - c.z) * (z - c.z) + dot(beyond, beyond) + (2.0 * slope + step) * step;
 }
 
-// To a row of cells, whatever their x.
+// The same to the cell's whole row: x is left out.
 float squaredDistanceToRow(vec3 c, CellBounds cell) { return squaredDistance(c, cell, vec2(0.0, 1.0)); }
 
-bool ballReaches(vec3 centre, float radius, CellBounds cell) {
+bool sphereReaches(vec3 centre, float radius, CellBounds cell) {
     return cell.depth.x <= cell.depth.y && squaredDistance(centre, cell, vec2(1.0)) <= radius * radius;
 }
 
-// A cone against the sphere around a cell (Wronski 2017, "Cull that cone!"): the sphere is outside where it is
-// farther from the cone's side than its radius.
+// A cone against the sphere around a cell (Wronski 2017, "Cull that cone!"): the sphere is outside where it
+// is farther from the cone's side than its radius.
 bool coneReachesSphere(LightBound light, vec3 centre, float radius) {
     vec3 v = centre - light.apex;
     float along = dot(v, light.axis);
@@ -49,8 +52,8 @@ bool coneReachesSphere(LightBound light, vec3 centre, float radius) {
     return light.cos_cone * across - along * light.sin_cone <= radius;
 }
 
-// The cone, of any length, has a point on the inner side of a plane through `point`, whose `normal` points
-// outwards: the apex, or else a direction within the cone that leads there.
+// Whether the cone, taken as endless, has a point on the inner side of a plane through `point` whose `normal`
+// points outwards: the apex, or a direction within the cone that leads there.
 bool coneReachesPlane(LightBound light, vec3 point, vec3 normal) {
     float outside = dot(light.apex - point, normal);
     // The largest cosine between the normal's opposite and a direction of the cone.
@@ -61,8 +64,10 @@ bool coneReachesPlane(LightBound light, vec3 point, vec3 normal) {
 
 bool coneReaches(LightBound light, CellBounds cell) {
     if (light.cos_cone <= -1.0) return true;
-    // Around the light itself float32 tells no directions apart: what rounding moves is within the bounds' slack.
-    float far = min(cell.depth.y, light.centre.z + light.radius), near = max(cell.depth.x, light.centre.z - light.radius);
+    // Close to the light float32 cannot tell directions apart; what rounding moves there is within the
+    // bounds' slack.
+    float far = min(cell.depth.y, light.centre.z + light.radius),
+          near = max(cell.depth.x, light.centre.z - light.radius);
     vec2 z = on(feature_orthographic) ? vec2(1.0) : vec2(near, far);
     vec3 low = vec3(min(cell.x.x * z.x, cell.x.x * z.y), min(cell.y.x * z.x, cell.y.x * z.y), near);
     vec3 high = vec3(max(cell.x.y * z.x, cell.x.y * z.y), max(cell.y.y * z.x, cell.y.y * z.y), far);
@@ -75,7 +80,8 @@ bool coneReaches(LightBound light, CellBounds cell) {
 }
 
 bool reaches(LightBound light, CellBounds cell) {
-    return ballReaches(light.centre, light.radius, cell) && (!on(feature_spot_lights) || coneReaches(light, cell));
+    return sphereReaches(light.centre, light.radius, cell) &&
+           (!on(feature_spot_lights) || coneReaches(light, cell));
 }
 
 #endif

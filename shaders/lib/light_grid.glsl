@@ -17,8 +17,8 @@ uint cellOf(vec2 pixel, float depth) {
     return (slice * grid.tiles.y + tile.y) * grid.tiles.x + tile.x;
 }
 
-// View depths of a slice, m, a little wider than sliceOf() can round; the first begins at the camera and the last
-// has no end.
+// View depths of a slice, m, a little wider than sliceOf() can round; the first begins at the camera and the
+// last has no end.
 vec2 sliceDepths(uint slice) {
     uint first = floatBitsToUint(grid.slice_offset) + (slice << grid.slice_shift);
     vec2 sum = vec2(uintBitsToFloat(first), uintBitsToFloat(first + (1u << grid.slice_shift)));
@@ -26,7 +26,8 @@ vec2 sliceDepths(uint slice) {
     return vec2(slice == 0u ? 0.0 : depths.x, slice + 1u == grid.slices ? MAX_BOUND_RADIUS : depths.y);
 }
 
-// A cell as two pairs of planes through the camera, x and y over depth (orthographic: in m), and one across it.
+// A cell as two pairs of planes through the camera, given as x and y over depth (orthographic: x and y in m),
+// and a range of view depths.
 struct CellBounds {
     vec2 x, y;
     vec2 depth;  // m; empty where the first is larger

@@ -5,7 +5,9 @@
 
 #include "shaders/lib/light_cull.glsl"
 
-layout(set = SET_LISTS, binding = BINDING_BOUNDS, scalar) readonly buffer Bounds { LightBound light_bounds[]; };
+layout(set = SET_LISTS, binding = BINDING_BOUNDS, scalar) readonly buffer Bounds {
+    LightBound light_bounds[];
+};
 layout(set = SET_LISTS, binding = BINDING_MASKS, scalar) buffer Masks { uint masks[]; };
 layout(set = SET_LISTS, binding = BINDING_COUNTS, scalar) buffer Counts { LightListCount counts[]; };
 layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec3 tile_depths[]; };
@@ -17,12 +19,13 @@ layout(set = SET_LISTS, binding = BINDING_HEADS, scalar) writeonly buffer Heads 
 layout(set = SET_LISTS, binding = BINDING_INDICES, scalar) writeonly buffer Indices { uint indices[]; };
 layout(set = SET_LISTS, binding = BINDING_LISTED, scalar) writeonly buffer Listed { uint listed[]; };
 
-// Groups that so many lights of a kind fill; one at least, where the scene has that kind.
-uint groupsOf(uint lights, bool any) { return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u); }
+// Packets that so many lights of a kind fill; at least one where the scene has that kind.
+uint packetsOf(uint lights, bool any) { return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u); }
 
-// All of a list's lights, over its segments; `begin`: where the list begins.
+// Sums a list's counts over its segments; `begin` is where the list begins.
 LightListCount countOf(uint list) {
-    LightListCount sum = LightListCount(0u, 0u, 0u, four_begins[list / 4u] + counts[list * grid.segments].begin);
+    LightListCount sum =
+        LightListCount(0u, 0u, 0u, four_begins[list / 4u] + counts[list * grid.segments].begin);
     for (uint i = list * grid.segments; i < (list + 1u) * grid.segments; ++i) {
         sum.all += counts[i].all;
         sum.points += counts[i].points;
@@ -35,21 +38,24 @@ LightListCount countOf(uint list) {
 LightListHead headOf(LightListCount count) {
     LightListHead head;
     head.begin = count.begin;
-    head.point_end = head.begin + groupsOf(count.points, grid.point_end > 0u);
-    head.spot_end = head.point_end + groupsOf(count.points_and_spots - count.points, grid.spot_end > grid.point_end);
-    head.end = head.spot_end + groupsOf(count.all - count.points_and_spots, grid.local_lights > grid.spot_end);
+    head.point_end = head.begin + packetsOf(count.points, grid.point_end > 0u);
+    head.spot_end =
+        head.point_end + packetsOf(count.points_and_spots - count.points, grid.spot_end > grid.point_end);
+    head.end =
+        head.spot_end + packetsOf(count.all - count.points_and_spots, grid.local_lights > grid.spot_end);
     return head;
 }
 
-// By words, so that neighbouring threads, which have neighbouring lists, read neighbouring words.
+// Words of the masks are stored word by word, not list by list: neighbouring threads have neighbouring lists
+// and so read neighbouring words.
 uint maskWord(uint word, uint list) { return word * grid.list_stride + list; }
 
-// Depths of a cell's list of opaques; tiled: what the picture's depths say.
+// View depths that a cell's list for opaque surfaces covers, m; tiled: those of the depths drawn there.
 vec2 cellDepths(uint tile, uint slice) {
     return feature_light_lists == LISTS_TILED ? tile_depths[tile].xy : sliceDepths(slice);
 }
 
-// Depths of a tile's list of transparents: down to the camera.
+// View depths that a tile's list for transparent surfaces covers, m: they begin at the camera.
 vec2 transparentDepths(uint tile) { return vec2(0.0, tile_depths[tile].z); }
 
 // The bits of `word` that are lights below number `end`.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The tiles that a light's ball may reach, as a rectangle and row by row: what the scatter kernel walks instead of all.
+// The tiles that a light's bounding sphere may reach, as a rectangle and row by row. The scatter kernel walks
+// only those.
 #ifndef LIGHT_RECT_GLSL
 #define LIGHT_RECT_GLSL
 
 #include "shaders/lib/contract.glsl"
 
-// Of a LightGrid, what tiles are: see there.
+// The members of a LightGrid that say where tiles lie.
 struct TileSize {
     vec2 centre;  // pixel coordinates of the optical axis
     float pixel;  // side of a pixel in m per m of depth; orthographic: in m
@@ -14,38 +15,42 @@ struct TileSize {
 
 // Tiles that the interval [low, high] (m, at depths z) covers along one axis: first and one past the last.
 uvec2 tilesCovered(float low, float high, vec2 z, float centre, TileSize size, uint tiles) {
-    vec2 side = on(feature_orthographic) ? vec2(low, high)
-                                         : vec2(low / (low < 0.0 ? z.x : z.y), high / (high < 0.0 ? z.y : z.x));
-    // A hundredth of a pixel for rounding; pixels' centres are half a pixel from an edge.
+    vec2 side = on(feature_orthographic)
+                    ? vec2(low, high)
+                    : vec2(low / (low < 0.0 ? z.x : z.y), high / (high < 0.0 ? z.y : z.x));
+    // A hundredth of a pixel is kept for rounding; the centres of pixels are half a pixel from an edge.
     vec2 tile = (side / size.pixel + centre + vec2(-0.01, 0.01)) / size.side;
     vec2 bounded = clamp(vec2(floor(tile.x), floor(tile.y) + 1.0), 0.0, float(tiles));
     return uvec2(bounded);
 }
 
-// View depths of what the slab leaves of the ball, m, above 0; of nothing the first is the larger one.
-vec2 depthsOfBall(vec3 ball, float radius, vec2 slab) {
-    return vec2(max(max(slab.x, ball.z - radius), 1e-30), min(slab.y, ball.z + radius));
+// View depths of the part of the sphere that lies in the slab, m, above 0; empty where the first is the
+// larger one.
+vec2 depthsOfSphere(vec3 sphere, float radius, vec2 slab) {
+    return vec2(max(max(slab.x, sphere.z - radius), 1e-30), min(slab.y, sphere.z + radius));
 }
 
-// Columns [x, y) and rows [z, w) of tiles that a ball (view axes, m) may reach between the view depths `slab`; of none,
-// y <= x or w <= z. By the box around what the slab leaves of the ball: never too small, and exact for no light.
-uvec4 tilesOfBall(vec3 ball, float radius, vec2 slab, TileSize size, uvec2 tiles) {
-    vec2 depths = depthsOfBall(ball, radius, slab);
-    float beyond = max(max(slab.x - ball.z, ball.z - slab.y), 0.0);
+// Columns [x, y) and rows [z, w) of tiles that a sphere (centre in view axes and radius, m) may reach between
+// the view depths `slab`; empty where y <= x or w <= z. Found from the box around the part of the sphere in
+// the slab: conservative, larger than needed for every light.
+uvec4 tilesOfSphere(vec3 sphere, float radius, vec2 slab, TileSize size, uvec2 tiles) {
+    vec2 depths = depthsOfSphere(sphere, radius, slab);
+    float beyond = max(max(slab.x - sphere.z, sphere.z - slab.y), 0.0);
     float cut = sqrt(max(radius * radius - beyond * beyond, 0.0));
     vec2 z = vec2(depths.x, max(depths.x, depths.y));
-    uvec4 found = uvec4(tilesCovered(ball.x - cut, ball.x + cut, z, size.centre.x, size, tiles.x),
-                        tilesCovered(ball.y - cut, ball.y + cut, z, size.centre.y, size, tiles.y));
+    uvec4 found = uvec4(tilesCovered(sphere.x - cut, sphere.x + cut, z, size.centre.x, size, tiles.x),
+                        tilesCovered(sphere.y - cut, sphere.y + cut, z, size.centre.y, size, tiles.y));
     return depths.x <= depths.y ? found : uvec4(0u);
 }
 
-// Columns [x, y) of one row of tiles that the ball may reach there; of none, y <= x. `squared`: of the distance from its
-// centre to the row within the slab, at most: what is there of the ball is no farther along x than what is left.
-uvec2 columnsOfBall(vec3 ball, float radius, vec2 slab, float squared, TileSize size, uint columns) {
-    vec2 depths = depthsOfBall(ball, radius, slab);
+// Columns [x, y) of one row of tiles that the sphere may reach in the slab; empty where y <= x. `squared`: at
+// most the square of the distance from its centre to the row within the slab. By Pythagoras, the part of the
+// sphere in the row extends along x no farther than the root of what is left of the squared radius.
+uvec2 columnsOfSphere(vec3 sphere, float radius, vec2 slab, float squared, TileSize size, uint columns) {
+    vec2 depths = depthsOfSphere(sphere, radius, slab);
     float left = radius * radius - squared, cut = sqrt(max(left, 0.0));
     vec2 z = vec2(depths.x, max(depths.x, depths.y));
-    uvec2 found = tilesCovered(ball.x - cut, ball.x + cut, z, size.centre.x, size, columns);
+    uvec2 found = tilesCovered(sphere.x - cut, sphere.x + cut, z, size.centre.x, size, columns);
     return left >= 0.0 && depths.x <= depths.y ? found : uvec2(0u);
 }
 

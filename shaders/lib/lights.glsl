@@ -14,8 +14,8 @@ Incident fromDirectionalLight(Light light) {
     return Incident(light.position, light.intensity);
 }
 
-// The window max(1 - (d / range)^4, 0) is compared first, so that it is exactly zero from the range on: a light
-// that is out of reach adds nothing, not even rounding, whether or not it is evaluated.
+// The window max(1 - (d / range)^4, 0) is compared first, so that it is exactly zero from the range on: a
+// light that is out of reach adds nothing, not even rounding, whether or not it is evaluated.
 Incident fromPointLight(Light light, vec3 position) {
     vec3 to_light = light.position - position;
     float d2 = max(dot(to_light, to_light), MIN_LIGHT_DISTANCE_SQUARED);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Light from polygons, ellipses and cylinders of constant radiance under a linearly transformed cosine (Heitz,
-// Dupuy, Hill and Neubelt 2016). Every direction of a light becomes a direction under the plain cosine by M^-1,
-// where the integral is known: Lambert's contour (1760, "Photometria"), edge by edge.
+// Light from polygons, ellipses and cylinders of constant radiance under a linearly transformed cosine
+// (Heitz, Dupuy, Hill and Neubelt 2016). Every direction of a light becomes a direction under the plain
+// cosine by M^-1, where the integral is known: Lambert's contour (1760, "Photometria"), edge by edge.
 //
-// Vectors are in the frame of shared/contract/ltc.h (z = n), from the surface, of any length whose square float32
-// holds. A factor is the vector (1 / pi) integral of l dl over what of the light is above the horizon; its z is the
-// share, 0 to 1, that the light has of a sky as bright, pi times it the irradiance for radiance 1.
+// Vectors are in the frame of shared/contract/ltc.h (z = n), from the surface, of any length whose square
+// float32 holds. A factor is the vector (1 / pi) integral of l dl over what of the light is above the
+// horizon; its z is the share, 0 to 1, that the light has of a sky as bright, pi times it the irradiance for
+// radiance 1.
 #ifndef LTC_GLSL
 #define LTC_GLSL
 
@@ -22,8 +23,8 @@ vec3 fromCosine(Ltc m, vec3 l) { return vec3(l.x / m.inverse_a + m.b * l.z, l.y 
 
 vec3 unitOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 
-// acos(x) / sqrt(1 - x^2) for x in [0, 1]: the polynomial of degree 7 with the least relative error, 6e-7, that is
-// exact at 0. GLSL's acos and atan promise far less.
+// acos(x) / sqrt(1 - x^2) for x in [0, 1]: the polynomial of degree 7 with the least relative error, 6e-7,
+// that is exact at 0. GLSL's acos and atan promise far less.
 float arcRatio(float x) {
     float p = 0.140058979 - 0.027750602 * x;
     p = -0.329970568 + p * x;
@@ -45,16 +46,16 @@ float angleOf(float cosine, float sine) {
     return cosine >= 0.0 ? small : PI - small;
 }
 
-// The part of an outline between two directions on the great circle through them, counter-clockwise about where
-// the light is; the sum over a closed outline is its factor. Zero for no direction, or one.
+// The part of an outline between two directions on the great circle through them, counter-clockwise about
+// where the light is; the sum over a closed outline is its factor. Zero for no direction, or one.
 vec3 edgeFactor(vec3 from, vec3 to) {
     vec3 p = unitOrZero(from), q = unitOrZero(to);
     vec3 c = cross(p, q);
     return c * (angleRatio(dot(p, q), length(c)) * 0.5 * INVERSE_PI);
 }
 
-// An outline above the horizon, as it grows edge by edge. What is convex crosses the horizon twice or never; between
-// the two the horizon closes the outline.
+// An outline above the horizon, as it grows edge by edge. What is convex crosses the horizon twice or never;
+// between the two the horizon closes the outline.
 struct Outline {
     vec3 sum;
     vec3 leaves, returns;  // where it crosses, down and up; 0 where it does not
@@ -74,8 +75,8 @@ void addEdge(inout Outline o, vec3 p, vec3 q) {
     if (crosses && q_above) o.returns = crossing;
 }
 
-// A parallelogram c +- x +- y whose cross(x, y) points away from the surface. One as small as it looks from afar is
-// taken as a point: its outline is a sum of large parts.
+// A parallelogram c +- x +- y whose cross(x, y) points away from the surface. One as small as it looks from
+// afar is taken as a point: its outline is a sum of large parts.
 vec3 parallelogramFactor(Ltc m, vec3 c, vec3 x, vec3 y) {
     c = toCosine(m, c), x = toCosine(m, x), y = toCosine(m, y);
     Outline o = noOutline();
@@ -89,9 +90,9 @@ vec3 parallelogramFactor(Ltc m, vec3 c, vec3 x, vec3 y) {
     return c.z > reach && c2 > 16384.0 * reach * reach ? afar : closed(o);
 }
 
-// The cone of directions c + a cos t + b sin t, for any ellipse whose plane misses the surface, in its own axes:
-// (half_x cos t, half_y sin t, 1) along x, y, z. After Heitz and Hill 2017, "Real-Time Line- and Disk-Light Shading
-// with Linearly Transformed Cosines", whose matrix is the inverse of one of the two here.
+// The cone of directions c + a cos t + b sin t, for any ellipse whose plane misses the surface, in its own
+// axes: (half_x cos t, half_y sin t, 1) along x, y, z. After Heitz and Hill 2017, "Real-Time Line- and
+// Disk-Light Shading with Linearly Transformed Cosines", whose matrix is the inverse of one of the two here.
 struct Cone {
     vec3 x, y, z;  // unit; right-handed
     float half_x, half_y;  // half_x >= half_y >= 0
@@ -108,8 +109,8 @@ float nearerRoot(float x, float trace, float minors, float det) {
 Cone coneOf(vec3 c, vec3 a, vec3 b) {
     vec3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
     float volume = abs(dot(c, ab));
-    // Both c c^T - a a^T - b b^T and its adjoint, the same of the cross products, have z for their one positive
-    // eigenvalue; in the first it is large where the cone is narrow, in the second where it is wide.
+    // Both c c^T - a a^T - b b^T and its adjoint, the same of the cross products, have z for their one
+    // positive eigenvalue; in the first it is large where the cone is narrow, in the second where it is wide.
     float c2 = dot(c, c);
     bool narrow = volume < c2 * sqrt(c2);
     vec3 p = narrow ? c : ab, q = narrow ? a : bc, r = narrow ? b : ca;
@@ -117,20 +118,23 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     float scale = sqrt(size);
     p *= scale, q *= scale, r *= scale;
     vec3 pq = cross(p, q), rp = cross(r, p), qr = cross(q, r);
-    // The largest root of its characteristic polynomial, the only positive one: by angles (Smith 1961, "Eigenvalues of
-    // a Symmetric 3 x 3 Matrix"), and since these know only half the digits where two roots are near one another, by
-    // Laguerre's method, which triples them with every step where all roots are real.
+    // The largest root of its characteristic polynomial, the only positive one: by angles (Smith 1961,
+    // "Eigenvalues of a Symmetric 3 x 3 Matrix"), and since these know only half the digits where two roots
+    // are near one another, by Laguerre's method, which triples them with every step where all roots are
+    // real.
     float trace = dot(p, p) - dot(q, q) - dot(r, r);
     float minors = dot(qr, qr) - dot(pq, pq) - dot(rp, rp);
     float det = dot(p, qr);
     det *= det;
-    float mean = trace * (1.0 / 3.0), spread2 = max(mean * mean - minors * (1.0 / 3.0), 1e-30), wide = sqrt(spread2);
+    float mean = trace * (1.0 / 3.0), spread2 = max(mean * mean - minors * (1.0 / 3.0), 1e-30),
+          wide = sqrt(spread2);
     float cosine = clamp((mean * (mean * mean - 0.5 * minors) + 0.5 * det) / (spread2 * wide), -1.0, 1.0);
     float root = mean + 2.0 * wide * cos(angleOf(cosine, sqrt(1.0 - cosine * cosine)) * (1.0 / 3.0));
     root = nearerRoot(root, trace, minors, det);
     root = nearerRoot(root, trace, minors, det);
     root = max(root, 0.0);
-    // adj(S - root 1) = adj S + root S + root (root - trace) 1, which is z z^T but for a factor: its longest column.
+    // adj(S - root 1) = adj S + root S + root (root - trace) 1, which is z z^T but for a factor: its longest
+    // column.
     mat3 s = outerProduct(p, p) - outerProduct(q, q) - outerProduct(r, r);
     mat3 adjoint = outerProduct(qr, qr) - outerProduct(pq, pq) - outerProduct(rp, rp) + root * s;
     float d = root * (root - trace);
@@ -142,8 +146,8 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     z = unitOrZero(z);
     if (dot(z, c) < 0.0) z = -z;
 
-    // Across z the first matrix is left, two by two. A frame by Duff et al. 2017, "Building an Orthonormal Basis,
-    // Revisited".
+    // Across z the first matrix is left, two by two. A frame by Duff et al. 2017, "Building an Orthonormal
+    // Basis, Revisited".
     float sign_z = z.z >= 0.0 ? 1.0 : -1.0;
     float k = -1.0 / (sign_z + z.z), kxy = z.x * z.y * k;
     vec3 u = vec3(1.0 + sign_z * z.x * z.x * k, sign_z * kxy, -sign_z * z.x);
@@ -174,9 +178,9 @@ float atanhRatio(float x) {
     return abs(x) < 0.25 ? series : 0.5 * log((1.0 + x) / max(1.0 - x, 1e-7)) / x;
 }
 
-// The part of an outline along the cone from one t to a later one, both as (cos, sin), in the cone's axes; `beyond`:
-// over half of it. In closed form: with r = (half_x cos t, half_y sin t, 1) the integral of cross(r, dr) / r.r, whose
-// denominator is 1 + half_y^2 + (half_x^2 - half_y^2) cos^2 t.
+// The part of an outline along the cone from one t to a later one, both as (cos, sin), in the cone's axes;
+// `beyond`: over half of it. In closed form: with r = (half_x cos t, half_y sin t, 1) the integral of
+// cross(r, dr) / r.r, whose denominator is 1 + half_y^2 + (half_x^2 - half_y^2) cos^2 t.
 vec3 arcFactor(Cone cone, vec2 from, vec2 to, bool beyond) {
     float x2 = cone.half_x * cone.half_x, y2 = cone.half_y * cone.half_y;
     float gx = 1.0 + x2, gy = 1.0 + y2, between = max(x2 - y2, 0.0);

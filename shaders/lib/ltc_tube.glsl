@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A closed cylinder under a linearly transformed cosine. All of it that is seen has one radiance, so its outline is
-// all that counts: two straight lines along its side, and at each end the part of the rim that is outermost, the far
-// part where the end's face is seen and the near one where it is not.
+// A closed cylinder under a linearly transformed cosine. All of it that is seen has one radiance, so its
+// outline is all that counts: two straight lines along its side, and at each end the part of the rim that is
+// outermost, the far part where the end's face is seen and the near one where it is not.
 #ifndef LTC_TUBE_GLSL
 #define LTC_TUBE_GLSL
 
@@ -11,7 +11,8 @@
 struct Tube {
     vec3 centre, half_axis;  // from there to the top
     vec3 top, bottom;        // centres of its ends
-    vec3 towards, across;  // radius long, at right angles to the axis: towards the surface, and along cross(axis, towards)
+    vec3 towards, across;    // radius long, at right angles to the axis: towards the surface, and along
+                             // cross(axis, towards)
     vec2 tangent;       // (cos, sin) of the angle from towards to where the two lines are
     bool beside;        // the surface is outside the cylinder made endless: there are lines
     bool top_shows, bottom_shows;
@@ -22,8 +23,9 @@ Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
     float along = -dot(centre, axis);
     vec3 from_axis = -centre - axis * along;
     float distance = length(from_axis);
-    vec3 x = distance > 1e-6 * radius ? from_axis / distance
-                                      : normalize(cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    vec3 x = distance > 1e-6 * radius
+                 ? from_axis / distance
+                 : normalize(cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     Tube t;
     t.centre = centre;
     t.half_axis = axis * half_length;
@@ -40,7 +42,8 @@ Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
 }
 
 vec2 onRim(Cone cone, vec3 direction) {
-    vec2 t = vec2(dot(direction, cone.x) * max(cone.half_y, 1e-6 * cone.half_x), dot(direction, cone.y) * cone.half_x);
+    vec2 t = vec2(dot(direction, cone.x) * max(cone.half_y, 1e-6 * cone.half_x),
+                  dot(direction, cone.y) * cone.half_x);
     return t * inversesqrt(max(dot(t, t), 1e-37));
 }
 
@@ -57,7 +60,8 @@ void addRim(inout Outline o, Cone cone, vec3 from, vec3 to, bool shows, bool bes
     if (!beside) p = -h.middle, q = p, middle = h.middle, rim = shows ? PI : 0.0;
 
     // Angles from its middle; the horizon's part may meet it on both sides.
-    vec2 rises = turned(h.middle, vec2(h.half_angle.x, -h.half_angle.y)), sets = turned(h.middle, h.half_angle);
+    vec2 rises = turned(h.middle, vec2(h.half_angle.x, -h.half_angle.y)),
+         sets = turned(h.middle, h.half_angle);
     float sky = angleOf(h.half_angle.x, h.half_angle.y);
     bool whole = h.half_angle.x <= -1.0;
     float turn = middle.x * h.middle.y - middle.y * h.middle.x;

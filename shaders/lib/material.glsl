@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The forward maker of a Surface: from the material's factors and textures at a fragment. The G-buffer pass
-// makes its Surface here too. Everything that needs screen-space derivatives (mip levels, the triangle's
-// normal) happens here and nowhere later.
+// Makes a Surface from the material's factors and textures at a fragment, for forward+ and for the G-buffer
+// pass. Everything that needs screen-space derivatives (mip levels, the triangle's normal) happens here and
+// nowhere later.
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
 
@@ -21,8 +21,9 @@ layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_t
 layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
 layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_texture;
 
-// Texture coordinates of a slot, worked out per vertex. Never from the material buffer here: lavapipe reads 0
-// in a quad's lanes that the triangle does not cover, and the derivatives that choose the mip level go wrong.
+// Texture coordinates of a slot, computed per vertex. They must not be computed here from the material
+// buffer: in the pixels of a quad that the triangle does not cover lavapipe reads 0 from it, and derivatives,
+// which choose the mip level, would be wrong.
 vec2 slotTexcoord(uint slot) {
 #if INPUTS >= 3
     if (on(feature_texture_transform) || on(feature_second_texcoord)) return v_slot_texcoords[slot];
@@ -37,16 +38,16 @@ vec4 baseColor() {
     return color;
 }
 
-// Alpha mask. Every pass that draws the material asks here, so a pre-pass cuts what shading cuts.
+// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading.
 bool isCutOut(vec4 base_color) {
     return on(feature_alpha_mask) && base_color.a < material.alpha_cutoff;
 }
 
 float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// Of the triangle, towards the viewer, who is in the direction of `towards` (of any length). The derivatives are scaled
-// first: in a tiny scene the square of their product's length would underflow. Seen edge-on, or without area: what
-// looks at the viewer.
+// The triangle's unit normal, facing the viewer, who is in the direction of `towards` (of any length). The
+// derivatives are scaled first, because in a tiny scene the square of their cross product's length would
+// underflow. For a triangle seen edge-on or without area it is the direction to the viewer.
 vec3 triangleNormal(vec3 towards) {
     vec3 dx = dFdxFine(v_world), dy = dFdyFine(v_world);
     precise vec3 n = cross(dx * (1.0 / max(largestOf(dx), 1e-37)), dy * (1.0 / max(largestOf(dy), 1e-37)));
@@ -56,8 +57,9 @@ vec3 triangleNormal(vec3 towards) {
 }
 
 // glTF 2.0: tangent space is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as MikkTSpace
-// asks; a back face of a double-sided material turns the result round. `triangle` stands in where a normal has
-// vanished: flattened by the node's scale, or by interpolation. What is known to have none asks no further.
+// defines it; on the back face of a double-sided material the result is negated. `triangle`, the triangle's
+// normal, replaces a normal that vanished, flattened by the node's scale or by interpolation; only variants
+// where that can happen check for it.
 vec3 shadingNormal(vec3 triangle) {
     precise vec3 n = v_normal;
     if (on(feature_normal_texture)) {
@@ -85,7 +87,8 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.lightmap = vec3(0.0);
     s.object_irradiance = vec3(0.0);
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
-        s.object_irradiance += on(feature_double_sided) && !gl_FrontFacing ? v_irradiance_behind : v_irradiance;
+        s.object_irradiance +=
+            on(feature_double_sided) && !gl_FrontFacing ? v_irradiance_behind : v_irradiance;
     if ((feature_object_lights & OBJECT_LIGHTS_SH) != 0) s.object_irradiance += harmonicIrradiance(s.normal);
     if (on(feature_unlit)) {  // see contract/material.h
         s.albedo = vec3(0.0);
@@ -113,7 +116,8 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.emission = vec3(0.0);
     if (on(feature_emission)) {
         s.emission = m.emission;
-        if (on(feature_emissive_texture)) s.emission *= texture(emissive_texture, slotTexcoord(SLOT_emissive)).rgb;
+        if (on(feature_emissive_texture))
+            s.emission *= texture(emissive_texture, slotTexcoord(SLOT_emissive)).rgb;
     }
     if (on(feature_lightmap_texture))
         s.lightmap = m.lightmap_intensity * texture(lightmap_texture, slotTexcoord(SLOT_lightmap)).rgb;

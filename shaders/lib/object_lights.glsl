@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --assign per_object: a draw's own lights, few of them per pixel, some per vertex, the rest as spherical harmonics.
+// --assign per_object: a draw's own lights, few of them per pixel, some per vertex, the rest as spherical
+// harmonics.
 #ifndef OBJECT_LIGHTS_GLSL
 #define OBJECT_LIGHTS_GLSL
 
@@ -33,7 +34,8 @@ vec3 vertexIrradiance(vec3 position, vec3 n) {
     return sum;
 }
 
-// Irradiance of the draw's other lights, W/m^2: below zero, where three bands of harmonics overshoot, it is none.
+// Irradiance of the draw's other lights, W/m^2; clamped to 0, as three bands of harmonics can overshoot below
+// it.
 vec3 harmonicIrradiance(vec3 n) {
     ObjectIrradiance e = object_lights[constants.draw].irradiance;
     vec3 linear = e.linear_x * n.x + e.linear_y * n.y + e.linear_z * n.z;

@@ -4,7 +4,9 @@
 #ifndef OCTAHEDRAL_GLSL
 #define OCTAHEDRAL_GLSL
 
-vec2 octahedralWrap(vec2 p) { return (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0); }
+vec2 octahedralWrap(vec2 p) {
+    return (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+}
 
 // n: unit. Returns x in the low `bits`, y above it.
 uint encodeOctahedral(vec3 n, uint bits) {
@@ -18,7 +20,8 @@ uint encodeOctahedral(vec3 n, uint bits) {
 
 vec3 decodeOctahedral(uint code, uint bits) {
     float top = float((1u << (bits - 1u)) - 1u);
-    ivec2 q = ivec2(bitfieldExtract(int(code), 0, int(bits)), bitfieldExtract(int(code), int(bits), int(bits)));
+    ivec2 q =
+        ivec2(bitfieldExtract(int(code), 0, int(bits)), bitfieldExtract(int(code), int(bits), int(bits)));
     vec2 p = vec2(q) * (1.0 / top);
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0) n.xy = octahedralWrap(p);

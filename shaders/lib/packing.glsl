@@ -12,7 +12,8 @@ uint packUnorm(float x, uint bits) {
 }
 
 float unpackUnorm(uint code, uint offset, uint bits) {
-    return float(bitfieldExtract(code, int(offset), int(bits))) * (1.0 / float((1u << bits) - 1u));  // of the top: 1
+    return float(bitfieldExtract(code, int(offset), int(bits))) *
+           (1.0 / float((1u << bits) - 1u));  // of the top: 1
 }
 
 // The square root of each component in 8 bits, with `w` (no root) above them.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What shading knows of a point. Two makers: forward+ from the material (material.glsl), deferred from the
-// G-buffer (gbuffer.glsl). Everything after that is shared.
+// What shading knows of a point. forward+ makes it from the material (material.glsl), deferred lighting from
+// the G-buffer (gbuffer.glsl). All later code is shared.
 #ifndef SURFACE_GLSL
 #define SURFACE_GLSL
 
@@ -23,7 +23,8 @@ struct Surface {
     vec3 object_irradiance; // forward+ with object_lights: of those that are not shaded per pixel, W/m^2
 };
 
-// Whether someone asks for the triangle's own normal: a channel. (Shading does where a shading normal may vanish.)
+// Whether the triangle's own normal is needed as a channel. (Shading needs it where a shading normal may
+// vanish.)
 bool needsGeometricNormal() { return on(feature_captured); }
 
 // Specular colour at normal incidence.

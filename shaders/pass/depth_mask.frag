@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 // INPUTS: 0 to 3
 
-// Depth of an alpha-masked material: what is cut out leaves none.
+// Depth of an alpha-masked material: holes write none.
 #include "shaders/lib/material.glsl"
 
 void main() {

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A thread four lists, whose masks are a texel: how many lights each of their segments holds, which words hold any, and
-// how many groups they take.
+// One thread for four lists, whose masks are one texel: counts the lights in each of their segments, marks
+// which words hold any, and counts the packets that they take.
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = 64) in;
@@ -14,8 +14,8 @@ struct FourCounts {
     uvec4 all, points, points_and_spots;
 };
 
-// Groups of whole lists; those behind the last list are no lists.
-uvec4 groupsOfFour(FourCounts sum, uint four) {
+// Packets of whole lists; 0 behind the last list.
+uvec4 packetsOfFour(FourCounts sum, uint four) {
     uvec4 result = uvec4(0u);
     for (uint i = 0u; i < 4u; ++i) {
         uint end = headOf(LightListCount(sum.all[i], sum.points[i], sum.points_and_spots[i], 0u)).end;
@@ -55,9 +55,9 @@ void main() {
             before = sum;
         }
     }
-    uvec4 groups = groupsOfFour(sum, four);
-    uvec4 begin = uvec4(0u, groups.x, groups.x + groups.y, groups.x + groups.y + groups.z);
+    uvec4 packets = packetsOfFour(sum, four);
+    uvec4 begin = uvec4(0u, packets.x, packets.x + packets.y, packets.x + packets.y + packets.z);
     for (uint i = 0u; i < 4u; ++i)
         if (four * 4u + i < grid.lists) counts[(four * 4u + i) * grid.segments].begin = begin[i];
-    four_begins[four] = begin.w + groups.w;
+    four_begins[four] = begin.w + packets.w;
 }

@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// The least and the largest view depth in each tile, over all samples of all its pixels, and how far transparents may
-// be seen in it: without end where a sample shows the background. A workgroup a tile, a thread four pixels.
-// MULTISAMPLED: 0 to 1
+// The least and the largest view depth in each tile, over all samples of all its pixels, and how far
+// transparent surfaces may be seen in it: without end where a sample shows the background. One workgroup for
+// each tile, one thread for four pixels. MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
 
@@ -20,7 +20,8 @@ ivec2 size() { return textureSize(depth, 0); }
 #endif
 
 const float NO_DEPTH = 2.0;
-shared uint nearest, deepest, background;  // reversed depths as bits of floats not below 0, which order as they do
+// Reversed depths as the bits of floats; of floats that are not negative the bits order as the values do.
+shared uint nearest, deepest, background;
 
 void add(float z, inout float near, inout float deep, inout bool open) {
     near = max(near, z);
@@ -38,9 +39,10 @@ void main() {
     float near = 0.0, deep = NO_DEPTH;
     bool open = false;
     uint side = 1u << grid.tile_shift;
-    // A tile of more pixels than the workgroup has: every LIGHT_TILE-th four of them, both ways.
+    // In a tile of more pixels than the workgroup covers at once, each thread steps by LIGHT_TILE pixels
+    // along both axes.
     uint steps = side / LIGHT_TILE, i = 0u;
-    // Not `for`, which runs a body more on lavapipe.
+    // A `for` loop would run its body once more on lavapipe.
     do {
         uvec2 step = uvec2(i % steps, i / steps);
         ivec2 p = ivec2(gl_WorkGroupID.xy * side + step * LIGHT_TILE + 2u * gl_LocalInvocationID.xy);
@@ -55,7 +57,7 @@ void main() {
                 add(texelFetch(depth, min(p + 1, last), s).r, near, deep, open);
             } while (++s < textureSamples(depth));
 #else
-            // What lies beyond the picture's edge is its last pixel again.
+            // Beyond the picture's edge the last pixel is repeated.
             vec4 z = textureGather(depth, vec2(p + 1) / vec2(size()));
             add(z.x, near, deep, open);
             add(z.y, near, deep, open);
@@ -64,7 +66,7 @@ void main() {
 #endif
         }
     } while (++i < steps * steps);
-    // One atomic a subgroup: its threads' would wait for each other.
+    // One atomic operation for each subgroup, as those of single threads would wait for each other.
     near = subgroupMax(near);
     deep = subgroupMin(deep);
     open = subgroupOr(open ? 1u : 0u) != 0u;

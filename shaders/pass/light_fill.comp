@@ -2,14 +2,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A thread a list and segment: the numbers of its lights, in order, each kind from a new group on; the first segment's
-// also writes the list's head and fills its groups up.
+// One thread for each list and segment: writes the numbers of its lights in order, each kind beginning a new
+// packet. The thread of the first segment also writes the list's head and pads its packets.
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = 64) in;
 
-// The places of a kind's groups behind its lights: at most one group's.
-void fillUp(uint from, uint end) {
+// Pads the last packet of a kind, from the place behind its lights, with the null light.
+void pad(uint from, uint end) {
     for (uint i = 0u; i < feature_list_width; ++i)
         if (from + i < end) indices[from + i] = grid.null_light;
 }
@@ -21,15 +21,17 @@ void main() {
     LightListHead head = headOf(count);
     bool fits = head.end <= grid.capacity;
     // Where the next light of each kind goes; earlier segments' lights come before it.
-    uint point = head.begin * grid.width, spot = head.point_end * grid.width, area = head.spot_end * grid.width;
+    uint point = head.begin * grid.width, spot = head.point_end * grid.width,
+         area = head.spot_end * grid.width;
     if (segment == 0u) {
         if (!fits) atomicAdd(overflowed_lists, 1u);
         heads[list] = fits ? head : LightListHead(0u, grid.all_point_end, grid.all_spot_end, grid.all_end);
         listed[list] = fits ? count.all : grid.local_lights;
         if (fits) {
-            fillUp(point + count.points, spot);
-            if (on(feature_spot_lights)) fillUp(spot + count.points_and_spots - count.points, area);
-            if (on(feature_area_lights)) fillUp(area + count.all - count.points_and_spots, head.end * grid.width);
+            pad(point + count.points, spot);
+            if (on(feature_spot_lights)) pad(spot + count.points_and_spots - count.points, area);
+            if (on(feature_area_lights))
+                pad(area + count.all - count.points_and_spots, head.end * grid.width);
         }
     }
     uint place = list * grid.segments;
@@ -40,8 +42,8 @@ void main() {
     }
     uint left = fits ? counts[place + segment].all : 0u;
     uint mask = 0u, word = 0u, used = 0u, next = segment * (SEGMENT_WORDS / 32u), first = 0u;
-    // One loop for words and bits, as nested ones would each run a body too many; a light a turn, but for 32 words that
-    // are all empty.
+    // One loop over words and bits, as nested loops would each run one body too many. Each iteration writes a
+    // light, except where it passes 32 words that are all empty.
     while (left > 0u) {
         if (mask == 0u && used == 0u) {
             used = used_words[maskWord(next, list)];

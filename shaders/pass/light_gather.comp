@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A workgroup a cell: its threads test a light each until all are done.
+// One workgroup for each cell: its threads test one light each until all lights are done.
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = LIST_GROUP) in;

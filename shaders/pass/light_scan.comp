@@ -2,8 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One workgroup: how many groups each four lists take becomes where they begin, after the list of all lights. A thread
-// sums a run of them, the workgroup the runs (Hillis and Steele 1986, "Data parallel algorithms").
+// One workgroup: an exclusive prefix sum turns the number of packets of each four lists into where they
+// begin, behind the list of all lights. Each thread sums a run of them, then the workgroup the runs (Hillis
+// and Steele 1986, "Data parallel algorithms").
 #include "shaders/lib/light_kernel.glsl"
 
 layout(local_size_x = LIST_GROUP) in;
@@ -26,8 +27,8 @@ void main() {
     }
     uint begin = grid.all_end + sums[thread] - sum;
     for (uint i = first; i < end; ++i) {
-        uint groups = four_begins[i];
+        uint packets = four_begins[i];
         four_begins[i] = begin;
-        begin += groups;
+        begin += packets;
     }
 }

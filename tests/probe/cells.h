@@ -63,8 +63,8 @@ inline glm::dvec3 nearestInCell(const glm::dvec3& p, const Cell& cell) {
     return best;
 }
 
-// A ball, or the sector of one: what a point light or a spot lights.
-struct Felt {
+// The region that a point light (a sphere) or a spot (the sector of one) lights.
+struct LitRegion {
     glm::dvec3 apex, axis;
     double range = 1, half = glm::pi<double>();  // half: the cone's half angle, rad
 
@@ -86,18 +86,18 @@ struct Felt {
 
 // The distance between the two convex sets, by alternating projections (Cheney and Goldstein 1959, "Proximity
 // maps for convex sets"), from several starts; negative where it has not settled.
-inline double gap(const Felt& felt, const Cell& cell) {
+inline double gap(const LitRegion& region, const Cell& cell) {
     const auto corners = cell.corners();
     double least = std::numeric_limits<double>::infinity();
     const glm::dvec3 middle = (corners[0] + corners[7]) * 0.5;
-    glm::dvec3 p = nearestInCell(felt.apex, cell);
-    if (glm::distance(p, felt.nearest(p)) > glm::distance(middle, felt.nearest(middle))) p = middle;
+    glm::dvec3 p = nearestInCell(region.apex, cell);
+    if (glm::distance(p, region.nearest(p)) > glm::distance(middle, region.nearest(middle))) p = middle;
     double before = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 20000; ++i) {
-        const glm::dvec3 q = felt.nearest(p);
+        const glm::dvec3 q = region.nearest(p);
         p = nearestInCell(q, cell);
         least = glm::distance(p, q);
-        if (least < 1e-13 || (i % 50 == 49 && before - least < 1e-12 * felt.range)) return least;
+        if (least < 1e-13 || (i % 50 == 49 && before - least < 1e-12 * region.range)) return least;
         if (i % 50 == 49) before = least;
     }
     return -1;

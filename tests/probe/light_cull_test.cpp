@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tests that keep lights out of cells, against exact intersections in double precision: never a false no,
-// and how many false yeses.
+// The tests that keep lights out of cells, against exact intersections in double precision: no false
+// negatives, and how many false positives.
 #include "shared/contract/features.h"
 #include "shared/light/light_grid.h"
 #include "tests/probe/cells.h"
@@ -24,7 +24,7 @@ namespace diptych {
 namespace {
 
 struct Case {
-    Felt felt;
+    LitRegion region;
     Cell cell;
 };
 
@@ -41,28 +41,28 @@ std::vector<Case> randomCases(std::size_t count, bool spots, unsigned seed) {
         c.cell.x = glm::dvec2(both(random)) + glm::dvec2(0, side);
         c.cell.y = glm::dvec2(both(random)) + glm::dvec2(0, side);
         const double range = depth * std::pow(10.0, 2 * unit(random) - 1.5);
-        c.felt.range = static_cast<double>(static_cast<float>(range));
-        // Where being felt is a toss: about a range away from the cell.
+        c.region.range = static_cast<double>(static_cast<float>(range));
+        // About a range away from the cell, where reaching it is a toss-up.
         const auto corners = c.cell.corners();
         const glm::dvec3 at = glm::mix(corners[0], corners[7], unit(random));
         glm::dvec3 away(both(random), both(random), both(random));
-        c.felt.apex = glm::dvec3(glm::vec3(at + glm::normalize(away) * range * (0.5 + unit(random))));
+        c.region.apex = glm::dvec3(glm::vec3(at + glm::normalize(away) * range * (0.5 + unit(random))));
         if (spots) {
             const double full = std::pow(unit(random), 2.0) * 179;
-            c.felt.half = glm::radians(full / 2);
-            glm::dvec3 aim = glm::normalize(at - c.felt.apex);
-            c.felt.axis = glm::normalize(aim + glm::dvec3(both(random), both(random), both(random)) * 0.8);
-            c.felt.range *= 1 + unit(random);
-            c.felt.range = static_cast<double>(static_cast<float>(c.felt.range));
+            c.region.half = glm::radians(full / 2);
+            glm::dvec3 aim = glm::normalize(at - c.region.apex);
+            c.region.axis = glm::normalize(aim + glm::dvec3(both(random), both(random), both(random)) * 0.8);
+            c.region.range *= 1 + unit(random);
+            c.region.range = static_cast<double>(static_cast<float>(c.region.range));
         } else {
-            c.felt.axis = {0, 0, 1};
+            c.region.axis = {0, 0, 1};
         }
         cases.push_back(c);
     }
     return cases;
 }
 
-// Tiny cells just within what is felt: at the rim of a cone's cap, on its side, on a ball's surface.
+// Tiny cells just within the lit region: at the rim of a cone's cap, on its side, on a sphere's surface.
 std::vector<Case> edgeCases(std::size_t count, bool spots, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
@@ -71,28 +71,29 @@ std::vector<Case> edgeCases(std::size_t count, bool spots, unsigned seed) {
         Case c;
         const double depth = std::pow(10.0, 2 * unit(random));
         const glm::dvec3 p(both(random) * depth, both(random) * depth, depth);
-        c.felt.range = static_cast<double>(static_cast<float>(depth * (0.1 + unit(random))));
-        c.felt.axis = glm::normalize(glm::dvec3(both(random), both(random), both(random)));
-        glm::dvec3 towards = c.felt.axis;
+        c.region.range = static_cast<double>(static_cast<float>(depth * (0.1 + unit(random))));
+        c.region.axis = glm::normalize(glm::dvec3(both(random), both(random), both(random)));
+        glm::dvec3 towards = c.region.axis;
         if (spots) {
-            c.felt.half = glm::radians(1 + 88 * unit(random));
-            const glm::dvec3 across =
-                glm::normalize(glm::cross(c.felt.axis, glm::dvec3(both(random), both(random), both(random))));
-            const double angle = 0.998 * c.felt.half;
-            towards = c.felt.axis * std::cos(angle) + across * std::sin(angle);
+            c.region.half = glm::radians(1 + 88 * unit(random));
+            const glm::dvec3 across = glm::normalize(
+                glm::cross(c.region.axis, glm::dvec3(both(random), both(random), both(random))));
+            const double angle = 0.998 * c.region.half;
+            towards = c.region.axis * std::cos(angle) + across * std::sin(angle);
         }
         const double along = spots && unit(random) < 0.5 ? 0.2 + 0.7 * unit(random) : 0.998;
-        c.felt.apex = glm::dvec3(glm::vec3(p - towards * (along * c.felt.range)));
+        c.region.apex = glm::dvec3(glm::vec3(p - towards * (along * c.region.range)));
         c.cell.x = glm::dvec2(p.x / depth) + glm::dvec2(-1e-5, 1e-5);
         c.cell.y = glm::dvec2(p.y / depth) + glm::dvec2(-1e-5, 1e-5);
         c.cell.z = depth * glm::dvec2(1 - 1e-5, 1 + 1e-5);
         if (!spots && unit(random) < 0.5) {
-            // Or a froxel as deep as a slice, whose near or far face the ball just passes.
+            // Or a froxel as deep as a slice, whose near or far face the sphere just passes.
             const bool far = unit(random) < 0.5;
             c.cell = {{-0.05, 0.05}, {-0.05, 0.05}, {depth, 1.1 * depth}};
-            c.felt.apex = {
-                0, 0, far ? 1.1 * depth + c.felt.range - 2e-4 * depth : depth - c.felt.range + 2e-4 * depth};
-            c.felt.apex = glm::dvec3(glm::vec3(c.felt.apex));
+            c.region.apex = {
+                0, 0,
+                far ? 1.1 * depth + c.region.range - 2e-4 * depth : depth - c.region.range + 2e-4 * depth};
+            c.region.apex = glm::dvec3(glm::vec3(c.region.apex));
         }
         cases.push_back(c);
     }
@@ -105,10 +106,10 @@ std::vector<gpu::LightBound> boundsOf(const std::vector<Case>& cases, bool spots
     for (const Case& c : cases) {
         Light light;
         light.kind = spots ? LightKind::spot : LightKind::point;
-        light.position = {c.felt.apex.x, -c.felt.apex.y, -c.felt.apex.z};
-        light.direction = {c.felt.axis.x, -c.felt.axis.y, -c.felt.axis.z};
-        light.range = static_cast<float>(c.felt.range);
-        light.outer_cone = static_cast<float>(c.felt.half);
+        light.position = {c.region.apex.x, -c.region.apex.y, -c.region.apex.z};
+        light.direction = {c.region.axis.x, -c.region.axis.y, -c.region.axis.z};
+        light.range = static_cast<float>(c.region.range);
+        light.outer_cone = static_cast<float>(c.region.half);
         lights.push_back(light);
     }
     View view;
@@ -120,7 +121,7 @@ std::vector<gpu::LightBound> boundsOf(const std::vector<Case>& cases, bool spots
 enum class Shrunk { nothing, radius, sides, depths, cone };
 
 struct Answer {
-    bool ball, cone, row;
+    bool sphere, cone, row;
 };
 
 std::vector<Answer> ask(Probes& probes, const std::vector<Case>& cases, bool spots, Shrunk shrunk) {
@@ -154,8 +155,8 @@ std::vector<Answer> ask(Probes& probes, const std::vector<Case>& cases, bool spo
 }
 
 struct Tally {
-    int felt = 0, apart = 0, false_no = 0, false_yes = 0;
-    int row_no = 0;  // felt, but said not to reach the cell's row
+    int meeting = 0, apart = 0, false_no = 0, false_yes = 0;
+    int row_no = 0;  // meets the cell, but is said not to reach its row
 };
 
 Tally tally(Probes& probes, bool spots, Shrunk shrunk, unsigned seed) {
@@ -164,11 +165,11 @@ Tally tally(Probes& probes, bool spots, Shrunk shrunk, unsigned seed) {
     const std::vector<Answer> answers = ask(probes, cases, spots, shrunk);
     Tally t;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const bool yes = answers[i].ball && (!spots || answers[i].cone);
-        const double distance = gap(cases[i].felt, cases[i].cell);
+        const bool yes = answers[i].sphere && (!spots || answers[i].cone);
+        const double distance = gap(cases[i].region, cases[i].cell);
         if (distance < 0) continue;
-        if (distance < 1e-12 * cases[i].felt.range) {
-            ++t.felt;
+        if (distance < 1e-12 * cases[i].region.range) {
+            ++t.meeting;
             t.false_no += !yes;
             t.row_no += !answers[i].row;
         } else {
@@ -180,17 +181,17 @@ Tally tally(Probes& probes, bool spots, Shrunk shrunk, unsigned seed) {
 }
 
 void print(const char* what, const Tally& t) {
-    std::printf("%s: %d pairs meet, %d do not, of which %.2f %% were kept\n", what, t.felt, t.apart,
+    std::printf("%s: %d pairs meet, %d do not, of which %.2f %% were kept\n", what, t.meeting, t.apart,
                 100.0 * t.false_yes / t.apart);
 }
 
 TEST(LightCull, ABallIsNeverMissed) {
     Probes probes;
     const Tally t = tally(probes, false, Shrunk::nothing, 21);
-    print("balls against froxels", t);
+    print("spheres against froxels", t);
     EXPECT_EQ(t.false_no, 0);
     EXPECT_EQ(t.row_no, 0);
-    EXPECT_GT(t.felt, 5000);
+    EXPECT_GT(t.meeting, 5000);
     EXPECT_GT(t.apart, 5000);
     // The nearest point of a froxel is found but where Newton's steps end on another piece.
     EXPECT_LT(t.false_yes, t.apart / 200) << "a test that keeps everything would pass the rest";
@@ -202,7 +203,7 @@ TEST(LightCull, ASpotIsNeverMissed) {
     print("spots against froxels", t);
     EXPECT_EQ(t.false_no, 0);
     EXPECT_EQ(t.row_no, 0);
-    EXPECT_GT(t.felt, 2000);
+    EXPECT_GT(t.meeting, 2000);
     EXPECT_GT(t.apart, 2000);
     EXPECT_LT(t.false_yes, t.apart / 2);
 }
@@ -224,7 +225,7 @@ TEST(LightCull, WhatIsOnePerCentTooSmallIsCaught) {
 
 // ---- the scatter kernel's rectangles -----------------------------------------------------------------
 
-// A picture's grid, a ball and a slab of depth, of which the rectangle of tiles is asked.
+// A picture's grid, a sphere and a slab of depth, of which the rectangle of tiles is asked.
 struct RectCase {
     gpu::LightGrid grid;
     glm::dvec3 centre;
@@ -284,7 +285,7 @@ enum class RectShrunk { nothing, radius, pixel, last_column, last_row };
 
 // What of the rectangles is wrong, tile by tile.
 struct RectTally {
-    std::size_t felt = 0, missed = 0, walked = 0, tiles = 0;
+    std::size_t meeting = 0, missed = 0, walked = 0, tiles = 0;
     std::size_t row_missed = 0, row_walked = 0;  // by the columns of each row
 };
 
@@ -292,7 +293,7 @@ double distanceTo(const RectCase& c, gpu::uint x, gpu::uint y, bool orthographic
     const double side = std::ldexp(double{c.grid.pixel}, static_cast<int>(c.grid.tile_shift));
     const glm::dvec2 middle = glm::dvec2(c.grid.centre) * double{c.grid.pixel};
     const glm::dvec2 xs = glm::dvec2(x, x + 1) * side - middle.x, ys = glm::dvec2(y, y + 1) * side - middle.y;
-    // Beyond the ball nothing matters: the last slice has no end.
+    // Beyond the sphere nothing matters: the last slice has no end.
     const glm::dvec2 zs(c.slab.near, std::min(double{c.slab.far}, c.centre.z + c.radius + 1));
     if (!orthographic) return glm::distance(c.centre, nearestInCell(c.centre, {xs, ys, zs}));
     const glm::dvec3 low(xs.x, ys.x, zs.x), high(xs.y, ys.y, zs.y);
@@ -343,11 +344,11 @@ RectTally rectangles(Probes& probes, bool orthographic, RectShrunk shrunk) {
                 const bool walked = x >= at(0) && x < columns && y >= at(2) && y < rows;
                 const auto column = static_cast<float>(x);
                 const bool in_row = column >= row_out[2 * row] && column < row_out[2 * row + 1];
-                const bool felt = distanceTo(cases[i], x, y, orthographic) <= cases[i].radius;
-                tally.felt += felt;
-                tally.missed += felt && !walked;
+                const bool meets = distanceTo(cases[i], x, y, orthographic) <= cases[i].radius;
+                tally.meeting += meets;
+                tally.missed += meets && !walked;
                 tally.walked += walked;
-                tally.row_missed += felt && !in_row;
+                tally.row_missed += meets && !in_row;
                 tally.row_walked += in_row;
                 ++tally.tiles;
             }
@@ -360,14 +361,15 @@ TEST(LightRect, NoTileThatALightReachesIsLeftOut) {
     for (const bool orthographic : {false, true}) {
         const RectTally t = rectangles(probes, orthographic, RectShrunk::nothing);
         std::printf("%s rectangles: of %zu tiles %zu are reached, %zu walked, row by row %zu\n",
-                    orthographic ? "orthographic" : "perspective", t.tiles, t.felt, t.walked, t.row_walked);
+                    orthographic ? "orthographic" : "perspective", t.tiles, t.meeting, t.walked,
+                    t.row_walked);
         EXPECT_EQ(t.missed, 0u);
         EXPECT_EQ(t.row_missed, 0u);
         EXPECT_LT(t.row_walked, t.walked) << "rows are cut shorter than the rectangle";
-        EXPECT_GT(t.felt, 5000u);
+        EXPECT_GT(t.meeting, 5000u);
         EXPECT_LT(t.walked, t.tiles / 2) << "a rectangle of all tiles would pass the rest";
         // A disc fills pi/4 of its square: at most 4/pi as many, of lights that cover many tiles.
-        EXPECT_LT(static_cast<double>(t.walked), 4 / glm::pi<double>() * static_cast<double>(t.felt));
+        EXPECT_LT(static_cast<double>(t.walked), 4 / glm::pi<double>() * static_cast<double>(t.meeting));
     }
 }
 

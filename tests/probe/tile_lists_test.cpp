@@ -71,14 +71,14 @@ std::vector<Light> randomLights(unsigned seed) {
     return lights;
 }
 
-Felt feltOf(const Light& light) {
+LitRegion litRegionOf(const Light& light) {
     const glm::dvec3 at(glm::vec3(light.position)), axis(glm::vec3(light.direction));
-    Felt felt;
-    felt.apex = {at.x, -at.y, -at.z};
-    felt.axis = glm::normalize(glm::dvec3(axis.x, -axis.y, -axis.z));
-    felt.range = static_cast<double>(light.range);
-    if (light.kind == LightKind::spot) felt.half = static_cast<double>(light.outer_cone);
-    return felt;
+    LitRegion region;
+    region.apex = {at.x, -at.y, -at.z};
+    region.axis = glm::normalize(glm::dvec3(axis.x, -axis.y, -axis.z));
+    region.range = static_cast<double>(light.range);
+    if (light.kind == LightKind::spot) region.half = static_cast<double>(light.outer_cone);
+    return region;
 }
 
 struct Lists {
@@ -174,10 +174,10 @@ std::vector<Light> edgeLights(const View& view, const Depths& depths) {
 }
 
 struct Count {
-    int felt = 0, missed = 0, apart = 0, kept = 0, far_kept = 0, outside = 0;
+    int meeting = 0, missed = 0, apart = 0, kept = 0, far_kept = 0, outside = 0;
 };
 
-// One tile's list against all lights. Far kept: at whose tile not even a ball twice as large as what the
+// One tile's list against all lights. Far kept: at whose tile not even a sphere twice as large as what the
 // light lights would arrive; a spot's sphere and cone may each reach what both together do not
 // (light_cull.glsl).
 void hold(Count& count, const std::vector<gpu::uint>& list, const std::vector<Light>& lights,
@@ -187,20 +187,20 @@ void hold(Count& count, const std::vector<gpu::uint>& list, const std::vector<Li
     EXPECT_TRUE(std::ranges::is_sorted(list));
     for (gpu::uint i = 0; i < lights.size(); ++i) {
         const bool is = listed.contains(i);
-        const Felt felt = feltOf(lights[i]);
-        const double distance = gap(felt, cell);
+        const LitRegion region = litRegionOf(lights[i]);
+        const double distance = gap(region, cell);
         if (distance < 0) continue;
-        if (distance < 1e-12 * felt.range) {
-            ++count.felt;
+        if (distance < 1e-12 * region.range) {
+            ++count.meeting;
             count.missed += !is;
             continue;
         }
         ++count.apart;
         count.kept += is;
-        Felt ball;
-        ball.apex = glm::dvec3(bounds[i].centre);
-        ball.range = 2 * static_cast<double>(bounds[i].radius);
-        if (glm::distance(ball.apex, nearestInCell(ball.apex, cell)) > ball.range) {
+        LitRegion wider;
+        wider.apex = glm::dvec3(bounds[i].centre);
+        wider.range = 2 * static_cast<double>(bounds[i].radius);
+        if (glm::distance(wider.apex, nearestInCell(wider.apex, cell)) > wider.range) {
             ++count.outside;
             count.far_kept += is;
         }
@@ -249,7 +249,7 @@ Held held(double nearer = 1) {
 }
 
 void print(const char* what, const Count& c) {
-    std::printf("%s: %d lights meet their tile, %d do not, of which %.2f %% were kept\n", what, c.felt,
+    std::printf("%s: %d lights meet their tile, %d do not, of which %.2f %% were kept\n", what, c.meeting,
                 c.apart, 100.0 * c.kept / c.apart);
 }
 
@@ -259,12 +259,12 @@ TEST(TileLists, HoldWhatReachesATileAndLittleElse) {
     print("transparents", all.transparent);
     for (const Count& count : {all.opaque, all.transparent}) {
         EXPECT_EQ(count.missed, 0);
-        EXPECT_GT(count.felt, 1000);
+        EXPECT_GT(count.meeting, 1000);
         EXPECT_EQ(count.far_kept, 0);
         EXPECT_GT(count.outside, 1000) << "there are lights that must not be listed";
         EXPECT_LT(count.kept, count.apart / 20);
     }
-    EXPECT_GT(all.transparent.felt, 2 * all.opaque.felt) << "what is in front of the opaques alone";
+    EXPECT_GT(all.transparent.meeting, 2 * all.opaque.meeting) << "what is in front of the opaques alone";
     EXPECT_EQ(all.no_subset, 0);
     EXPECT_GT(all.only_background, 3);
     EXPECT_GT(all.part_background, 10);

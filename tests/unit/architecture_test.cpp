@@ -386,6 +386,32 @@ TEST(Architecture, APlantedFolderIsFound) {
     EXPECT_TRUE(pathsOfAMachine({{"README.md", "see https://example.org/homework/a"}}).empty());
 }
 
+// clang-format, which keeps C++ within 110 columns, does not read GLSL.
+Faults longShaderLines(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!endsIn(path, {".glsl", ".vert", ".frag", ".comp"})) continue;
+        std::istringstream lines(text);
+        int number = 0;
+        for (std::string line; std::getline(lines, line);) {
+            ++number;
+            if (line.size() > 110) faults.push_back(path + ":" + std::to_string(number));
+        }
+    }
+    return faults;
+}
+
+TEST(House, ShadersKeepToTheColumnsOfTheRest) {
+    EXPECT_EQ(joined(longShaderLines(house())), "");
+}
+
+TEST(House, APlantedLongLineOfAShaderIsFound) {
+    const std::string fits = "// " + std::string(107, 'x') + "\n";
+    EXPECT_EQ(longShaderLines({{"shaders/lib/planted.glsl", fits + "//  " + std::string(107, 'x') + "\n"}}),
+              Faults{"shaders/lib/planted.glsl:2"});
+    EXPECT_TRUE(longShaderLines({{"shaders/lib/planted.glsl", fits}, {"README.md", fits + fits}}).empty());
+}
+
 // A forgotten channel fails by name.
 Faults channelsWithoutShader(const std::string& shader) {
     Faults faults;

@@ -186,9 +186,9 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
     const std::string page = tablePage();
     Files named;  // without all others, of which the recipes say nothing
     for (const auto& [row, names] : recipesOf(page))
-        for (const auto& [path, text] : sources())
-            if (std::ranges::any_of(names, [&](const auto& name) { return path.starts_with(name); }))
-                named[path] = text;
+        for (const auto& source : sources())
+            if (std::ranges::any_of(names, [&](const auto& name) { return source.first.starts_with(name); }))
+                named.insert(source);
     ASSERT_EQ(joined(recipeFaults(page, named)), "");
     const auto planted = [&](const std::string& file, const std::string& text) {
         Files files = named;

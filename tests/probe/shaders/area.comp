@@ -5,9 +5,9 @@
 #include "shaders/lib/area.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 / range^2;
-// v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell and Fresnel -> diffuse, specular radiance for a
-// light of radiance 1
+// kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 /
+// range^2; v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell and Fresnel -> diffuse,
+// specular radiance for a light of radiance 1
 const uint WIDTH = 30;
 
 void main() {

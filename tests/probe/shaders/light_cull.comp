@@ -5,8 +5,8 @@
 #include "shaders/lib/light_cull.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// A bound (12), a cell's sides x, y and depths (6) -> whether the ball reaches it, whether the cone does, whether the
-// ball reaches the cell's row.
+// A bound (12), a cell's sides x, y and depths (6) -> whether the bounding sphere reaches the cell, whether
+// the cone does, whether the sphere reaches the cell's row.
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     LightBound bound;
@@ -16,8 +16,9 @@ void main() {
     bound.cos_cone = IN(18, 7);
     bound.axis = IN3(18, 8);
     bound.sin_cone = IN(18, 11);
-    CellBounds cell = CellBounds(vec2(IN(18, 12), IN(18, 13)), vec2(IN(18, 14), IN(18, 15)), vec2(IN(18, 16), IN(18, 17)));
-    OUT(3, 0) = ballReaches(bound.centre, bound.radius, cell) ? 1.0 : 0.0;
+    CellBounds cell =
+        CellBounds(vec2(IN(18, 12), IN(18, 13)), vec2(IN(18, 14), IN(18, 15)), vec2(IN(18, 16), IN(18, 17)));
+    OUT(3, 0) = sphereReaches(bound.centre, bound.radius, cell) ? 1.0 : 0.0;
     OUT(3, 1) = coneReaches(bound, cell) ? 1.0 : 0.0;
     OUT(3, 2) = squaredDistanceToRow(bound.centre, cell) <= bound.radius * bound.radius ? 1.0 : 0.0;
 }

@@ -13,6 +13,6 @@ void main() {
     vec2 slab = vec2(IN(13, 4), IN(13, 5)), edges = vec2(IN(13, 12), IN(13, 12) + 1.0) * size.side;
     CellBounds row = CellBounds(vec2(0.0), (edges - size.centre.y) * size.pixel, slab);
     float squared = squaredDistanceToRow(IN3(13, 0), row);
-    uvec2 columns = columnsOfBall(IN3(13, 0), IN(13, 3), slab, squared, size, uint(IN(13, 10)));
+    uvec2 columns = columnsOfSphere(IN3(13, 0), IN(13, 3), slab, squared, size, uint(IN(13, 10)));
     for (uint i = 0; i < 2; ++i) OUT(2, i) = float(columns[i]);
 }

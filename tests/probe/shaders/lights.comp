@@ -5,7 +5,8 @@
 #include "shaders/lib/lights.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// position of the light from the surface, 1 / range^2, direction, cone scale, cone offset -> irradiance, direction
+// position of the light from the surface, 1 / range^2, direction, cone scale, cone offset -> irradiance,
+// direction
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     Light light;
