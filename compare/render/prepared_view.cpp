@@ -51,12 +51,18 @@ ListKernel kernelOf(LightKernel kernel, const Device& device) {
 
 }  // namespace
 
-SharedResources::SharedResources(Device& d, const Scene& scene)
+PipelineSet::PipelineSet(Device& device)
+    : material(Materials::makeLayout(device)),
+      layouts(device, material),
+      pipelines(device, layouts.pipeline) {}
+
+SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<PipelineSet> shared)
     : uploader(d),
       geometry(d, uploader, scene),
       materials(d, uploader, scene),
-      layouts(d, materials.layout()),
-      pipelines(d, layouts.pipeline) {
+      set(shared ? std::move(shared) : std::make_shared<PipelineSet>(d)),
+      layouts(set->layouts),
+      pipelines(set->pipelines) {
     uploader.flush();
 }
 

@@ -10,19 +10,30 @@
 #include "shared/scene/scene_view.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace diptych {
 
+// What all scenes on a device share: each pipeline is compiled once.
+struct PipelineSet {
+    explicit PipelineSet(Device& device);
+    OwnedDescriptorSetLayout material;
+    Layouts layouts;
+    Pipelines pipelines;
+};
+
 // What all Settings share: uploaded and compiled once.
 struct SharedResources {
-    SharedResources(Device& device, const Scene& scene);
+    // Without `set`: pipelines of its own.
+    SharedResources(Device& device, const Scene& scene, std::shared_ptr<PipelineSet> set = nullptr);
     Uploader uploader;
     Geometry geometry;
     Materials materials;
-    Layouts layouts;
-    Pipelines pipelines;
+    std::shared_ptr<PipelineSet> set;
+    Layouts& layouts;
+    Pipelines& pipelines;
 };
 
 // One view of the scene under one Settings, ready for passes. It does not outlive what it is made of.

@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace diptych {
 
@@ -173,12 +174,18 @@ struct PreparedFrames::State {
     std::vector<Frame> described;
 };
 
-Renderer::Renderer(Device& device, SceneViews& views)
-    : state_(new State{device, nullptr, views, SharedResources(device, views.scene())}) {}
-Renderer::Renderer(Device& device, const Scene& scene) {
+std::shared_ptr<PipelineSet> makePipelineSet(Device& device) {
+    return std::make_shared<PipelineSet>(device);
+}
+
+Renderer::Renderer(Device& device, SceneViews& views, std::shared_ptr<PipelineSet> pipelines)
+    : state_(
+          new State{device, nullptr, views, SharedResources(device, views.scene(), std::move(pipelines))}) {}
+Renderer::Renderer(Device& device, const Scene& scene, std::shared_ptr<PipelineSet> pipelines) {
     auto views = std::make_unique<SceneViews>(scene);
     SceneViews& all = *views;
-    state_.reset(new State{device, std::move(views), all, SharedResources(device, scene)});
+    state_.reset(
+        new State{device, std::move(views), all, SharedResources(device, scene, std::move(pipelines))});
 }
 Renderer::~Renderer() = default;
 

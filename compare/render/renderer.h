@@ -41,13 +41,20 @@ private:
     std::unique_ptr<State> state_;
 };
 
+// Pipelines for any number of Renderers on one device, whatever their scenes: each is compiled once. The
+// device outlives it.
+struct PipelineSet;
+std::shared_ptr<PipelineSet> makePipelineSet(Device& device);
+
 // Frames of one scene, one after another as they are asked for: everything is uploaded once for all of them
 // and every pipeline is compiled once, and a view of the scene is made once for all that is drawn of it.
 // Device and scene or views outlive it. Throws std::runtime_error: one line.
 class Renderer {
 public:
-    Renderer(Device& device, SceneViews& views);
-    Renderer(Device& device, const Scene& scene);  // with views of its own
+    // `pipelines`: of the same device; without them it has its own. Without views it has its own of the
+    // scene.
+    Renderer(Device& device, SceneViews& views, std::shared_ptr<PipelineSet> pipelines = nullptr);
+    Renderer(Device& device, const Scene& scene, std::shared_ptr<PipelineSet> pipelines = nullptr);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -56,7 +63,7 @@ public:
 
     // Of the two paths; all their images at once. Throws std::runtime_error as draw() does.
     PreparedFrames prepare(std::span<const Settings> settings);
-    // How many pipelines there are by now.
+    // How many pipelines there are by now, of all Renderers that share them.
     std::size_t pipelines() const;
 
 private:

@@ -62,8 +62,11 @@ gpu::Material gpuMaterial(const Material& m) {
 
 }  // namespace
 
-Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
-    : layout_(makeSetLayout(device, setTypes)) {
+OwnedDescriptorSetLayout Materials::makeLayout(Device& device) {
+    return makeSetLayout(device, setTypes);
+}
+
+Materials::Materials(Device& device, Uploader& uploader, const Scene& scene) : layout_(makeLayout(device)) {
     // Every image that a slot reads, as sRGB or as linear; index 0 stands in for slots without a texture.
     std::map<ImageUse, std::size_t> imageOf;
     std::vector<ImageUse> uses;

@@ -25,7 +25,8 @@ public:
     // Uploads every texture that a material reads, once for each way it is read (sRGB or linear).
     Materials(Device& device, Uploader& uploader, const Scene& scene);
 
-    VkDescriptorSetLayout layout() const { return layout_; }
+    // What set() is allocated with: the same for every scene, so that sets of any fit pipelines made with it.
+    static OwnedDescriptorSetLayout makeLayout(Device& device);
     VkDescriptorSet set(std::uint32_t material) const { return sets_[material]; }
     std::uint32_t count() const { return static_cast<std::uint32_t>(variants_.size()); }
 

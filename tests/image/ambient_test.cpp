@@ -105,7 +105,7 @@ TEST_P(AmbientTruth, BothPathsAreTheIntegral) {
     RenderOptions options;
     options.channels = allChannels();
     options.runs = 0;
-    const Frame truth = renderAll(device(), scene, {settings}, options).front();
+    const Frame truth = drawAll(scene, {settings}, options).front();
     for (const Frame& path : drawIn(scene, settings.ambient, size)) {
         const Coverage covered = coverage(truth, path);
         const DebugMode& mode = debugMode(lit_ambient);
@@ -116,7 +116,7 @@ TEST_P(AmbientTruth, BothPathsAreTheIntegral) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AmbientTruth,
+INSTANTIATE_TEST_SUITE_P(Builtin, AmbientTruth,
                          testing::Values("builtin:furnace", "builtin:gallery", "builtin:dielectrics",
                                          "builtin:normals", "builtin:lightmaps"),
                          [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });

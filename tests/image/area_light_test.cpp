@@ -29,7 +29,7 @@ TEST(AreaLightPictures, BothPathsAndEveryListAgree) {
     const Pose pose = poseAt(scene, 0);
     for (const Light& light : makeLights("area:30,point:9,spot:5", 7, boundsAtStart(scene, pose)))
         scene.lights.push_back(light);
-    Renderer renderer(device(), scene);
+    Renderer renderer(device(), scene, pipelines());
     for (const AreaLights how : {AreaLights::ltc, AreaLights::representative}) {
         const Frame every = draw(renderer, Path::forward_plus, how, Assignment::every);
         EXPECT_EQ(every.counters.nonfinite_pixels, 0u);
@@ -60,7 +60,7 @@ double meanError(const Frame& truth, const Frame& frame, int channel) {
 // have little. One representative point is far from both.
 TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Scene scene = loadScene("builtin:areas");
-    Renderer renderer(device(), scene);
+    Renderer renderer(device(), scene, pipelines());
     const Frame truth = draw(renderer, Path::reference, AreaLights::ltc, Assignment::every);
     const Frame ltc = draw(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
     const Frame points = draw(renderer, Path::deferred, AreaLights::representative, Assignment::every);
@@ -75,7 +75,7 @@ TEST(AreaLightPictures, TheTableIsNearTheReference) {
 // A scene without any is drawn by the same bits whichever way is asked for.
 TEST(AreaLightPictures, TheWayChangesNothingWithoutThem) {
     const Scene scene = loadScene("builtin:points");
-    Renderer renderer(device(), scene);
+    Renderer renderer(device(), scene, pipelines());
     const Frame a = draw(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
     const Frame b = draw(renderer, Path::deferred, AreaLights::representative, Assignment::every);
     EXPECT_EQ(differingPixels(a.channels.at(lit), b.channels.at(lit)), 0u);

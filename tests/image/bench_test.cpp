@@ -56,7 +56,7 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
         EXPECT_EQ(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)).data, first[i].data);
         EXPECT_EQ(frames.described(i).counters.lights, frame.counters.lights);
     }
-    // The twin: another mode does make pipelines.
+    // Negative control: another mode does make pipelines.
     Settings other = mode(Path::deferred, Assignment::every);
     other.gbuffer = GBufferEncoding::compact;
     renderer.prepare(std::vector{other});
@@ -97,7 +97,7 @@ TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
             EXPECT_GT(byHand.data[0], 0.0f);
             EXPECT_LT(furthest(byHand, picture), oneArithmetic) << kernel.name << ", " << length << " lights";
         }
-        // The twin: one light more is seen.
+        // Negative control: one light more is seen.
         runCpuKernel(workload, 47, byHand);
         EXPECT_GT(furthest(byHand, drawn->picture()), 100 * oneArithmetic);
     }

@@ -29,7 +29,8 @@ TEST(FrameOf, OneThreadAndTwoAreTheSameBits) {
     for (const char* threads : {"1", "2"}) {
         setenv("LP_NUM_THREADS", threads, 1);
         Device fresh{DeviceOptions{}};
-        frames.push_back(bothPaths(scene, smallPicture(GBufferEncoding::standard), fresh));
+        Renderer renderer(fresh, scene);
+        frames.push_back(bothPaths(renderer, smallPicture(GBufferEncoding::standard)));
     }
     unsetenv("LP_NUM_THREADS");
     for (std::size_t i = 0; i < 2; ++i)
@@ -73,9 +74,9 @@ TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
     options.runs = 0;
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         before.path = after.path = path;
-        const Frame second = renderAll(device(), scene, {before, after}, options)[1];
-        const Frame alone = renderAll(device(), scene, {after}, options)[0];
-        const Frame first = renderAll(device(), scene, {before}, options)[0];
+        const Frame second = drawAll(scene, {before, after}, options)[1];
+        const Frame alone = drawAll(scene, {after}, options)[0];
+        const Frame first = drawAll(scene, {before}, options)[0];
         expectSameChannels(second, alone);
         EXPECT_GT(differingPixels(first.channels.at(0), second.channels.at(0)), 0u)
             << "the change must show at all";
@@ -116,7 +117,7 @@ TEST(FrameOf, EveryTimeIsKeptInOrder) {
     options.runs = 3;
     Settings settings = smallPicture(GBufferEncoding::standard);
     settings.prepass = Switch::on;
-    const Frame frame = renderAll(device(), loadScene("builtin:triangle"), {settings}, options)[0];
+    const Frame frame = drawAll(loadScene("builtin:triangle"), {settings}, options)[0];
     EXPECT_EQ(frame.time.runs, 3);
     EXPECT_LE(frame.time.min, frame.time.median);
     EXPECT_LE(frame.time.median, frame.time.max);

@@ -18,7 +18,7 @@ Image litOf(Renderer& renderer, const Settings& settings) {
 
 TEST(IgnoredSettings, ChangeNoBit) {
     const Scene scene = loadScene("builtin:gallery");
-    Renderer renderer(device(), scene);
+    Renderer renderer(device(), scene, pipelines());
     std::size_t compared = 0, changed = 0;
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         Settings usual;

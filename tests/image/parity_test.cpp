@@ -10,8 +10,7 @@ namespace {
 class BuiltinParity : public testing::TestWithParam<std::string> {};
 class AssetParity : public testing::TestWithParam<std::string> {};
 
-void expectBitEqual(const Scene& scene, const Settings& settings) {
-    const std::vector<Frame> frames = bothPaths(scene, settings);
+void expectBitEqual(const std::vector<Frame>& frames) {
     expectSameChannels(frames[0], frames[1]);
     for (const Frame& frame : frames) {
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u)
@@ -21,8 +20,7 @@ void expectBitEqual(const Scene& scene, const Settings& settings) {
 }
 
 // What forward+ computes from an encoded and decoded surface is what deferred shows: nothing else differs.
-void expectExplained(const Scene& scene, const Settings& settings) {
-    const std::vector<Frame> frames = bothPaths(scene, settings);
+void expectExplained(const std::vector<Frame>& frames) {
     ASSERT_EQ(frames[1].through_gbuffer.size(), litModes.size());
     for (const auto& [mode, image] : frames[1].through_gbuffer)
         EXPECT_EQ(differingPixels(frames[0].channels.at(mode), image), 0u) << debugMode(mode).name;
@@ -34,44 +32,42 @@ void expectExplained(const Scene& scene, const Settings& settings) {
 }
 
 TEST_P(BuiltinParity, FullIsBitEqual) {
-    expectBitEqual(loadScene(GetParam()), smallPicture(GBufferEncoding::full));
+    expectBitEqual(uploaded(GetParam()).bothPaths(smallPicture(GBufferEncoding::full)));
 }
 
 TEST_P(BuiltinParity, PackedDiffersByItsEncodingAlone) {
-    const Scene scene = loadScene(GetParam());
     for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::compact})
-        expectExplained(scene, smallPicture(encoding));
+        expectExplained(uploaded(GetParam()).bothPaths(smallPicture(encoding)));
 }
 
 TEST_P(BuiltinParity, PrepassNeverChangesThePicture) {
-    const Scene scene = loadScene(GetParam());
     RenderOptions options;
     options.channels = allChannels();
     options.runs = 0;
-    std::vector<Settings> settings(2, smallPicture(GBufferEncoding::standard));
-    settings[0].prepass = Switch::on;
-    settings[1].prepass = Switch::off;
-    const std::vector<Frame> frames = renderAll(device(), scene, settings, options);
-    expectSameChannels(frames[0], frames[1]);
+    Settings with = smallPicture(GBufferEncoding::standard), without = with;
+    with.prepass = Switch::on;
+    without.prepass = Switch::off;
+    Renderer& renderer = uploaded(GetParam()).renderer;
+    expectSameChannels(renderer.draw(with, options), renderer.draw(without, options));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinParity, testing::ValuesIn(builtinScenes()),
+INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinParity, testing::ValuesIn(builtinScenes()),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
 TEST_P(AssetParity, FullIsBitEqualAndPackedIsExplained) {
     const std::filesystem::path file = assets() / GetParam();
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
-    const Scene scene = loadScene(file.string());
+    UploadedScene& scene = uploaded(file.string());
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {320, 180};
     settings.lights = "point:12,spot:4";
-    expectBitEqual(scene, settings);
+    expectBitEqual(bothPaths(scene.renderer, settings));
     settings.gbuffer = GBufferEncoding::standard;
-    expectExplained(scene, settings);
+    expectExplained(bothPaths(scene.renderer, settings));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AssetParity, testing::ValuesIn(assetScenes()), [](const auto& scene) {
+INSTANTIATE_TEST_SUITE_P(Asset, AssetParity, testing::ValuesIn(assetScenes()), [](const auto& scene) {
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
@@ -79,56 +75,60 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AssetParity, testing::ValuesIn(assetScenes()), 
 TEST(Parity, OfAmbientLight) {
     for (const char* name :
          {"builtin:gallery", "builtin:dielectrics", "builtin:occlusion", "builtin:ortho"}) {
-        const Scene scene = loadScene(name);
+        UploadedScene& scene = uploaded(name);
         for (const GBufferEncoding encoding :
              {GBufferEncoding::full, GBufferEncoding::standard, GBufferEncoding::compact}) {
             Settings settings = smallPicture(encoding);
             settings.ambient = {0.3f, 0.4f, 0.5f};
-            encoding == GBufferEncoding::full ? expectBitEqual(scene, settings)
-                                              : expectExplained(scene, settings);
+            const std::vector<Frame>& frames = scene.bothPaths(settings);
+            encoding == GBufferEncoding::full ? expectBitEqual(frames) : expectExplained(frames);
         }
     }
 }
 
-// The twins: each changes one constant in what one path draws, and the gate above must notice.
-class ParityTwin : public testing::Test {
+// Negative controls: each changes one constant in what one path draws, and the gate above must notice.
+class ParityNegativeControl : public testing::Test {
 protected:
-    static std::size_t changedPixels(const Scene& a, const Scene& b, int mode) {
-        const Settings settings = smallPicture(GBufferEncoding::full);
-        return differingPixels(bothPaths(a, settings)[0].channels.at(mode),
-                               bothPaths(b, settings)[1].channels.at(mode));
+    const std::vector<Frame>& sound(GBufferEncoding encoding) {
+        return scene.bothPaths(smallPicture(encoding));
     }
-    const Scene scene = loadScene("builtin:gallery");
-    Scene changed = scene;
+    // Between deferred on the sound scene and forward+ on the changed one.
+    std::size_t changedPixels(int mode) {
+        Renderer renderer(device(), changed, pipelines());
+        const Frame faulty = drawnBy(Path::forward_plus, renderer, smallPicture(GBufferEncoding::full));
+        return differingPixels(sound(GBufferEncoding::full)[0].channels.at(mode), faulty.channels.at(mode));
+    }
+    UploadedScene& scene = uploaded("builtin:gallery");
+    Scene changed = scene.scene;
 };
 
-TEST_F(ParityTwin, OneLightInAThousandthIsSeen) {
+TEST_F(ParityNegativeControl, OneLightInAThousandthIsSeen) {
     changed.lights.back().intensity *= 1.001f;
-    EXPECT_GT(changedPixels(scene, changed, 0), 0u);
+    EXPECT_GT(changedPixels(0), 0u);
 }
 
-TEST_F(ParityTwin, OneUlpOfAlbedoIsSeen) {
+TEST_F(ParityNegativeControl, OneUlpOfAlbedoIsSeen) {
     for (Material& m : changed.materials) m.base_color.r = std::nextafter(m.base_color.r, 0.0f);
-    EXPECT_GT(changedPixels(scene, changed, 1), 0u);
+    EXPECT_GT(changedPixels(1), 0u);
 }
 
-TEST_F(ParityTwin, OneUlpOfRoughnessIsSeen) {
+TEST_F(ParityNegativeControl, OneUlpOfRoughnessIsSeen) {
     for (Material& m : changed.materials) m.roughness = std::nextafter(m.roughness, 0.0f);
-    EXPECT_GT(changedPixels(scene, changed, 4), 0u);
-    EXPECT_GT(changedPixels(scene, changed, 0), 0u) << "and in lit";
+    EXPECT_GT(changedPixels(4), 0u);
+    EXPECT_GT(changedPixels(0), 0u) << "and in lit";
 }
 
-TEST_F(ParityTwin, APackedGBufferIsSeenByTheFullGate) {
-    const Frame full = bothPaths(scene, smallPicture(GBufferEncoding::full))[1];
-    const Frame packed = bothPaths(scene, smallPicture(GBufferEncoding::standard))[0];
+TEST_F(ParityNegativeControl, APackedGBufferIsSeenByTheFullGate) {
+    const Frame& full = sound(GBufferEncoding::full)[1];
+    const Frame& packed = sound(GBufferEncoding::standard)[0];
     for (const int mode : {0, 1, 2, 4, 40, 41})
         EXPECT_GT(differingPixels(full.channels.at(mode), packed.channels.at(mode)), 0u)
             << debugMode(mode).name;
 }
 
-TEST_F(ParityTwin, AnotherEncodingIsNotTheExplanation) {
-    const Frame compact = bothPaths(scene, smallPicture(GBufferEncoding::compact))[0];
-    const Frame standard = bothPaths(scene, smallPicture(GBufferEncoding::standard))[1];
+TEST_F(ParityNegativeControl, AnotherEncodingIsNotTheExplanation) {
+    const Frame& compact = sound(GBufferEncoding::compact)[0];
+    const Frame& standard = sound(GBufferEncoding::standard)[1];
     EXPECT_GT(differingPixels(compact.channels.at(0), standard.through_gbuffer.at(0)), 0u);
 }
 

@@ -31,7 +31,7 @@ std::vector<Frame> drawnAll(const Scene& scene, const std::vector<Settings>& set
     options.channels = {lit, static_cast<int>(gpu::DEBUG_light_count),
                         static_cast<int>(gpu::DEBUG_material_id)};
     options.runs = 0;
-    return renderAll(device(), scene, settings, options);
+    return drawAll(scene, settings, options);
 }
 
 Frame drawn(const Scene& scene, Assignment assign, int pixels, Size size = {160, 90}) {
@@ -142,7 +142,8 @@ TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     std::printf("changes of per_object beside those of every: up to %.2f %% of the local radiance\n",
                 100 * worst);
     EXPECT_GT(worst, 0) << "it is not every that was drawn";
-    // The twin: without a fade a light that changes its group would show by all of what the groups differ by.
+    // Negative control: without a fade a light that changes its group would show by all of what the groups
+    // differ by.
     const Scene scene = movingLamp(10.2);
     const Frame every = drawn(scene, Assignment::every, 0);
     const double jump =
@@ -171,7 +172,7 @@ TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
         options.channels = {static_cast<int>(gpu::DEBUG_lit_diffuse)};
         options.runs = 0;
         double sum = 0;
-        const std::vector<Frame> frames = renderAll(device(), s, {objects}, options);
+        const std::vector<Frame> frames = drawAll(s, {objects}, options);
         for (const float v : frames.front().channels.at(options.channels.front()).data) sum += double{v};
         return sum;
     };

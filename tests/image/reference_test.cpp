@@ -9,13 +9,17 @@
 namespace diptych::tests {
 namespace {
 
-Frame reference(const Scene& scene, Settings settings, ReferenceMode mode = ReferenceMode::surface) {
+Frame reference(Renderer& renderer, Settings settings, ReferenceMode mode = ReferenceMode::surface) {
     settings.path = Path::reference;
     settings.reference_mode = mode;
     RenderOptions options;
     options.channels = allChannels();
     options.runs = 0;
-    return renderAll(device(), scene, {settings}, options).front();
+    return renderer.draw(settings, options);
+}
+Frame reference(const Scene& scene, const Settings& settings, ReferenceMode mode = ReferenceMode::surface) {
+    Renderer renderer(device(), scene, pipelines());
+    return reference(renderer, settings, mode);
 }
 
 ChannelStats against(const Frame& truth, const Frame& frame, int mode, const Coverage& covered) {
@@ -37,8 +41,9 @@ std::size_t nonfinite(const Frame& frame) {
 void expectTruth(const Scene& scene, Settings settings) {
     settings.gbuffer = GBufferEncoding::full;
     settings.assign = Assignment::every;
-    const Frame truth = reference(scene, settings);
-    for (const Frame& path : bothPaths(scene, settings)) {
+    Renderer renderer(device(), scene, pipelines());
+    const Frame truth = reference(renderer, settings);
+    for (const Frame& path : bothPaths(renderer, settings)) {
         const Coverage covered = coverage(truth, path);
         ASSERT_GT(covered.count, 1000u);
         for (const int mode : {0, 40, 41}) {
@@ -109,11 +114,12 @@ double shareBeyond(const Frame& traced, const Frame& surface, int mode, const Co
 class BuiltinReference : public testing::TestWithParam<std::string> {};
 
 TEST_P(BuiltinReference, EveryChannelInBothModes) {
-    const Scene scene = loadScene(GetParam());
+    const Scene& scene = uploaded(GetParam()).scene;
+    Renderer& renderer = uploaded(GetParam()).renderer;
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {96, 54};
-    const Frame surface = reference(scene, settings),
-                traced = reference(scene, settings, ReferenceMode::scene);
+    const Frame surface = reference(renderer, settings),
+                traced = reference(renderer, settings, ReferenceMode::scene);
     for (const Frame* frame : {&surface, &traced})
         for (const DebugMode& mode : debugModes()) {
             ASSERT_EQ(frame->channels.contains(mode.number), mode.maker != MadeBy::paths_only) << mode.name;
@@ -143,7 +149,7 @@ TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
     EXPECT_GT(shareBeyond(traced, surface, 0, samePlaces(traced, surface)), 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinReference, testing::ValuesIn(builtinScenes()),
+INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinReference, testing::ValuesIn(builtinScenes()),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
 // ---- planted faults ----------------------------------------------------------------------------------
@@ -169,14 +175,15 @@ const Fault faults[] = {
      }},
 };
 
-class ReferenceTwin : public testing::TestWithParam<Fault> {
+class ReferenceNegativeControl : public testing::TestWithParam<Fault> {
 protected:
     // The reference and both paths.
     static std::vector<Frame> framesOf(const Scene& scene) {
         Settings settings = smallPicture(GBufferEncoding::full);
         settings.size = {96, 54};
-        std::vector<Frame> frames{reference(scene, settings)};
-        for (Frame& frame : bothPaths(scene, settings)) frames.push_back(std::move(frame));
+        Renderer renderer(device(), scene, pipelines());
+        std::vector<Frame> frames{reference(renderer, settings)};
+        for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
         return frames;
     }
     static Report verdict(const std::vector<Frame>& truth, const std::vector<Frame>& drawn,
@@ -193,7 +200,7 @@ protected:
     }
 };
 
-TEST_P(ReferenceTwin, IsSeenOnEitherSide) {
+TEST_P(ReferenceNegativeControl, IsSeenOnEitherSide) {
     static const Scene scene = loadScene("builtin:gallery");
     static const std::vector<Frame> sound = framesOf(scene);
     Scene changed = scene;
@@ -208,7 +215,7 @@ TEST_P(ReferenceTwin, IsSeenOnEitherSide) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, ReferenceTwin, testing::ValuesIn(faults),
+INSTANTIATE_TEST_SUITE_P(Faults, ReferenceNegativeControl, testing::ValuesIn(faults),
                          [](const auto& fault) { return std::string(fault.param.name); });
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "compare/verdict/tolerance.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/builtin/builtin.h"
+#include "shared/scene/load.h"
 #include "shared/vulkan/device.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <filesystem>
+#include <list>
+#include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace diptych::tests {
@@ -23,6 +29,13 @@ namespace diptych::tests {
 inline Device& device() {
     static Device theDevice{DeviceOptions{}};
     return theDevice;
+}
+
+// Compiled once for everything that is drawn on device(): on lavapipe compiling takes far longer than a small
+// picture.
+inline std::shared_ptr<PipelineSet> pipelines() {
+    static const std::shared_ptr<PipelineSet> set = makePipelineSet(device());
+    return set;
 }
 
 inline std::vector<std::string> builtinScenes() {
@@ -81,16 +94,71 @@ inline std::vector<int> allChannels() {
     return modes;
 }
 
-// The deferred Frame and the forward+ Frame of one scene, every channel, untimed.
-inline std::vector<Frame> bothPaths(const Scene& scene, Settings settings, Device& on = device()) {
+// One Frame per Settings, in order, on device().
+inline std::vector<Frame> drawAll(const Scene& scene, const std::vector<Settings>& settings,
+                                  const RenderOptions& options) {
+    Renderer renderer(device(), scene, pipelines());
+    std::vector<Frame> frames;
+    for (const Settings& each : settings) frames.push_back(renderer.draw(each, options));
+    return frames;
+}
+
+// The Frame of one path, every channel, untimed.
+inline Frame drawnBy(Path path, Renderer& renderer, Settings settings) {
     RenderOptions options;
     options.channels = allChannels();
     options.runs = 0;
     options.through_gbuffer = true;
-    std::vector<Settings> list(2, settings);
-    list[0].path = Path::deferred;
-    list[1].path = Path::forward_plus;
-    return renderAll(on, scene, list, options);
+    settings.path = path;
+    return renderer.draw(settings, options);
+}
+
+// The deferred Frame and the forward+ Frame.
+inline std::vector<Frame> bothPaths(Renderer& renderer, const Settings& settings) {
+    std::vector<Frame> frames;
+    for (const Path path : {Path::deferred, Path::forward_plus})
+        frames.push_back(drawnBy(path, renderer, settings));
+    return frames;
+}
+inline std::vector<Frame> bothPaths(const Scene& scene, const Settings& settings) {
+    Renderer renderer(device(), scene, pipelines());
+    return bothPaths(renderer, settings);
+}
+
+// A scene on device(), uploaded once for all tests that draw it, with what they draw alike.
+class UploadedScene {
+public:
+    explicit UploadedScene(const std::string& name)
+        : scene(loadScene(name)), renderer(device(), scene, pipelines()) {}
+
+    // As bothPaths() of above; drawn once for equal Settings.
+    const std::vector<Frame>& bothPaths(const Settings& settings) {
+        for (const auto& [drawn, frames] : frames_)
+            if (drawn == settings) return frames;
+        return frames_.emplace_back(settings, tests::bothPaths(renderer, settings)).second;
+    }
+
+    const Scene scene;
+    Renderer renderer;
+
+private:
+    std::deque<std::pair<Settings, std::vector<Frame>>> frames_;
+};
+
+// The scene of a name or a file. It stays until some others have been asked for after it.
+inline UploadedScene& uploaded(const std::string& name) {
+    constexpr std::size_t most = 12;
+    static std::list<std::pair<std::string, UploadedScene>> scenes;  // the one asked for last is first
+    const auto found = std::ranges::find(scenes, name, [](const auto& entry) { return entry.first; });
+    if (found != scenes.end()) {
+        scenes.splice(scenes.begin(), scenes, found);
+    } else {
+        device();  // outlives them
+        if (scenes.size() == most) scenes.pop_back();
+        scenes.emplace_front(std::piecewise_construct, std::forward_as_tuple(name),
+                             std::forward_as_tuple(name));
+    }
+    return scenes.front().second;
 }
 
 inline Settings smallPicture(GBufferEncoding gbuffer) {

@@ -80,8 +80,8 @@ TEST(Spared, WhatIsCapturedChangesNoOtherChannel) {
             RenderOptions lit, all;
             lit.channels = {static_cast<int>(gpu::DEBUG_lit)};
             all.channels = allChannels();
-            const Frame one = renderAll(device(), scene, {settings}, lit).front(),
-                        every = renderAll(device(), scene, {settings}, all).front();
+            const Frame one = drawAll(scene, {settings}, lit).front(),
+                        every = drawAll(scene, {settings}, all).front();
             EXPECT_EQ(differingPixels(one.channels.at(0), every.channels.at(0), true), 0u)
                 << nameOf(path) << ", " << nameOf(encoding);
         }

@@ -46,7 +46,7 @@ TEST(Unlit, EmitsItsBaseColourAndReflectsNothing) {
         }
 }
 
-// The twin: without the extension the same pixel is another.
+// Negative control: without the extension the same pixel is another.
 TEST(Unlit, TheSameMaterialLitIsAnother) {
     Scene scene = unlitSquare();
     scene.materials[0].unlit = false;

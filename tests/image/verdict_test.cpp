@@ -32,12 +32,12 @@ std::string failuresOf(const Report& report) {
 class BuiltinVerdict : public testing::TestWithParam<std::string> {};
 class AssetVerdict : public testing::TestWithParam<std::string> {};
 
-void expectPass(const Scene& scene, Size size) {
+void expectPass(UploadedScene& scene, Size size) {
     for (const GBufferEncoding encoding :
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
         Settings settings = smallPicture(encoding);
         settings.size = size;
-        const Report report = verdictOn(bothPaths(scene, settings), scene);
+        const Report report = verdictOn(scene.bothPaths(settings), scene.scene);
         EXPECT_TRUE(report.passed()) << nameOf(encoding) << "\n" << failuresOf(report);
         ASSERT_EQ(report.comparisons.size(), 1u);
         for (const ChannelDiff& channel : report.comparisons[0].channels)
@@ -46,20 +46,20 @@ void expectPass(const Scene& scene, Size size) {
 }
 
 TEST_P(BuiltinVerdict, Passes) {
-    expectPass(loadScene(GetParam()), {160, 90});
+    expectPass(uploaded(GetParam()), {160, 90});
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinVerdict, testing::ValuesIn(builtinScenes()),
+INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinVerdict, testing::ValuesIn(builtinScenes()),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
 TEST_P(AssetVerdict, Passes) {
     const std::filesystem::path file = assets() / GetParam();
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
-    expectPass(loadScene(file.string()), {320, 180});
+    expectPass(uploaded(file.string()), {320, 180});
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AssetVerdict, testing::ValuesIn(assetScenes()), [](const auto& scene) {
+INSTANTIATE_TEST_SUITE_P(Asset, AssetVerdict, testing::ValuesIn(assetScenes()), [](const auto& scene) {
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
@@ -76,28 +76,29 @@ TEST(AssetScenes, AreAllThatThereAre) {
 }
 
 // One changed constant for every channel's gate.
-struct Twin {
+struct NegativeControl {
     const char* channel;
     void (*change)(Scene&);
     Rgb ambient = {};
     const char* scene = "builtin:gallery";
 };
 
-void PrintTo(const Twin& twin, std::ostream* out) {
-    *out << twin.channel;
+void PrintTo(const NegativeControl& control, std::ostream* out) {
+    *out << control.channel;
 }
 
-class VerdictTwin : public testing::TestWithParam<Twin> {};
+class VerdictNegativeControl : public testing::TestWithParam<NegativeControl> {};
 
-TEST_P(VerdictTwin, Fails) {
-    const Scene scene = loadScene(GetParam().scene);
-    Scene changed = scene;
+TEST_P(VerdictNegativeControl, Fails) {
+    UploadedScene& scene = uploaded(GetParam().scene);
+    Scene changed = scene.scene;
     GetParam().change(changed);
     Settings settings = smallPicture(GBufferEncoding::standard);
     settings.ambient = GetParam().ambient;
-    std::vector<Frame> frames = bothPaths(scene, settings);
-    frames[1] = bothPaths(changed, settings)[1];
-    const Report report = verdictOn(std::move(frames), scene);
+    std::vector<Frame> frames = scene.bothPaths(settings);
+    Renderer renderer(device(), changed, pipelines());
+    frames[1] = drawnBy(Path::forward_plus, renderer, settings);
+    const Report report = verdictOn(std::move(frames), scene.scene);
     EXPECT_FALSE(report.passed());
     bool failed = false;
     for (const ChannelDiff& channel : report.comparisons.at(0).channels)
@@ -110,7 +111,7 @@ void nudge(Scene& scene) {
 }
 
 // Every step is about twice what the standard G-buffer's encoding allows itself.
-const Twin twins[] = {
+const NegativeControl negativeControls[] = {
     {"lit", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
     {"albedo",
      [](Scene& s) {
@@ -173,15 +174,16 @@ const Twin twins[] = {
      "builtin:lightmaps"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Channels, VerdictTwin, testing::ValuesIn(twins),
-                         [](const auto& twin) { return std::string(twin.param.channel); });
+INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),
+                         [](const auto& control) { return std::string(control.param.channel); });
 
-// Every channel of the list that both paths make has a twin here.
-TEST(VerdictTwins, CoverEverySharedChannel) {
+// Every channel of the list that both paths make has a negative control here.
+TEST(VerdictNegativeControls, CoverEverySharedChannel) {
     for (const DebugMode& mode : debugModes()) {
-        const bool twin = std::any_of(std::begin(twins), std::end(twins),
-                                      [&](const Twin& t) { return t.channel == mode.name; });
-        EXPECT_EQ(twin, mode.maker == MadeBy::both) << mode.name;
+        const bool controlled =
+            std::any_of(std::begin(negativeControls), std::end(negativeControls),
+                        [&](const NegativeControl& control) { return control.channel == mode.name; });
+        EXPECT_EQ(controlled, mode.maker == MadeBy::both) << mode.name;
     }
 }
 

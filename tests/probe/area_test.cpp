@@ -89,7 +89,7 @@ TEST_P(AreaShapes, AreIntegratedExactly) {
     EXPECT_GT(lit, 150) << "the comparison has lost its point: nothing is lit";
 }
 
-// The twin: a light a percent larger is told from this one.
+// Negative control: a light a percent larger is told from this one.
 TEST_P(AreaShapes, OnePerCentMoreIsSeen) {
     Probes probes;
     Light light = lightOf(GetParam());

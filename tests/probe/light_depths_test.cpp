@@ -14,11 +14,6 @@
 namespace diptych {
 namespace {
 
-Device& device() {
-    static Device theDevice{DeviceOptions{}};
-    return theDevice;
-}
-
 // Reversed depths of a picture, `samples` a pixel side by side; 0: background.
 struct Picture {
     int width, height, samples;
@@ -41,8 +36,8 @@ OwnedImageView viewOf(VkImage image) {
                                      .components = {},
                                      .subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
-    check(vkCreateImageView(device().handle(), &info, nullptr, &view), "vkCreateImageView");
-    return {device().handle(), view};
+    check(vkCreateImageView(probeDevice().handle(), &info, nullptr, &view), "vkCreateImageView");
+    return {probeDevice().handle(), view};
 }
 
 // A depth image of any sample count.
@@ -70,12 +65,12 @@ struct DepthImage {
             .pQueueFamilyIndices = nullptr,
             .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
         VkImage handle = VK_NULL_HANDLE;
-        check(vkCreateImage(device().handle(), &info, nullptr, &handle), "vkCreateImage");
-        image = OwnedImage(device().handle(), handle);
+        check(vkCreateImage(probeDevice().handle(), &info, nullptr, &handle), "vkCreateImage");
+        image = OwnedImage(probeDevice().handle(), handle);
         VkMemoryRequirements needs;
-        vkGetImageMemoryRequirements(device().handle(), handle, &needs);
-        memory = device().memory().allocate(needs, MemoryUse::device, true);
-        check(vkBindImageMemory(device().handle(), handle, memory.memory(), memory.offset()),
+        vkGetImageMemoryRequirements(probeDevice().handle(), handle, &needs);
+        memory = probeDevice().memory().allocate(needs, MemoryUse::device, true);
+        check(vkBindImageMemory(probeDevice().handle(), handle, memory.memory(), memory.offset()),
               "vkBindImageMemory");
         view = viewOf(handle);
     }
@@ -83,8 +78,8 @@ struct DepthImage {
 
 // Draws the whole picture to the samples of `mask` alone.
 OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask mask) {
-    const OwnedShaderModule modules[] = {probeModule(device(), "whole_picture.vert"),
-                                         probeModule(device(), "sample_depths.frag")};
+    const OwnedShaderModule modules[] = {probeModule(probeDevice(), "whole_picture.vert"),
+                                         probeModule(probeDevice(), "sample_depths.frag")};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     for (std::size_t i = 0; i < 2; ++i) {
         stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -136,9 +131,9 @@ OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask m
     info.pDynamicState = &dynamics;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device().handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+    check(vkCreateGraphicsPipelines(probeDevice().handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
           "vkCreateGraphicsPipelines");
-    return {device().handle(), pipeline};
+    return {probeDevice().handle(), pipeline};
 }
 
 // The picture's samples, one after the other, drawn to an image that a kernel then reads.
@@ -146,10 +141,10 @@ class SampleDraw {
 public:
     SampleDraw(Uploader& uploader, const Picture& picture)
         : picture_(picture),
-          values_(makeBuffer<float>(device(), uploader, "sample depths", picture.z,
+          values_(makeBuffer<float>(probeDevice(), uploader, "sample depths", picture.z,
                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
-          set_layout_(makeSetLayout(device(), types)),
-          sets_(device(), set_layout_, types, 1) {
+          set_layout_(makeSetLayout(probeDevice(), types)),
+          sets_(probeDevice(), set_layout_, types, 1) {
         uploader.flush();
         sets_.buffer(0, 0, values_.handle());
         const std::array<VkDescriptorSetLayout, 1> layouts{set_layout_};
@@ -161,8 +156,9 @@ public:
         info.pushConstantRangeCount = 1;
         info.pPushConstantRanges = &range;
         VkPipelineLayout layout = VK_NULL_HANDLE;
-        check(vkCreatePipelineLayout(device().handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-        layout_ = OwnedPipelineLayout(device().handle(), layout);
+        check(vkCreatePipelineLayout(probeDevice().handle(), &info, nullptr, &layout),
+              "vkCreatePipelineLayout");
+        layout_ = OwnedPipelineLayout(probeDevice().handle(), layout);
         for (int s = 0; s < picture.samples; ++s)
             pipelines_.push_back(depthPipeline(layout, picture.samples, 1u << s));
     }
@@ -229,33 +225,34 @@ struct Bounds {
 
 // The kernel's answer, over tiles of 1 << tileShift pixels.
 Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
-    KernelFrame frame(device(), view);
+    KernelFrame frame(probeDevice(), view);
     gpu::LightGrid grid{};
     grid.tile_shift = tileShift;
     const gpu::uint side = 1u << tileShift;
     grid.tiles = {(static_cast<gpu::uint>(picture.width) + side - 1) / side,
                   (static_cast<gpu::uint>(picture.height) + side - 1) / side};
-    const GpuBuffer gridBuffer = makeBuffer<gpu::LightGrid>(
-        device(), frame.uploader(), "light grid", std::span(&grid, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    const GpuBuffer gridBuffer =
+        makeBuffer<gpu::LightGrid>(probeDevice(), frame.uploader(), "light grid", std::span(&grid, 1),
+                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     frame.uploader().flush();
     frame.sets().buffer(0, gpu::BINDING_LIGHT_GRID, gridBuffer.handle());
 
     const DepthImage image(picture);
     const SampleDraw samples(frame.uploader(), picture);
     const std::size_t tiles = std::size_t{grid.tiles.x} * grid.tiles.y;
-    const GpuBuffer out(device(), "tile depths", tiles * sizeof(gpu::vec3),
+    const GpuBuffer out(probeDevice(), "tile depths", tiles * sizeof(gpu::vec3),
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     const std::span<const VkDescriptorType> types = listBindings();
-    DescriptorSets set(device(), frame.lists().lists(), types, 1);
+    DescriptorSets set(probeDevice(), frame.lists().lists(), types, 1);
     for (std::uint32_t binding = 0; binding < types.size(); ++binding)
         if (types[binding] == storage) set.buffer(0, binding, out.handle());
-    const OwnedSampler sampler = makeNearestSampler(device());
+    const OwnedSampler sampler = makeNearestSampler(probeDevice());
     set.image(0, gpu::BINDING_LISTS_DEPTH, image.view, sampler, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-    Pipelines kernels(device(), VK_NULL_HANDLE);
+    Pipelines kernels(probeDevice(), VK_NULL_HANDLE);
     const VkPipeline kernel = kernels.compute(
         picture.samples > 1 ? "light_depths.comp.1" : "light_depths.comp.0", {}, frame.lists().pipeline());
-    device().submit([&](VkCommandBuffer commands) {
+    probeDevice().submit([&](VkCommandBuffer commands) {
         samples.record(commands, image);
         const std::array sets{frame.set(), set[0]};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, frame.lists().pipeline(), 0,
@@ -265,7 +262,7 @@ Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
     });
-    return {grid.tiles, contents<gpu::vec3>(device(), out)};
+    return {grid.tiles, contents<gpu::vec3>(probeDevice(), out)};
 }
 
 // Depths from 0.5 m to 500 m. A tile's nearest and farthest are each in one sample of one pixel, anywhere in
@@ -335,8 +332,8 @@ TEST(LightDepths, AreThoseOfAllSamples) {
         }
 }
 
-// The twins: each sample counts. A picture that differs in one sample of each pixel, all else being equal,
-// has other bounds.
+// Negative controls: each sample counts. A picture that differs in one sample of each pixel, all else being
+// equal, has other bounds.
 TEST(LightDepths, NoSampleIsPassedOver) {
     const View view = plainView(75, 53);
     const Picture picture = randomPicture(view, 4, 4, 42);

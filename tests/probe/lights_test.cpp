@@ -54,7 +54,7 @@ TEST(Lights, IsExactlyZeroAtTheRangeAndBeyond) {
     }
     const std::vector<float> out = evaluate(probes, cases);
     for (std::size_t i = 0; i < cases.size(); ++i) EXPECT_EQ(out[i * 4], 0.0f) << "case " << i;
-    // The twin: just inside, it is not zero.
+    // Negative control: just inside, it is not zero.
     const std::vector<float> inside = evaluate(probes, {{0.99, 0, 0, 1, 0, -1, 0, 0, 1}});
     EXPECT_GT(inside[0], 0.0f);
 }

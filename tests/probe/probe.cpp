@@ -9,15 +9,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 namespace diptych {
-
-namespace {
-
-constexpr std::uint32_t groupSize = 64;  // local_size_x of every probe
-
-}  // namespace
 
 OwnedShaderModule probeModule(Device& device, const std::string& shader) {
     const std::filesystem::path file = std::filesystem::path(DIPTYCH_PROBE_DIR) / (shader + ".spv");
@@ -34,35 +29,41 @@ OwnedShaderModule probeModule(Device& device, const std::string& shader) {
     return {device.handle(), module};
 }
 
-Probes::Probes() : device_(std::make_unique<Device>(DeviceOptions{})) {}
-Probes::~Probes() = default;
-Device& Probes::device() {
-    return *device_;
+Device& probeDevice() {
+    static Device device{DeviceOptions{}};
+    return device;
 }
 
-std::vector<float> Probes::run(const std::string& shader, const std::vector<float>& input,
-                               std::size_t inWidth, std::size_t outWidth,
-                               std::pair<std::uint32_t, std::uint32_t> feature) {
-    Device& device = *device_;
-    const std::size_t rows = input.size() / inWidth;
-    const auto count = static_cast<std::uint32_t>(rows);
-    const OwnedShaderModule module = probeModule(device, shader + ".comp");
+namespace {
 
-    constexpr std::array types{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-    const OwnedDescriptorSetLayout layout = makeSetLayout(device, types);
-    const std::array<VkDescriptorSetLayout, 1> sets{layout};
-    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof count};
-    const VkPipelineLayoutCreateInfo layoutInfo{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                                .pNext = nullptr,
-                                                .flags = 0,
-                                                .setLayoutCount = 1,
-                                                .pSetLayouts = sets.data(),
-                                                .pushConstantRangeCount = 1,
-                                                .pPushConstantRanges = &range};
-    VkPipelineLayout pipelineLayout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &pipelineLayout),
-          "vkCreatePipelineLayout");
-    const OwnedPipelineLayout ownedLayout(device.handle(), pipelineLayout);
+constexpr std::uint32_t groupSize = 64;  // local_size_x of every probe
+constexpr std::array probeBindings{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+// What all probes share: set 0 holds input and output, the push constant is the number of rows.
+struct ProbeLayout {
+    explicit ProbeLayout(Device& device) : set(makeSetLayout(device, probeBindings)) {
+        const std::array<VkDescriptorSetLayout, 1> sets{set};
+        const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(std::uint32_t)};
+        const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                              .pNext = nullptr,
+                                              .flags = 0,
+                                              .setLayoutCount = 1,
+                                              .pSetLayouts = sets.data(),
+                                              .pushConstantRangeCount = 1,
+                                              .pPushConstantRanges = &range};
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+        pipeline = OwnedPipelineLayout(device.handle(), layout);
+    }
+    OwnedDescriptorSetLayout set;
+    OwnedPipelineLayout pipeline;
+};
+
+using Feature = std::pair<std::uint32_t, std::uint32_t>;
+
+OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::string& shader,
+                        const Feature& feature) {
+    const OwnedShaderModule module = probeModule(device, shader + ".comp");
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -72,26 +73,41 @@ std::vector<float> Probes::run(const std::string& shader, const std::vector<floa
     const VkSpecializationMapEntry entry{feature.first, 0, sizeof feature.second};
     const VkSpecializationInfo specialization{1, &entry, sizeof feature.second, &feature.second};
     info.stage.pSpecializationInfo = &specialization;
-    info.layout = pipelineLayout;
+    info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
           "vkCreateComputePipelines");
-    const OwnedPipeline ownedPipeline(device.handle(), pipeline);
+    return {device.handle(), pipeline};
+}
+
+}  // namespace
+
+std::vector<float> Probes::run(const std::string& shader, const std::vector<float>& input,
+                               std::size_t inWidth, std::size_t outWidth,
+                               std::pair<std::uint32_t, std::uint32_t> feature) {
+    Device& device = probeDevice();
+    const std::size_t rows = input.size() / inWidth;
+    const auto count = static_cast<std::uint32_t>(rows);
+    // Each is compiled once, whichever tests run it.
+    static const ProbeLayout layout(device);
+    static std::map<std::pair<std::string, Feature>, OwnedPipeline> pipelines;
+    OwnedPipeline& pipeline = pipelines[{shader, feature}];
+    if (pipeline == VK_NULL_HANDLE) pipeline = makeProbe(device, layout.pipeline, shader, feature);
 
     const GpuBuffer in(device, "in", input.size() * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                        MemoryUse::upload);
     const GpuBuffer out(device, "out", rows * outWidth * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                         MemoryUse::readback);
     std::memcpy(in.mapped(), input.data(), input.size() * sizeof(float));
-    DescriptorSets descriptors(device, layout, types, 1);
+    DescriptorSets descriptors(device, layout.set, probeBindings, 1);
     descriptors.buffer(0, 0, in.handle());
     descriptors.buffer(0, 1, out.handle());
     device.submit([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         const VkDescriptorSet set = descriptors[0];
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelineLayout, 0, 1, &set, 0,
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout.pipeline, 0, 1, &set, 0,
                                 nullptr);
-        vkCmdPushConstants(commands, pipelineLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof count, &count);
+        vkCmdPushConstants(commands, layout.pipeline, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof count, &count);
         vkCmdDispatch(commands, (count + groupSize - 1) / groupSize, 1, 1);
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);

@@ -6,7 +6,6 @@
 #include "shared/vulkan/owned.h"
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,24 +14,21 @@ namespace diptych {
 
 class Device;
 
+// The device of every test of this program.
+Device& probeDevice();
+
 // A shader of tests/probe/shaders, by file name.
 OwnedShaderModule probeModule(Device& device, const std::string& shader);
 
 class Probes {
 public:
-    Probes();
-    ~Probes();
-
     // `shader`: file name without ".comp". `input` holds rows of inWidth floats. Returns as many rows of
     // outWidth floats. `feature`: a specialization constant and its value (shared/contract/features.h); all
     // others are 0.
     std::vector<float> run(const std::string& shader, const std::vector<float>& input, std::size_t inWidth,
                            std::size_t outWidth, std::pair<std::uint32_t, std::uint32_t> feature = {});
 
-    Device& device();
-
-private:
-    std::unique_ptr<Device> device_;
+    Device& device() { return probeDevice(); }
 };
 
 }  // namespace diptych

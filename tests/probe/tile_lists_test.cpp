@@ -4,6 +4,7 @@
 // depth that is seen.
 #include "tests/probe/cells.h"
 #include "tests/probe/kernel_frame.h"
+#include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +20,6 @@ namespace {
 
 constexpr int width = 103, height = 61, block = 4;  // seven by four tiles, the last ones cut off
 constexpr int side = static_cast<int>(gpu::LIGHT_TILE);
-
-Device& device() {
-    static Device theDevice{DeviceOptions{}};
-    return theDevice;
-}
 
 // View depths of the picture, m, a block of pixels each; 0: background. Tiles of all kinds: drawn whole, near
 // and far in one, half background, nothing but background.
@@ -89,11 +85,11 @@ struct Lists {
 // `nearer`: the picture's depths are drawn at so much of themselves.
 Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, ListKernel kernel,
               double nearer = 1) {
-    KernelFrame frame(device(), view);
-    LightLists made(device(), frame.uploader(), frame.lists(), {gpu::LISTS_TILED, kernel}, view, lights);
+    KernelFrame frame(probeDevice(), view);
+    LightLists made(probeDevice(), frame.uploader(), frame.lists(), {gpu::LISTS_TILED, kernel}, view, lights);
     made.bind(frame.sets());
-    Pipelines pipelines(device(), VK_NULL_HANDLE);
-    PassList passes(device(), width, height);
+    Pipelines pipelines(probeDevice(), VK_NULL_HANDLE);
+    PassList passes(probeDevice(), width, height);
     const ImageRef depth = passes.image("depth", VK_FORMAT_D32_SFLOAT);
     passes.draw("depth").depth(depth, Load::clear).record([&](VkCommandBuffer commands) {
         for (int y = 0; y < Depths::down; ++y)
@@ -117,8 +113,8 @@ Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, L
     EXPECT_EQ(made.overflowed(), 0u);
     Lists result;
     result.grid = made.grid();
-    const auto heads = contents<gpu::LightListHead>(device(), made.heads());
-    const auto indices = contents<gpu::uint>(device(), made.indices());
+    const auto heads = contents<gpu::LightListHead>(probeDevice(), made.heads());
+    const auto indices = contents<gpu::uint>(probeDevice(), made.indices());
     for (gpu::uint list = 0; list < made.grid().lists; ++list) {
         result.lists.emplace_back();
         for (gpu::uint i = heads[list].begin * made.grid().width; i < heads[list].end * made.grid().width;
@@ -271,7 +267,7 @@ TEST(TileLists, HoldWhatReachesATileAndLittleElse) {
     EXPECT_EQ(all.empty_opaque, all.only_background) << "nothing to light";
 }
 
-// The twin: lists of a picture that is 1 % nearer miss lights of this one.
+// Negative control: lists of a picture that is 1 % nearer miss lights of this one.
 TEST(TileLists, DepthsThatAreOnePerCentOffAreCaught) {
     for (const double nearer : {0.99, 1.01}) {
         const Held all = held(nearer);

@@ -162,7 +162,7 @@ TEST(Flip, ANanIsOnePixelsError) {
     EXPECT_EQ(r.nonfinite_test, 2u);
     EXPECT_EQ(r.nonfinite_different, 2u);
     EXPECT_EQ(r.pixels, 60u * 50u);
-    // Its twin: a value that is wrong, but finite, is seen around it.
+    // Negative control: a value that is wrong, but finite, is seen around it.
     set(b, 30, 25, 0.0f);
     EXPECT_GT(ldrFlip(a, b).error.at(31, 25), 0);
 }

@@ -105,7 +105,7 @@ TEST(ReferenceShadow, ASmallHoleBeforeALight) {
     }
 }
 
-// A twin: a light a hundredth brighter is not within what is claimed.
+// Negative control: a light a hundredth brighter is not within what is claimed.
 TEST(ReferenceShadow, AHundredthIsBeyondTheConfidence) {
     const Record record = recordOf(100, lambertian(), [&](Random& random) {
         const double x = random() * 0.5 - 0.5;
