@@ -117,10 +117,11 @@ private:
 constexpr std::size_t longestName = 60;
 
 std::string quoted(const std::string& name) {
-    return "\"" + oneLine(name, longestName) + "\"";
+    return fmt::format("\"{}\"", oneLine(name, longestName));
 }
 std::string numbered(const char* what, int index, const std::string& name) {
-    return fmt::format("{} {}{}", what, index, name.empty() ? "" : " " + quoted(name));
+    if (name.empty()) return fmt::format("{} {}", what, index);
+    return fmt::format("{} {} {}", what, index, quoted(name));
 }
 std::string nameOr(const std::string& name, const char* what, int index) {
     return name.empty() ? fmt::format("{} {}", what, index) : oneLine(name, longestName);

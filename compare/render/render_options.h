@@ -28,7 +28,6 @@ struct RenderOptions {
     // nowhere.
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};
 };
-};
 
 // What making one Frame takes, in the time of drawing one frame: for a progress line.
 double framesIn(const RenderOptions& options);

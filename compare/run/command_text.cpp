@@ -59,7 +59,7 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
 
 std::string shellLine(const std::vector<std::string>& words) {
     std::string line = "diptych";
-    for (const std::string& word : words) line += " " + shellWord(word);
+    for (const std::string& word : words) line.append(" ").append(shellWord(word));
     return line;
 }
 
