@@ -34,11 +34,11 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
     return key;
 }
 
-// The attachments as SET_GBUFFER. Owned by the pass that reads it.
+// The attachments and depth as SET_GBUFFER.
 DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
     DescriptorSets sets(inputs.device, inputs.layouts.gbuffer, gbufferBindings(), 1);
     for (std::uint32_t i = 0; i < frame.gbuffer.size(); ++i) {
-        // One that is not there is never read; albedo, of the same kind, keeps its binding valid.
+        // A missing attachment is never read; albedo, of the same kind, keeps its binding valid.
         const ImageRef image =
             frame.gbuffer[i].valid() ? frame.gbuffer[i] : frame.gbuffer[gpu::GBUFFER_ALBEDO];
         sets.image(0, i, passes.view(image), inputs.layouts.nearest,
@@ -56,8 +56,8 @@ Variant lightingVariant(const FrameInputs& inputs) {
     return variant;
 }
 
-// A full-screen pass over what the G-buffer holds: the triangle lies at the least depth that can be drawn,
-// and LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded.
+// A full-screen pass over the G-buffer. Its triangle lies at the smallest depth that can be drawn, so a depth
+// test of LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                          const std::string& fragment, Variant variant, const std::vector<VkFormat>& colors,
                          const LightBatch& batch) {
@@ -80,7 +80,7 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
     });
 }
 
-// Draws the scene into the depth and the attachments. `captured`: with what shading does not ask for.
+// Draws the scene into the depth and the attachments. `captured`: with what only channels need.
 void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& images, bool captured) {
     Pass& pass = passes.draw("G-buffer").depth(images.depth, Load::clear);
     for (const ImageRef image : images.gbuffer)
@@ -119,7 +119,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    // The frame's own G-buffer holds no normals of triangles, which no light asks for.
+    // The frame's own G-buffer holds no geometric normals, as no light needs them.
     if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
         request.modes.end())
         addGBuffer(passes, inputs, frame, true);

@@ -13,7 +13,7 @@ namespace diptych {
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs);
 
 // The passes that write channels, read from the G-buffer that the frame left and decoded: a difference to
-// forward+ is the encoding's error. Channels that the G-buffer does not carry must not be asked for.
+// forward+ is the encoding's error. The request must not hold channels that the G-buffer does not store.
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request);
 

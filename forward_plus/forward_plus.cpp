@@ -12,7 +12,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     if (inputs.prepass)
         passes.draw("depth pre-pass").depth(images.depth, Load::clear).record(recordDraws(inputs, depthKey));
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
-    // The first draw that shades makes the depth where no pre-pass has.
+    // Without a pre-pass the first draw that shades writes depth.
     bool drawn = inputs.prepass;
     const auto addShading = [&](Pass& pass, const LightBatch& batch, const auto& keyOf) {
         if (drawn)

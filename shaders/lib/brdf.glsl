@@ -20,7 +20,7 @@ struct Brdf {
 };
 
 Brdf makeBrdf(Surface s, vec3 v) {
-    precise Brdf b;  // the same bits in every shader that asks
+    precise Brdf b;  // the same bits in every shader
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
     b.f0 = specularF0(s);
     b.f90 = mix(s.dielectric_f90, 1.0, s.metallic);

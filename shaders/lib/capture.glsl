@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The outputs of a capture pass: one channel an attachment; which one is a specialization constant, so a
-// capture that asks for no light does no lighting. ATTACHMENTS is how many there are.
+// capture of channels without light does no lighting. ATTACHMENTS is how many there are.
 #ifndef CAPTURE_GLSL
 #define CAPTURE_GLSL
 

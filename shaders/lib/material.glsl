@@ -76,7 +76,7 @@ vec3 shadingNormal(vec3 triangle) {
 
 Surface surfaceFromMaterial(vec4 base_color) {
     Material m = material;
-    precise Surface s;  // the same bits in every shader that asks
+    precise Surface s;  // the same bits in every shader
     s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
     s.geometric_normal = vec3(0.0);
     if (needsGeometricNormal() || on(feature_vanishing_normals))

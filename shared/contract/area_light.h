@@ -6,10 +6,9 @@
 
 CONTRACT_BEGIN
 
-// What a rectangle, disc or tube has beside its Light, whose position is its centre, whose intensity is its
-// radiance in W/(sr m^2), the same from everywhere and into every direction, and whose range is from the
-// centre. Area lights come last in the order of lights: rectangles, discs, tubes; the i-th area light's is
-// the i-th here.
+// The shape of a rectangle, disc or tube. Its Light has the centre as position, the radiance in W/(sr m^2),
+// the same from every point into every direction, as intensity, and the range from the centre. Area lights
+// come last in the order of lights: rectangles, discs, tubes; the i-th shape belongs to the i-th area light.
 struct AreaLight {
     vec3 x;  // m; from the centre: rectangle: to the middle of a side; disc: to the rim; tube: to an end
     float radius;     // m; disc, tube

@@ -8,9 +8,8 @@
 #include "types.h"
 
 // id  name  set by  inputs  read by    what it switches; 0 is off
-//   set by   item: a draw's material or geometry; frame: the scene, the view, its lights; gbuffer: the layout
-//   of the
-//            G-buffer; pass: whatever records the pass
+//   set by   item: a draw's material or geometry; frame: the scene, the view and its lights;
+//            gbuffer: the layout of the G-buffer; pass: the code that records the pass
 //   inputs   the least set of shaders/lib/inputs.glsl that has what a surface with the feature reads
 //   read by  the passes whose modules use the constant, a sum of PASS_*; a test holds it against the modules
 // clang-format off
@@ -57,7 +56,7 @@
     X(39, lightmap,                   frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* a material of the scene has one */ \
     X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* beyond the packed format's range: float32 */ \
     X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* VIEW_*: where a fragment shader has the view from */ \
-    X(42, captured,                   pass,    3, PASSES_SURFACE)  /* for channels, which may ask for more than shading does */
+    X(42, captured,                   pass,    3, PASSES_SURFACE)  /* for channels, which may need more than shading does */
 // clang-format on
 
 CONTRACT_BEGIN

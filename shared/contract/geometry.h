@@ -6,7 +6,8 @@
 
 CONTRACT_BEGIN
 
-// What a vertex carries beside its position (which has a buffer of its own: a depth pass reads no more).
+// The attributes of a vertex beside its position, which has a buffer of its own because depth passes read
+// nothing else.
 struct VertexAttributes {
     vec3 normal;   // object, unit
     vec4 tangent;  // object; w: sign of the bitangent
@@ -24,13 +25,13 @@ struct Draw {
     float handedness;          // -1 where the transform mirrors, else 1; read with the last column before it
 };
 
-// Push constants of a draw.
+// Push constants of a draw. With FEATURE_light_batch it walks the packets [light_first, light_end) of each
+// list, counted from the list's begin.
 struct DrawConstants {
-    uint draw;         // into the draws
-    uint material;     // its number: the channel material_id
-    uint light_first;  // with FEATURE_light_batch: the packets of each list that this draw walks, counted
-                       // from the
-    uint light_end;    // list's begin: [light_first, light_end)
+    uint draw;      // into the draws
+    uint material;  // its number: the channel material_id
+    uint light_first;
+    uint light_end;
 };
 
 CONTRACT_END

@@ -6,10 +6,11 @@
 
 CONTRACT_BEGIN
 
-// A light as the shaders see it: KHR_lights_punctual, with everything that does not depend on the pixel
-// worked out. The buffer holds directional lights first, then points, spots and area lights, each kind in the
-// scene's order, and last a null light that gives nothing, with which lists are padded; every sum over lights
-// runs in that order, whatever chose the lights. Shaders read it as a texel buffer of four floats.
+// A light as the shaders read it: KHR_lights_punctual, with everything that does not depend on the pixel
+// computed in advance. The buffer holds directional lights first, then points, spots and area lights, each
+// kind in the scene's order, and last a null light that gives nothing, with which lists are padded; every sum
+// over lights runs in that order, whatever chose the lights. Shaders read it as a texel buffer of four
+// floats.
 struct Light {
     vec3 position;                // from the camera, world axes, m; directional: unit, to the light
     float inverse_range_squared;  // 1/m^2: d^2 times it is below 1 where light arrives; 0 without a range
@@ -24,7 +25,7 @@ CONTRACT_LANE(Light, intensity, 1, 0);
 CONTRACT_LANE(Light, range, 1, 3);
 CONTRACT_TEXELS(Light, 2);
 
-// What a spot has beside its Light; the i-th spot's is the i-th.
+// The cone of a spot. The i-th cone belongs to the i-th spot.
 struct SpotCone {
     vec3 direction;  // unit, in which the light travels, world
     float scale;     // 1 / (cos inner - cos outer)

@@ -12,13 +12,14 @@ CONTRACT_CONST(uint, OBJECT_LIGHTS_LISTS, 1);   // lists of lights that are shad
 CONTRACT_CONST(uint, OBJECT_LIGHTS_VERTEX, 2);  // and of some that are shaded per vertex
 CONTRACT_CONST(uint, OBJECT_LIGHTS_SH, 4);      // and the rest as spherical harmonics
 
-// An entry of a list: which light, and the share of it that this list gives; the rest is in the next group.
+// An entry of a list: a light, and the share of it that this list gives. The rest of a light that is shaded
+// per pixel goes to the vertex lights, that of a vertex light to the harmonics.
 struct ObjectLight {
     uint light;    // into the lights
     float weight;  // in (0, 1]
 };
 
-// What of irradiance varies with the normal as spherical harmonics up to L2 do, W/m^2, by colour:
+// Irradiance by the normal as spherical harmonics up to L2, W/m^2, by colour:
 //   E(n) = constant + linear_x n.x + linear_y n.y + linear_z n.z + xx (n.x^2 - n.z^2) + yy (n.y^2 - n.z^2)
 //          + 2 (xy n.x n.y + yz n.y n.z + xz n.x n.z)
 // (Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps", equation 12,

@@ -9,10 +9,10 @@ CONTRACT_BEGIN
 // The camera. GPU space has world axes and the camera as its origin, so no coordinate here is large.
 // Depth is reversed: 1 at the near plane, 0 at the far plane or at infinity.
 //
-// A pixel's position from its depth z, the only position that shading uses, in both paths:
-//     d        = (depth_numerator.x + depth_numerator.y * z) / (depth_denominator.x + depth_denominator.y *
-//     z) position = origin(p) + direction(p) * d
-// origin and direction are affine in the pixel centre p, in pixels.
+// The position of a pixel with centre p, in pixels, and depth z, the only one that shading uses:
+//     position = origin(p) + direction(p) * d
+//     d = (depth_numerator.x + z * depth_numerator.y) / (depth_denominator.x + z * depth_denominator.y)
+// origin and direction are affine in p.
 struct View {
     mat4 clip_from_world;  // world axes, camera as origin
     vec3 origin_0;

@@ -25,7 +25,7 @@ struct CapturedImage {
     bool through_gbuffer = false;  // forward+: of a surface that was encoded and decoded
 };
 
-// What a capture is asked for: channels as they are, and channels of surfaces that went through the
+// The channels that a capture makes: of surfaces as they are, and of surfaces that went through the
 // G-buffer's encoding (forward+ only; what the deferred path has to show).
 struct CaptureRequest {
     std::vector<int> modes, through_gbuffer;

@@ -12,7 +12,7 @@ namespace diptych {
 PipelineKey depthKey(const DrawItem& item);
 
 // A surface that is shaded as it is drawn, to `lit`. Depth is tested (GREATER_OR_EQUAL) and not written;
-// whoever draws without a pre-pass sets depth_write.
+// a pass without a pre-pass sets depth_write.
 PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);
 
 // The same for a batch of lights that is not the last: to the two partial sums.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranges for lights that have none: so that a list need not hold them everywhere.
+// Gives lights without a range one, so that not every light list must hold them.
 #pragma once
 
 #include "shared/scene/model/scene.h"

@@ -16,10 +16,10 @@ namespace diptych {
 std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& view);
 
 // `lists`: LISTS_CLUSTERED or LISTS_TILED. No buffer of the lists is larger than `buffer_bytes`: tiles grow
-// until the masks fit, and index_capacity is cut off there, so that lists beyond it overflow.
-// Clustered, tiles and slices are of the sizes that cost least, lists and pixels together, for as many and as
-// large lights as there are; Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward Shading",
-// with bounds from the projection alone as in Persson 2013, "Practical Clustered Shading".
+// until the masks fit, and the capacity of the index buffer ends there, so that lists beyond it overflow.
+// Clustered tiles and slices have the sizes that cost least for the given lights, in making lists and at
+// pixels together; Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward Shading", with bounds
+// from the projection alone as in Persson 2013, "Practical Clustered Shading".
 gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
                              std::span<const gpu::LightBound> bounds, std::uint64_t buffer_bytes);
 

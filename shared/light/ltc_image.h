@@ -9,7 +9,7 @@ namespace diptych {
 class LtcImage {
 public:
     LtcImage() = default;
-    // `needed`: some light is shaded with it; else one texel stands in, for a binding must hold an image.
+    // `needed`: some light is shaded with it; else it is one texel, because a binding must hold an image.
     // Uploaded when `uploader` is flushed.
     LtcImage(Device& device, Uploader& uploader, bool needed);
 

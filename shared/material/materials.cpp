@@ -67,7 +67,7 @@ OwnedDescriptorSetLayout Materials::makeLayout(Device& device) {
 }
 
 Materials::Materials(Device& device, Uploader& uploader, const Scene& scene) : layout_(makeLayout(device)) {
-    // Every image that a slot reads, as sRGB or as linear; index 0 stands in for slots without a texture.
+    // Every image that a slot reads, as sRGB or as linear; slots without a texture use index 0.
     std::map<ImageUse, std::size_t> imageOf;
     std::vector<ImageUse> uses;
     std::vector<Sampler> kinds{Sampler{}};

@@ -135,7 +135,8 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
 void Memory::release(std::size_t index, VkDeviceSize offset, VkDeviceSize size) {
     Block& block = *blocks_[index];
     block.give(offset, size);
-    // A large block serves nobody else well: give it back. Indices of the others must stay.
+    // A large block is of little use to other allocations, so it is freed. The indices of the others must not
+    // change.
     if (block.size > blockSize && block.free.size() == 1 && block.free.begin()->second == block.size)
         blocks_[index].reset();
 }

@@ -19,9 +19,9 @@ struct ImageRef {
 
 enum class Load { clear, keep };  // keep: an attachment's contents from an earlier pass
 
-// One step, declared by chaining; `record` is called every time the list runs: of a draw between begin and
-// end of rendering, with viewport and scissor set to the list's size; of a compute step alone, and what it
-// writes to buffers is there for every later step.
+// One pass, declared by chaining. `record` is called every time the list runs: for a draw between begin and
+// end of rendering, with viewport and scissor set to the list's size; for a compute pass outside of
+// rendering, and what it writes to buffers is visible to every later pass.
 class Pass {
 public:
     // In the order of the shader's locations.
