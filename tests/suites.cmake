@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 # ctest reads this when it starts: the GoogleTest suites of one program become tests of ctest, FOLDER.SUITE. A suite
 # is one process, so that its tests share one device, what was uploaded to it and the pipelines that were compiled.
-# What is instantiated once a scene, under the prefix Builtin or Asset, becomes one test a scene instead,
-# FOLDER.PREFIX.SCENE, for the same reason; the suites that it runs are among its labels.
+# For the same reason suites that are instantiated once a scene are run scene by scene: an asset's, under the prefix
+# Asset, are FOLDER.Asset.SCENE; the built-in scenes', under Builtin, are dealt out to a few tests, FOLDER.Builtin.N,
+# since small scenes share most of their pipelines.
 #
 # Variables that this file reads: program; folder, its label and the first part of every name; seconds, how long a
 # test may take; results, the folder that JUnit files are written to; costs, names and seconds of the longest, which
-# start first.
+# start first; campaigns, those of which a slice is run where DIPTYCH_CAMPAIGN is not set (campaign.h).
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
   set_tests_properties(${folder}.NOT_BUILT PROPERTIES LABELS ${folder})
@@ -20,6 +21,7 @@ string(REPLACE ";" "," lines "${lines}")
 string(REPLACE "\n" ";" lines "${lines}")
 
 set(groups "")
+set(scenes "")
 foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.( |$)")
     set(suite ${CMAKE_MATCH_1})
@@ -28,10 +30,15 @@ foreach(line IN LISTS lines)
     set(name ${CMAKE_MATCH_1})
     if(suite MATCHES "^(Builtin|Asset)/" AND name MATCHES "/(.+)$")
       set(scene ${CMAKE_MATCH_1})
-      string(REGEX MATCH "^[A-Za-z]+" kind ${suite})
-      set(group ${folder}.${kind}.${scene})
+      set(group ${folder}.Asset.${scene})
+      if(suite MATCHES "^Builtin")
+        list(APPEND scenes ${scene})
+        list(REMOVE_DUPLICATES scenes)
+        list(FIND scenes ${scene} at)
+        math(EXPR at "${at} % 4 + 1")
+        set(group ${folder}.Builtin.${at})
+      endif()
       list(APPEND filter_${group} ${suite}.${name})
-      list(APPEND labels_${group} ${short})
     else()
       set(group ${folder}.${short})
       list(APPEND filter_${group} ${suite}.*)
@@ -43,7 +50,6 @@ list(REMOVE_DUPLICATES groups)
 
 foreach(group IN LISTS groups)
   list(REMOVE_DUPLICATES filter_${group})
-  list(REMOVE_DUPLICATES labels_${group})
   list(JOIN filter_${group} ":" filter)
   add_test(${group} ${program} --gtest_filter=${filter} --gtest_output=xml:${results}/${group}.xml)
   set(cost 0)
@@ -52,5 +58,10 @@ foreach(group IN LISTS groups)
     math(EXPR at "${at} + 1")
     list(GET costs ${at} cost)
   endif()
-  set_tests_properties(${group} PROPERTIES LABELS "${folder};${labels_${group}}" TIMEOUT ${seconds} COST ${cost})
+  set(campaign "")
+  list(FIND campaigns ${group} at)
+  if(at GREATER -1)
+    set(campaign ";campaign")
+  endif()
+  set_tests_properties(${group} PROPERTIES LABELS "${folder}${campaign}" TIMEOUT ${seconds} COST ${cost})
 endforeach()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Memory and devices that fail: exit 2, one line that says what helps, nothing written.
+#include "tests/campaign.h"
 #include "tests/tool/faults.h"
 
 #include <vulkan/vulkan_core.h>
@@ -14,16 +15,21 @@ namespace {
 const std::string command = "compare builtin:triangle -q -o r --size 16x9 --runs 1 --channels albedo";
 constexpr int manyCalls = 2000;
 
-// From each call on in turn, until the tool does without the next one. Returns how many there were.
+constexpr int slice = 4;  // of every table here one row in so many; all in a campaign
+
+// From each call on in turn, until the tool does without the next one. Returns how many there were, as
+// Rows::atMost() has it.
 int sweep(const std::string& function, VkResult result, const std::string& says, int step = 1) {
     const Folder folder;
     EXPECT_EQ(runTool(folder, command).code, 0);
     const Contents old = contentsBelow(folder / "r");
+    const Rows rows(slice);
     int hit = 0;
-    for (int at = 1; at < manyCalls && !testing::Test::HasFailure(); at += step) {
+    for (int row = 0, at = 1; at < manyCalls && !testing::Test::HasFailure();
+         row = rows.after(row), at = 1 + row * step) {
         const Faulted ran =
             runFaulted(folder, command, {function, std::to_string(static_cast<int>(result))}, at);
-        if (ran.seen.empty()) return hit;
+        if (ran.seen.empty()) return rows.atMost(hit);
         ++hit;
         EXPECT_TRUE(ran.failedOver(says)) << function << " " << at;
         EXPECT_EQ(contentsBelow(folder / "r"), old) << function << " " << at;
@@ -79,8 +85,9 @@ TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, command).code, 0);
     const Contents old = contentsBelow(folder / "r");
+    const Rows rows(slice);
     int failed = 0;
-    for (int at = 1;; at += 7) {
+    for (int row = 0, at = 1;; row = rows.after(row), at = 1 + 7 * row) {
         ASSERT_LT(at, manyCalls);
         const Faulted ran = runFaulted(folder, command, {"memory", "12", false, 4096}, at);
         EXPECT_TRUE(leftoversIn(folder.path()).empty()) << at << " " << ran.err;
@@ -95,7 +102,7 @@ TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
         EXPECT_TRUE(ran.failedOver("")) << at;
         if (testing::Test::HasFailure()) break;
     }
-    EXPECT_GE(failed, 6);
+    EXPECT_GE(rows.atMost(failed), 6);
     EXPECT_EQ(contentsBelow(folder / "r").size(), old.size());
 }
 

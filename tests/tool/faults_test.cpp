@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Whatever fails in writing: exit 2, one line, the earlier report whole, nothing else left. Every moment is
-// met, by counting calls until the tool comes to its end without the fault.
+// met by a campaign, by counting calls until the tool comes to its end without the fault; here a slice of
+// them.
 #include "tests/tool/faults.h"
+#include "tests/campaign.h"
 
 #include <cstddef>
 
@@ -62,10 +64,14 @@ private:
     Contents old_, new_;
 };
 
-// Fails call after call until none is left to fail; returns how many ended in exit 2. `step`: not each call.
+constexpr int slice = 4;  // of every table here one row in so many
+
+// Fails call after call until none is left to fail; returns how many ended in exit 2, as Rows::atMost() has
+// it. `step`: not each call.
 int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int step = 1) {
+    const Rows rows(slice);
     int failed = 0;
-    for (int at = 1; at < manyCalls; at += step) {
+    for (int row = 0, at = 1; at < manyCalls; row = rows.after(row), at = 1 + row * step) {
         const Faulted ran = runFaulted(folder, "new r", fault, at, DIPTYCH_WRITER);
         const std::string where = "call " + std::to_string(at) + ", " + ran.seen;
         const std::vector<std::string> left = leftoversIn(folder.path());
@@ -80,10 +86,10 @@ int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int 
             EXPECT_TRUE(reports.isOld(there)) << where;
             ++failed;
         }
-        if (ran.seen.empty() || testing::Test::HasFailure()) return failed;
+        if (ran.seen.empty() || testing::Test::HasFailure()) return rows.atMost(failed);
     }
     ADD_FAILURE() << "no end";
-    return failed;
+    return rows.atMost(failed);
 }
 
 // At least so many files, of each one open, flush, close and rename. A write is into a temporary file
@@ -120,8 +126,9 @@ TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
 void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
     const Folder folder;
     const Reports reports(folder, theirs);
+    const Rows rows(slice);
     int killed = 0;
-    for (int at = 1;; at += step) {
+    for (int row = 0, at = 1;; row = rows.after(row), at = 1 + row * step) {
         ASSERT_LT(at, manyCalls);
         const Faulted ran = runFaulted(folder, "new r", {calls, "kill"}, at, DIPTYCH_WRITER);
         const std::string where = "call " + std::to_string(at) + ", " + ran.seen;
@@ -137,7 +144,7 @@ void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
         ASSERT_TRUE(reports.isNew(there)) << where;
         reports.reset();
     }
-    EXPECT_GE(killed, least);
+    EXPECT_GE(rows.atMost(killed), least);
     EXPECT_TRUE(leftoversIn(folder.path()).empty()) << "the last run sweeps what the killed ones left";
 }
 
@@ -158,7 +165,8 @@ TEST(Faults, TheToolSaysItInOneLine) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "compare -o r" + small + "albedo").code, 0);
     const Contents old = contentsBelow(folder / "r");
-    for (int at = 1;; at += 5) {
+    const Rows rows(slice);
+    for (int row = 0, at = 1;; row = rows.after(row), at = 1 + 5 * row) {
         ASSERT_LT(at, manyCalls);
         const Faulted ran = runFaulted(folder, "compare -o r" + small + "normals",
                                        {"create,close", std::to_string(ENOSPC)}, at);
@@ -178,10 +186,11 @@ void killAmongSeveral(bool theirs) {
     if (theirs) folder.write("saved/1/mine.txt", "keep");
     const Contents old = contentsBelow(folder / "saved");
     replaceBy(folder / "r", folder / "saved");
+    const Rows rows(slice / 2);
     int earlier = 0, later = 0;
     // What writes into temporary files is met above.
     for (const auto& [calls, step] : {std::pair{"move", 1}, {"remove", 4}})
-        for (int at = 1;; at += step) {
+        for (int row = 0, at = 1;; row = rows.after(row), at = 1 + row * step) {
             ASSERT_LT(at, manyCalls);
             const Faulted ran = runFaulted(folder, two + "normals", {calls, "kill"}, at);
             if (ran.seen.empty()) break;
@@ -196,8 +205,8 @@ void killAmongSeveral(bool theirs) {
             ++(first ? earlier : later);
             if (!first) replaceBy(folder / "r", folder / "saved");
         }
-    EXPECT_GE(earlier, 8);
-    EXPECT_GE(later, 3);
+    EXPECT_GE(rows.atMost(earlier), 8);
+    EXPECT_GE(rows.atMost(later), 3);
     EXPECT_TRUE(leftoversIn(folder.path()).empty()) << leftoversIn(folder.path()).front();
 }
 
@@ -213,10 +222,11 @@ TEST(Faults, ASingleFileIsOldOrNew) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render -o saved.exr" + small + "albedo").code, 0);
     const std::string old = contentsOf(folder / "saved.exr");
+    const Rows rows(slice);
     for (const Fault& fault :
          {Fault{"create,close,move", std::to_string(EIO)}, Fault{"create,close,move,remove", "kill"}}) {
         int hit = 0;
-        for (int at = 1;; ++at) {
+        for (int row = 0, at = 1;; row = rows.after(row), at = 1 + row) {
             ASSERT_LT(at, manyCalls);
             fs::copy_file(folder / "saved.exr", folder / "a.exr", fs::copy_options::overwrite_existing);
             const Faulted ran = runFaulted(folder, "render -o a.exr" + small + "normals", fault, at);
@@ -227,7 +237,7 @@ TEST(Faults, ASingleFileIsOldOrNew) {
                 EXPECT_TRUE(ran.failedOver("a.exr")) << at << " " << ran.seen;
             }
         }
-        EXPECT_GE(hit, 4);
+        EXPECT_GE(rows.atMost(hit), 4);
         EXPECT_NE(contentsOf(folder / "a.exr"), old);
         EXPECT_TRUE(leftoversIn(folder.path()).empty());
     }
@@ -238,9 +248,10 @@ TEST(Faults, ABaselineIsNeverLost) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render --path deferred -o base.exr" + small + "albedo").code, 0);
     const std::string old = contentsOf(folder / "base.exr");
+    const Rows rows(slice);
     int hit = 0;
     for (const auto& [calls, step] : {std::pair{"create", 3}, {"move", 1}, {"remove", 2}})
-        for (int at = 1;; at += step) {
+        for (int row = 0, at = 1;; row = rows.after(row), at = 1 + row * step) {
             ASSERT_LT(at, manyCalls);
             fs::remove(folder / "base.exr.old");
             fs::remove_all(folder / "r");
@@ -254,7 +265,7 @@ TEST(Faults, ABaselineIsNeverLost) {
             EXPECT_TRUE(now == old || contentsOf(folder / "base.exr.old") == old) << at << " " << ran.seen;
             EXPECT_TRUE(now.starts_with("\x76\x2f\x31\x01")) << at << " " << ran.seen;
         }
-    EXPECT_GE(hit, 10);
+    EXPECT_GE(rows.atMost(hit), 10);
     EXPECT_TRUE(leftoversIn(folder.path()).empty());
 }
 

@@ -16,8 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const std::vector<std::string> longWork{
-    "render", "builtin:gallery", "-v", "--size", "1920x1080", "--runs", "5000", "-o", "r"};
+const std::vector<std::string> longWork{"render",    "builtin:spheres", "-v",   "--assign", "every", "--size",
+                                        "1920x1080", "--runs",          "5000", "-o",       "r"};
 
 TEST(Interruption, ALongSubmitEndsAtOnceByTheSignal) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -46,7 +46,7 @@ TEST(Interruption, WritingLeavesAllOrNothing) {
     for (int attempt = 0; attempt < 6; ++attempt) {
         fs::remove_all(folder / "r");
         Running tool(folder,
-                     {"compare", "-q", "builtin:gallery", "--size", "96x54", "--runs", "0", "-o", "r"});
+                     {"compare", "-q", "builtin:points", "--size", "96x54", "--runs", "0", "-o", "r"});
         ASSERT_TRUE(soon([&] { return tool.ended() || isWriting(folder); }));
         std::this_thread::sleep_for(std::chrono::milliseconds(9 * attempt));
         if (!tool.ended()) ::kill(tool.process(), SIGINT);
