@@ -30,7 +30,8 @@ Scene loadScene(const std::string& where, const LoadProgress& progress) {
     if (where.starts_with(builtinPrefix)) {
         scene = makeBuiltin(where.substr(builtinPrefix.size()));
     } else {
-        // FILE?scene=INDEX or NAME; a file that is called so comes first.
+        // The name may end in ?scene=INDEX or ?scene=NAME. If a file of the whole name exists, it is that
+        // file.
         constexpr std::string_view key = "?scene=";
         const std::size_t question = std::filesystem::exists(where) ? where.npos : where.rfind(key);
         const std::string file = where.substr(0, question);

@@ -9,9 +9,8 @@
 
 namespace diptych {
 
-// `where` is "builtin:NAME[?key=value&...]" or the file name of a .gltf or .glb. Throws
-// std::runtime_error: one line that names file, object and fault. `progress` is told how far
-// loading has come.
+// `where` is "builtin:NAME[?key=value&...]" or the file name of a .gltf or .glb. `progress` is called while
+// loading goes on. Throws std::runtime_error: one line that names file, object and fault.
 Scene loadScene(const std::string& where, const LoadProgress& progress = {});
 
 }  // namespace diptych

@@ -54,7 +54,8 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
     r.materials = static_cast<std::uint32_t>(scene.materials.size());
 
     std::vector<bool> used(scene.materials.size(), false);
-    int skinned = -1, morphed = -1;  // the last node of each kind; instances are in node order
+    // The last node counted of each kind; a node's instances follow each other.
+    int skinned = -1, morphed = -1;
     for (const Instance& instance : pose.instances) {
         const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
                                          .primitives[static_cast<std::size_t>(instance.primitive)];

@@ -9,8 +9,8 @@
 namespace diptych {
 namespace {
 
-// It stands behind the viewer of the default view, whichever camera is chosen, so that it lights what faces
-// that one.
+// The default sun stands behind the viewer of the default view, whichever camera is chosen, so that it
+// lights the sides which face that viewer.
 Light sunOf(const Scene& scene, Pose pose) {
     pose.cameras.clear();
     return defaultSun(makeView(scene, pose, "", 1, 1).backward());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a picture is of: a scene at one time, seen by one camera, under all its lights. Made once, and given
-// to whatever draws, plans or judges that picture, so that all of them speak of the same.
+// Everything a picture shows: a scene at one time, seen by one camera, under all its lights. It is made once
+// and passed to all code that draws or judges the picture, so that all of it uses the same data.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -19,25 +19,25 @@ namespace diptych {
 
 struct ViewRequest {
     double time = 0;            // s
-    std::string camera;         // as makeView() takes it
+    std::string camera;         // INDEX, NAME or "eye=... target=...": see makeView()
     int width = 0, height = 0;  // pixels
-    std::string lights;         // a rig or a file, as makeLights() takes it; empty: the scene's own alone
+    std::string lights;         // a rig or a file, see makeLights(); empty: only the scene's own
     std::uint32_t seed = 0;     // of the rig
     auto operator<=>(const ViewRequest&) const = default;
 };
 
 struct SceneView {
-    Pose pose;  // its lights are the scene's own
+    Pose pose;  // its lights are the scene's own only
     View view;
-    std::vector<Light> lights;  // the scene's own, then the rig's; or the default sun alone
-    bool default_sun = false;   // there was no light and no environment
-    Requirements needs;         // of the scene with these lights
+    std::vector<Light> lights;  // the scene's own, then those of the rig or file; or the default sun alone
+    bool default_sun = false;   // whether the scene had neither lights nor an environment
+    Requirements needs;         // of the scene under `lights`
 };
 
-// Throws std::runtime_error naming --camera or --lights where the request makes no sense.
+// Throws std::runtime_error naming --camera or --lights if the request is invalid.
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request);
 
-// The views of one scene, each made when it is first asked for. The scene outlives it.
+// Caches the views of one scene; each is made at its first request. The scene must outlive it.
 class SceneViews {
 public:
     explicit SceneViews(const Scene& scene) : scene_(scene) {}
@@ -45,7 +45,7 @@ public:
     SceneViews& operator=(const SceneViews&) = delete;
 
     const Scene& scene() const { return scene_; }
-    const SceneView& at(const ViewRequest& request);  // stays where it is as long as this lives
+    const SceneView& at(const ViewRequest& request);  // the reference stays valid as long as this object
 
 private:
     const Scene& scene_;

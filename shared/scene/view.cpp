@@ -44,7 +44,8 @@ glm::dvec3 View::up() const {
     return glm::cross(backward(), right());
 }
 
-// From up and backward, so that a scaled, sheared or mirrored node still gives a picture that is neither.
+// Derived from up and backward, so that the picture is undistorted even if the node is scaled, sheared or
+// mirrored.
 glm::dvec3 View::right() const {
     const glm::dvec3 b = backward();
     return unitOr(glm::cross(unitOr(glm::dvec3(camera.world_from_camera[1]), {0, 1, 0}), b),
@@ -119,7 +120,7 @@ constexpr std::string_view accepted = "an index, a name, or \"eye=x,y,z target=x
     throw std::runtime_error(fmt::format("--camera \"{}\": {}", choice, why));
 }
 
-// A radius to work with where there is nothing, or only a point.
+// The radius of the bounds, or a substitute if they are empty or a single point.
 double usableRadius(const Bounds& bounds) {
     const double radius = bounds.radius();
     return radius > 0 && std::isfinite(radius) ? radius : 1.0;
@@ -129,11 +130,11 @@ glm::dvec3 usableCentre(const Bounds& bounds) {
     return bounds.empty() ? glm::dvec3(0) : bounds.centre();
 }
 
-// +Y is up in the picture; straight up or down, what lies towards -Z is on the far side as it is for a
-// camera that tilts there from looking along -Z.
+// +Y is up in the picture. Looking straight up or down, -Z is: at the top looking down, at the bottom
+// looking up, as for a camera that tilts there from looking along -Z.
 glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
     const glm::dvec3 backward = glm::normalize(eye - target);
-    // 1e-6: nearer the pole than that, rounding decides where up is.
+    // Below 1e-6 the direction of `right` would be rounding error.
     const bool atPole = glm::length(glm::cross(glm::dvec3(0, 1, 0), backward)) < 1e-6;
     const glm::dvec3 up = atPole ? glm::dvec3(0, 0, backward.y > 0 ? -1 : 1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(up, backward));
@@ -141,8 +142,8 @@ glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
                       glm::dvec4(backward, 0), glm::dvec4(eye, 1));
 }
 
-// The nearest eye along `backward` from the bounds' centre that sees all eight corners with 5 % to spare. A
-// sphere around a long hall would leave most of the picture empty.
+// The smallest distance along `backward` from the bounds' centre from which all eight corners are seen, with
+// a margin of 5 %. (Fitting a sphere instead would leave most of the picture empty for a long hall.)
 double fittingDistance(const Bounds& bounds, const glm::dmat4& axes, double aspect) {
     const double tanY = std::tan(defaultFov * 0.5) / 1.05, tanX = tanY * aspect;
     const double radius = usableRadius(bounds);
@@ -160,7 +161,7 @@ double fittingDistance(const Bounds& bounds, const glm::dmat4& axes, double aspe
     return distance;
 }
 
-// Whether `eye` sees the front of some triangle, or either side of a double-sided one.
+// Whether `eye` sees the front of at least one triangle, or either side of a double-sided one.
 bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) {
     for (const Instance& instance : pose.instances) {
         const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
@@ -184,8 +185,8 @@ bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) 
     return false;
 }
 
-// A thousandth of the bounds' radius: an eye inside a room may stand that near a wall, and reversed float
-// depth loses nothing by it. No far plane, so nothing is cut off behind.
+// near is a thousandth of the bounds' radius: an eye inside a building may be that close to a wall, and
+// reversed float depth loses no precision by it. There is no far plane, so that nothing is cut off.
 Camera freeCamera(const Bounds& bounds) {
     Camera camera;
     camera.yfov = defaultFov;
@@ -236,7 +237,7 @@ glm::dvec3 pointOf(std::string_view choice, const std::string& key, std::string_
     return point;
 }
 
-// "key=value key=value", each key once.
+// Parses "key=value key=value"; each key may occur once.
 std::map<std::string, std::string> words(const std::string& choice) {
     std::map<std::string, std::string> result;
     for (std::size_t at = 0; (at = choice.find_first_not_of(" \t", at)) != choice.npos;) {
@@ -314,7 +315,8 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
     } else if (choice.empty() || choice.find('=') != choice.npos) {
         const double aspect = static_cast<double>(width) / height;
         const Bounds bounds = boundsAtStart(scene, pose);
-        // From which side, too, is decided as the scene begins: the camera does not jump about what moves.
+        // The default view is chosen from the pose at 0 s, so that the camera does not jump as the scene
+        // moves.
         view = pose.seconds == 0 ? defaultView(scene, pose, bounds, aspect)
                                  : defaultView(scene, poseAt(scene, 0), bounds, aspect);
         if (!choice.empty()) view = explicitView(view, bounds, choice);

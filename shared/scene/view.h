@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a camera and a picture's size to what the shaders need, in double.
+// From a camera and a picture's size to the matrices and vectors that the shaders need, in double.
 #pragma once
 
 #include "shared/contract/view.h"
@@ -9,25 +9,27 @@
 namespace diptych {
 
 struct View {
-    Camera camera;  // world
+    Camera camera;  // in world space
     int width = 0, height = 0;
-    double target_distance = 1;  // m, from the eye to what it was aimed at
+    double target_distance = 1;  // m, from the eye to the point that it looks at
 
     glm::dvec3 eye() const;
     glm::dvec3 target() const;
     glm::dvec3 right() const;     // unit
     glm::dvec3 up() const;        // unit
-    glm::dvec3 backward() const;  // unit, from what is seen to the camera
+    glm::dvec3 backward() const;  // unit, from the target to the camera
 
-    // Reversed depth, Vulkan's clip space (y down), world axes with the camera as origin.
+    // Reversed depth, Vulkan's clip space (y down), relative to the camera: world axes with the camera as
+    // origin.
     glm::dmat4 clipFromWorld() const;
 
-    gpu::View gpuView() const;  // light counts are left 0
+    gpu::View gpuView() const;  // the light counts in it are left 0
 };
 
-// `choice` is Settings::camera; `pose` and `scene` give the scene's own cameras and the default view: from
-// the direction (+1, +0.6, +1) around the bounds, from the other side if nothing faces it. Throws
-// std::runtime_error naming --camera and what is accepted.
+// `choice` is Settings::camera: one of the scene's own cameras, a free camera, or empty for the first of its
+// cameras or, where it has none, the default view: from the direction (+1, +0.6, +1) around the bounds, or
+// from the other side if nothing faces that one. Throws std::runtime_error naming --camera and what is
+// accepted.
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height);
 
 }  // namespace diptych

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The two codecs behind decode.h. `read...Header` gets a file with the right signature; `decode...` one
-// whose header has been found sound, and fills `pixels`, which has room for header.bytes(): rows from top to
-// bottom, RGBA, 16 bit components in the machine's order. Both throw std::runtime_error without a name.
+// The PNG and JPEG decoders behind decode.h. `read...Header` takes a file whose signature has been checked;
+// `decode...` takes a file whose header has been checked, and fills `pixels`, which holds header.bytes()
+// bytes: rows from top to bottom, RGBA, 16 bit components in the machine's byte order. Both throw
+// std::runtime_error without the file's name.
 #pragma once
 
 #include "shared/scene/image/header.h"
@@ -20,7 +21,7 @@ ImageHeader readJpegHeader(Bytes encoded);
 void decodePng(Bytes encoded, const ImageHeader& header, unsigned char* pixels);
 void decodeJpeg(Bytes encoded, const ImageHeader& header, unsigned char* pixels);
 
-// What both say where a library gives up: "does not decode: WHY".
+// The message of both decoders where their library fails: "does not decode: WHY".
 [[noreturn]] inline void failDecoding(const char* why) {
     throw std::runtime_error(std::string("does not decode: ") + why);
 }

@@ -8,15 +8,16 @@
 
 namespace diptych {
 
-// Both take a PNG (1 to 16 bits, grey, palette or colour, any transparency, interlaced or not) or a JPEG
-// (8 bits; grey, colour or CMYK, sequential or progressive), and throw std::runtime_error without a name:
-// "is neither PNG nor JPEG", "is WebP; PNG and JPEG are read", "does not decode: bad adaptive filter value".
-// A header is refused where a side is beyond 1 to 16384 pixels or the bytes cannot hold as many pixels as it
-// claims.
+// Both functions take a PNG (1 to 16 bits, grey, palette or colour, any transparency, interlaced or not) or
+// a JPEG (8 bits; grey, colour or CMYK, sequential or progressive), and throw std::runtime_error without the
+// file's name: "is neither PNG nor JPEG", "is WebP; PNG and JPEG are read", "does not decode: bad adaptive
+// filter value". A header is refused if a side is not within 1 to 16384 pixels, or if the file is too short
+// for as many pixels as the header claims.
 ImageHeader imageHeader(std::span<const unsigned char> encoded);
 
-// Pixels as they are stored: colour profiles and gamma chunks are ignored, as glTF 2.0 (3.8.3) asks. Files of
-// up to 8 bits a component become 8, those of 16 stay 16. Nothing is printed, whatever the file holds.
+// The pixels as they are stored: colour profiles and gamma chunks are ignored, as glTF 2.0 (3.8.3) asks.
+// Components of up to 8 bits become 8 bits, those of 16 stay 16. Nothing is printed, whatever the file
+// holds.
 TextureImage decodeImage(std::span<const unsigned char> encoded);
 
 }  // namespace diptych

@@ -9,10 +9,11 @@
 
 namespace diptych {
 
-// A lat-long picture as it lies in scene.h, from OpenEXR, Radiance HDR or PFM, told by content: the layer R,
-// G, B, or else the first that has these three. What is added to `notes`: another layer, another shape than
-// 2:1, components that are negative or not finite, which become 0. Throws std::runtime_error, one line naming
-// file and fault; a picture of display colours is one.
+// Reads a lat-long picture into the layout of scene.h. OpenEXR, Radiance HDR and PFM are told apart by
+// content. Takes the layer R, G, B, or else the first layer that has these three channels. Adds to `notes`:
+// that another layer was taken, that the picture's shape is not 2:1, that components which are negative or
+// not finite became 0. Throws std::runtime_error, one line naming file and fault, also for a picture of
+// display colours (PNG, JPEG).
 Environment readEnvironment(const std::filesystem::path& file, std::vector<std::string>& notes);
 
 }  // namespace diptych

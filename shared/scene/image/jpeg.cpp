@@ -15,13 +15,14 @@ namespace diptych::codec {
 
 namespace {
 
-// Every scan of a progressive file runs over all of its pixels, and a few bytes make a scan: so many
-// pixel-scans are followed, 16 scans of the largest image. Encoders make about ten.
+// Each scan of a progressive file visits all of its pixels, although a scan may take only a few bytes of the
+// file. The sum of pixels over all scans is therefore limited, to 16 scans of the largest image; encoders
+// make about ten scans.
 constexpr std::int64_t maxScannedPixels = std::int64_t{16} << 28;
 
-// libjpeg's way out of an error is a longjmp: nothing between setjmp and here may own anything.
+// libjpeg leaves by longjmp on an error: no object with a destructor may be created between setjmp and here.
 struct Errors {
-    jpeg_error_mgr manager;  // first: libjpeg hands its address back
+    jpeg_error_mgr manager;  // must come first: libjpeg passes back a pointer to it, which is cast to Errors
     std::jmp_buf out;
     std::array<char, JMSG_LENGTH_MAX> message{};
 };
@@ -32,7 +33,8 @@ struct Errors {
     std::longjmp(errors.out, 1);
 }
 
-// libjpeg warns of lost pixels, and goes on with grey ones: not here. Other warnings lose nothing.
+// libjpeg only warns where pixels are lost, and fills them with grey: here that is an error. Other warnings
+// lose no pixel.
 void onMessage(j_common_ptr jpeg, int level) {
     if (level >= 0) return;
     switch (jpeg->err->msg_code) {
@@ -58,7 +60,7 @@ void onProgress(j_common_ptr common) {
     std::longjmp(errors.out, 1);
 }
 
-// A decompressor that is made and destroyed with its scope; setjmp goes after it.
+// A decompressor destroyed with its scope. It must be created before setjmp is called.
 class Decompressor {
 public:
     explicit Decompressor(Bytes encoded) {
@@ -72,7 +74,7 @@ public:
     Decompressor(const Decompressor&) = delete;
     Decompressor& operator=(const Decompressor&) = delete;
 
-    // Up to the first scan; may jump.
+    // Reads up to the first scan; may longjmp.
     void begin() {
         jpeg_create_decompress(&jpeg);
         jpeg_mem_src(&jpeg, encoded_.data(), static_cast<unsigned long>(encoded_.size()));
@@ -99,8 +101,8 @@ bool readHeader(Decompressor& d) {
     return true;
 }
 
-// Red, green and blue of four inks, of which Adobe's files store what is left of the light.
-void lightOfInks(unsigned char* row, std::size_t pixels, bool inverted) {
+// CMYK to RGBA, in place. Adobe's files store inverted inks (`inverted`): 255 is no ink.
+void rgbaFromInks(unsigned char* row, std::size_t pixels, bool inverted) {
     for (unsigned char* p = row; p < row + 4 * pixels; p += 4) {
         const int black = inverted ? p[3] : 255 - p[3];
         for (int c = 0; c < 3; ++c) {
@@ -123,7 +125,7 @@ bool decode(Decompressor& d, const ImageHeader& header, unsigned char* pixels) {
     while (d.jpeg.output_scanline < d.jpeg.output_height) {
         unsigned char* line = pixels + d.jpeg.output_scanline * row;
         jpeg_read_scanlines(&d.jpeg, &line, 1);
-        if (inks) lightOfInks(line, d.jpeg.output_width, d.jpeg.saw_Adobe_marker != 0);
+        if (inks) rgbaFromInks(line, d.jpeg.output_width, d.jpeg.saw_Adobe_marker != 0);
     }
     return true;
 }
@@ -136,8 +138,8 @@ ImageHeader readJpegHeader(Bytes encoded) {
     if (d.jpeg.arith_code) throw std::runtime_error("is a JPEG with arithmetic coding: not read");
     if (d.jpeg.jpeg_color_space == JCS_UNKNOWN)
         throw std::runtime_error("is a JPEG that is neither grey, RGB, YCbCr, CMYK nor YCCK: not read");
-    // A block of 8 x 8 takes a bit at least, and sampling factors of 4x1, 1x4 and 1x1 spread nine blocks over
-    // 32 x 32 pixels: 910 a byte.
+    // An 8 x 8 block takes at least one bit, and sampling factors of 4x1, 1x4 and 1x1 spread nine blocks
+    // over 32 x 32 pixels: at most 910 pixels a byte.
     constexpr std::int64_t pixelsPerByte = 1024;
     return {ImageHeader::Kind::jpeg, d.jpeg.image_width, d.jpeg.image_height, false, pixelsPerByte};
 }

@@ -22,7 +22,7 @@ double linearFromSrgb(double s) {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// The linear value of each code of a component.
+// Table of the linear value of each code of a component.
 template <class Code>
 const std::vector<float>& linearValues(bool srgb) {
     const auto make = [](bool encoded) {
@@ -38,9 +38,9 @@ const std::vector<float>& linearValues(bool srgb) {
     return srgb ? colors : numbers;
 }
 
-// Rounding to 8 bits of sRGB is a search: code c stands for every linear value from threshold[c] up to
-// threshold[c + 1]. The guess, one per 1/4096, lies at most a step below the answer: the steepest part of
-// the curve, 12.92 x 255 codes over 0 to 1, passes 0.8 codes in 1/4096.
+// Rounds linear light to 8 bits of sRGB by a search: code c stands for every linear value from threshold[c]
+// up to threshold[c + 1]. The initial guess, tabulated in steps of 1/4096, is at most one code too low: the
+// steepest part of the curve, 12.92 x 255 codes over 0 to 1, passes 0.8 codes in 1/4096.
 class SrgbEncoder {
 public:
     SrgbEncoder() {
@@ -55,7 +55,7 @@ public:
         }
     }
 
-    // `linear` from 0 to 1 and a rounding error beyond.
+    // `linear` is within 0 to 1, but for rounding errors.
     std::uint8_t operator()(float linear) const {
         const std::size_t code = guess_[static_cast<std::size_t>(std::clamp(linear, 0.0f, 1.0f) * 4096.0f)];
         return static_cast<std::uint8_t>(code + (linear >= threshold_[code + 1] ? 1 : 0));
@@ -72,7 +72,7 @@ Code rounded(float linear) {
     return static_cast<Code>(static_cast<int>(std::clamp(linear, 0.0f, 1.0f) * top + 0.5f));
 }
 
-// A row of `count` components to what the device is given.
+// Encodes a row of `count` components in the format that the device is given.
 void encodeRow(const float* linear, std::size_t count, Texels texels, std::byte* out) {
     static const SrgbEncoder srgb;
     const auto each = [&]<class Code>(Code, const auto& encode) {
@@ -99,8 +99,9 @@ void encodeRow(const float* linear, std::size_t count, Texels texels, std::byte*
     }
 }
 
-// The texels below one texel of the next level and the share of its length that each covers: two equal ones
-// of an even size, three of an odd size 2n + 1 (texel i reaches from i (2 + 1/n) to (i + 1)(2 + 1/n)).
+// The texels of one level that are averaged into one texel of the next, and the share of its length that
+// each covers: two texels of equal share for an even size, three for an odd size 2n + 1 (texel i covers from
+// i (2 + 1/n) to (i + 1)(2 + 1/n)).
 struct Taps {
     std::size_t first, count;
     std::array<float, 3> weight;
@@ -125,12 +126,12 @@ std::vector<Taps> tapsOf(std::size_t from, std::size_t to) {
 
 struct Level {
     std::size_t width, height;
-    std::vector<float> linear;  // four a texel
+    std::vector<float> linear;  // four floats a texel
 };
 
-// The level below one of width x height, whose row y `row(y, scratch)` gives as linear components: a pointer
-// into memory of its own, or into `scratch` that it fills. Each texel is summed by one thread in one order:
-// the result is the same on any number of cores.
+// The level after one of width x height. `row(y, scratch)` returns row y of the level before as linear
+// components: a pointer either into memory of its own or into `scratch`, which it then fills. Each texel is
+// summed by one thread in a fixed order, so the result does not depend on the number of cores.
 template <class Row>
 Level halved(std::size_t width, std::size_t height, const Row& row, Texels texels,
              std::vector<std::byte>& encoded) {

@@ -10,21 +10,22 @@
 
 namespace diptych {
 
-// RGBA texels as a device samples them: 8 bits of sRGB (alpha linear), 8 or 16 bits of linear 0 to 1, linear
-// floats of 16 or 32 bits.
+// Formats of RGBA texels as a device samples them: 8 bits of sRGB (alpha linear), 8 or 16 bits of linear 0
+// to 1, linear floats of 16 or 32 bits.
 enum class Texels { srgb8, linear8, linear16, float16, float32 };
 
 std::size_t bytesPerTexel(Texels texels);
 
-// The whole mip chain of an image, level 0 first, down to 1x1, each level half the one before, rounded down
-// (Vulkan's sizes). Averages are made in linear light: with `srgb` the colour components of the image are
-// sRGB, alpha never is. Odd sizes are weighted by area, so no texel is left out. Every level is averaged from
-// the one before it unrounded: rounding happens once, on the way out. Level 0 of 8 bits, of linear16 and of
-// floats as float32 is the image's own memory, which must outlive the chain.
+// The mip chain of an image: level 0 first, down to 1x1, each level half the size of the one before, rounded
+// down (Vulkan's sizes). Averages are made in linear light; with `srgb` the image's colour components are
+// decoded from sRGB first, alpha is always linear. Odd sizes are weighted by area, so that every texel
+// counts. Each level is averaged from the unrounded level before it: rounding happens only on output. Level
+// 0 of srgb8, linear8, linear16 and float32 (from an image of floats) is the image's own memory, which must
+// outlive the chain.
 class MipChain {
 public:
-    // An image of 8 bits becomes srgb8 or linear8, one of 16 bits one of the other three, one of floats
-    // float32 or float16, which ends at 65504.
+    // An image of 8 bits becomes srgb8 or linear8; one of 16 bits linear16, float16 or float32; one of
+    // floats float32, or float16 with values limited to 65504.
     MipChain(const TextureImage& image, bool srgb, Texels texels);
 
     const std::string& name() const { return name_; }

@@ -18,7 +18,7 @@ namespace {
 
 using Channels = std::array<std::size_t, 3>;
 
-// Where a layer has R, G and B: "R" or "LAYER.R".
+// The positions of the channels R, G and B ("R" or "LAYER.R") in a layer, if it has all three.
 std::optional<Channels> colourOf(const PictureLayer& layer) {
     Channels channels{};
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -41,7 +41,7 @@ const PictureLayer* layerOf(const PictureFile& picture) {
     return found;
 }
 
-// R, G and B; counts the pixels of which something is 0 instead.
+// Copies R, G and B, and counts the pixels with a component that was replaced by 0.
 struct Repaired {
     std::size_t negative = 0, not_finite = 0;
 };

@@ -10,13 +10,13 @@
 
 namespace diptych {
 
-// Whether a file's first bytes are those of a picture of linear light: OpenEXR, Radiance HDR or PFM.
+// Whether the first bytes are those of a format of linear light: OpenEXR, Radiance HDR or PFM.
 bool isRadiancePicture(std::span<const std::byte> bytes);
 
-// Three components a pixel, finite and at least 0: the layer R, G, B, or else the first that has these three.
-// What is added to `notes`, each with `where` before it: what the reader noted, another layer, components
-// that are negative or not finite, which become 0. Throws std::runtime_error, without a name, where no layer
-// has them.
+// Three components a pixel, finite and at least 0: the layer R, G, B, or else the first layer that has these
+// three channels. Adds to `notes`, each prefixed by `where`: the reader's own notes, that another layer was
+// taken, that components which are negative or not finite became 0. Throws std::runtime_error, without the
+// file's name, if no layer has the three channels.
 Image radianceOf(const PictureFile& picture, const std::string& where, std::vector<std::string>& notes);
 
 }  // namespace diptych

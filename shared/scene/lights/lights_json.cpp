@@ -31,7 +31,7 @@ constexpr std::pair<LightKind, std::string_view> types[] = {
     {LightKind::point, "point"}, {LightKind::spot, "spot"}, {LightKind::directional, "directional"},
     {LightKind::rect, "rect"},   {LightKind::disc, "disc"}, {LightKind::tube, "tube"}};
 
-// Keys that not all types have, and those that have them.
+// Keys that only some types of light have, with those types.
 struct OwnKey {
     std::string_view key;
     std::vector<LightKind> kinds;
@@ -47,9 +47,9 @@ const OwnKey ownKeys[] = {{"angle", {LightKind::directional}},
                           {"length", {LightKind::tube}}};
 
 constexpr double any = std::numeric_limits<double>::max();
-// Squares of what is smaller, as of what is beyond maxCoordinate, are no float32.
+// Sizes outside 1 / maxCoordinate to maxCoordinate are refused: shaders square them in float32.
 constexpr double leastSize = 1 / maxCoordinate;  // m
-constexpr double rounding = 1e-6;                // a rounded pi is one
+constexpr double rounding = 1e-6;                // tolerance for an angle of pi written with few digits
 
 std::string_view typeOf(LightKind kind) {
     for (const auto& [candidate, name] : types)
@@ -102,7 +102,7 @@ glm::dvec3 levelAxis(const glm::dvec3& direction) {
     return glm::length(right) > rounding ? glm::normalize(right) : glm::dvec3(1, 0, 0);
 }
 
-// At right angles to the direction, of a tube only where none is given.
+// At right angles to the direction; a tube's axis is only derived from the direction if none is given.
 glm::dvec3 axisOf(const JsonFields& fields, const Light& light) {
     const glm::dvec3 axis = fields.unit("axis", levelAxis(light.direction));
     if (light.kind == LightKind::tube && fields.find("axis")) return axis;
@@ -154,7 +154,7 @@ float sunAngle(const JsonFields& fields) {
 Light lightFromJson(const Json& object, const std::string& who) {
     const JsonFields fields(object, who);
     Light light;
-    light.kind = kindOf(fields);  // first: it says which keys there may be
+    light.kind = kindOf(fields);  // first, since it decides which keys are allowed
     checkKeys(fields, light.kind);
     light.name = fields.text("name", "");
     light.position = fields.vector("position", light.position);

@@ -14,31 +14,32 @@ namespace diptych {
 
 class JsonFields;
 
-// { "lights": [ { "type": ... }, ... ] }, in world space, with the defaults of KHR_lights_punctual and of
-// Light:
+// A file of lights, { "lights": [ { "type": ... }, ... ] }, in world space. Defaults are those of
+// KHR_lights_punctual and of Light:
 //
 //   all           "type", "name", "position": [x, y, z] m, "direction": [x, y, z], "color": [r, g, b],
 //                 "intensity" (directional: lux; point, spot: cd; rect, disc, tube: cd/m^2), "range": m,
-//                 "extras" (not read). A directional light's position and range, a point's direction count
-//                 for nothing.
-//                 "importance": "auto", "important" or "not_important", of --assign per_object
-//   directional   "angle": rad, the diameter of its disc; the illuminance stays what it is
-//   spot          "spot": { "innerConeAngle": rad, "outerConeAngle": rad }, which may stand beside the type
+//                 "extras" (not read). A directional light's position and range and a point light's direction
+//                 have no effect.
+//                 "importance": "auto", "important" or "not_important", for --assign per_object
+//   directional   "angle": rad, the diameter of its disc; it does not change the illuminance
+//   spot          "spot": { "innerConeAngle": rad, "outerConeAngle": rad }; both may also stand beside "type"
 //   rect          "size": [along the axis, across it] m, "axis", "twoSided"
 //   disc          "radius": m, "twoSided"
 //   tube          "length": m, along the axis, "radius": m, "axis"
 //
-// A rect's axis is made to stand at right angles to its direction. Without an axis it is level (y = 0), to
-// the right of who looks along the direction with +Y up; +X where the direction is +Y or -Y. A key of another
-// type is an error, as a misspelt one is. Throws std::runtime_error, one line: "FILE: light 3: range: ...".
+// A rect's axis is projected to be at right angles to its direction. If no axis is given it is horizontal
+// (y = 0), to the right of a viewer who looks along the direction with +Y up; if the direction is +Y or -Y,
+// it is +X. A key of another type of light is an error, as is a misspelt one. Throws std::runtime_error, one
+// line: "FILE: light 3: range: ...".
 std::vector<Light> readLights(const std::filesystem::path& file);
 std::vector<Light> lightsFromJson(std::string_view text, const std::string& name);
 
-// One of these objects. Throws std::runtime_error: "WHO: range: ...".
+// Reads one object of such a file. Throws std::runtime_error: "WHO: range: ...".
 Light lightFromJson(const nlohmann::json& object, const std::string& who);
-// "angle" of a directional light, 0 to pi; 0 where there is none.
+// "angle" of a directional light, 0 to pi; 0 if the key is absent.
 float sunAngle(const JsonFields& fields);
-// "importance"; automatic where there is none.
+// "importance"; automatic if the key is absent.
 Importance importanceOf(const JsonFields& fields);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A material's texture slots, in the order of SLOT_*.
+// A material's texture slots, in the order of SLOT_* (shared/contract/material.h).
 #pragma once
 
 #include "shared/contract/material.h"
@@ -12,7 +12,7 @@ namespace diptych {
 
 struct MaterialSlot {
     TextureSlot Material::*texture;
-    bool srgb;  // its colour components are sRGB; alpha never is
+    bool srgb;  // colour components are sRGB-encoded; alpha is always linear
 };
 
 constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
@@ -26,8 +26,8 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::lightmap_texture, true},
 }};
 
-// Whether the slot has a texture that can change a pixel: one whose factor is zero cannot, and an unlit
-// material has its base colour alone.
+// Whether the slot has a texture that can change a pixel: not where its factor is zero, nor where the
+// material is unlit, which uses its base colour alone.
 inline bool readsSlot(const Material& material, std::size_t slot) {
     if ((material.*materialSlots[slot].texture).texture < 0) return false;
     if (material.unlit) return slot == gpu::SLOT_base_color;

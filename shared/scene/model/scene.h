@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene as the CPU sees it: no Vulkan, no shaders. World space is glTF's: right-handed, +Y up, metres,
-// candela and lux, linear Rec.709.
+// A scene on the CPU: no Vulkan, no shaders. World space is glTF's: right-handed, +Y up, metres, candela and
+// lux, linear Rec.709.
 #pragma once
 
 #include "shared/contract/constants.h"
@@ -28,19 +28,19 @@ struct Sampler {
     bool magnify_linear = true;
     bool minify_linear = true;
     bool mipmaps = true;
-    bool mipmaps_linear = true;  // between two levels
+    bool mipmaps_linear = true;  // interpolates between two mip levels
     bool operator==(const Sampler&) const = default;
 };
 
-// Level 0, RGBA, row 0 on top: 8 or 16 bits a component, which the slot that reads it takes for sRGB or
-// linear, or linear floats, finite and at least 0.
+// Level 0, RGBA, row 0 on top: 8 or 16 bits a component, sRGB or linear depending on the slot that reads it,
+// or linear floats, finite and at least 0.
 struct TextureImage {
     std::string name;
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;  // one of the three is filled
+    std::vector<std::uint8_t> rgba;  // exactly one of the three arrays is filled
     std::vector<std::uint16_t> rgba16{};
     std::vector<float> rgba32{};
-    float largest = 1;  // colour component that there may be; of floats that there is
+    float largest = 1;  // upper bound of the colour components; for floats the largest that occurs
 
     bool deep() const { return !rgba16.empty() || !rgba32.empty(); }
     std::size_t components() const { return rgba.size() + rgba16.size() + rgba32.size(); }
@@ -51,7 +51,7 @@ struct Texture {
     Sampler sampler;
 };
 
-// A material's slot: which texture, which UV set, and KHR_texture_transform as a 2x3 matrix:
+// A texture slot of a material: texture, UV set, and KHR_texture_transform as a 2x3 matrix:
 // uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
 struct TextureSlot {
     int texture = -1;  // into Scene::textures; -1: none
@@ -67,39 +67,39 @@ struct Material {
     float metallic = 1, roughness = 1;
     glm::vec3 emissive{0, 0, 0};  // W/(sr m^2): factor x KHR_materials_emissive_strength
     float normal_scale = 1, occlusion_strength = 1;
-    float ior = 1.5f;    // KHR_materials_ior; 0: reflects everything
+    float ior = 1.5f;    // KHR_materials_ior; 0 means an infinite index: everything is reflected
     float specular = 1;  // KHR_materials_specular
     glm::vec3 specular_color{1, 1, 1};
-    float lightmap_intensity = 1;  // what the lightmap is multiplied by; see contract/material.h
+    float lightmap_intensity = 1;  // factor of the lightmap; see contract/material.h
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
-    bool unlit = false;  // KHR_materials_unlit: base colour, alpha and double_sided count, nothing else
+    bool unlit = false;  // KHR_materials_unlit: only base colour, alpha and double_sided are used
     // In the order of SLOT_* of contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture, lightmap_texture;
 };
 
-// Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions, but
-// normals and tangents: they are always there when a scene has been loaded.
+// Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions; normals
+// and tangents are never empty once a scene has been loaded.
 struct Primitive {
     std::vector<glm::vec3> positions;  // object, m
     std::vector<glm::vec3> normals;    // unit
     std::vector<glm::vec4> tangents;   // w: the bitangent's sign, bitangent = w * cross(normal, tangent)
     std::vector<glm::vec2> texcoords[2];
     std::vector<glm::vec4> colors;       // linear Rec.709, alpha
-    std::vector<JointSet> joint_sets;    // none where no skin moves it
-    std::vector<MorphTarget> targets;    // as many in every primitive of a mesh
+    std::vector<JointSet> joint_sets;    // empty where no skin moves it
+    std::vector<MorphTarget> targets;    // every primitive of a mesh has the same number
     std::vector<std::uint32_t> indices;  // three a triangle
     int material = 0;                    // into Scene::materials, always valid
-    bool flat = false;  // the normals are the triangles' own: they follow from the positions, posed or not
-    bool tangents_made = false;  // by makeTangents: the file has none to use
+    bool flat = false;           // normals are the triangles' own: recomputed from the positions when posed
+    bool tangents_made = false;  // by makeTangents, because the file has none that can be used
 };
 
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
-    std::vector<float> weights = {};  // of its morph targets, one each, at rest
+    std::vector<float> weights = {};  // of its morph targets at rest, one each
 };
 
 struct Node {
@@ -107,53 +107,54 @@ struct Node {
     int parent = -1;  // into Scene::nodes; parents need not come first
     glm::dmat4 parent_from_node{1.0};
     int mesh = -1;
-    int skin = -1;       // into Scene::skins; moves those primitives of the mesh that have joint sets
-    int transform = -1;  // into Scene::transforms: parent_from_node in parts, where an animation moves it
-    int weights = -1;    // into Scene::weights: in place of its mesh's
+    int skin = -1;       // into Scene::skins; applies to the primitives of the mesh that have joint sets
+    int transform = -1;  // into Scene::transforms, parent_from_node in parts; -1 unless an animation moves it
+    int weights = -1;    // into Scene::weights, which replace the mesh's; -1: the mesh's are used
 };
 
 enum class LightKind { directional, point, spot, rect, disc, tube };
 
-// A mark that overrides how bright --assign per_object finds a light; other assignments know no difference.
+// Overrides how --assign per_object ranks a light; other assignments ignore it.
 enum class Importance { automatic, important, not_important };
 
 constexpr bool isArea(LightKind kind) {
     return kind == LightKind::rect || kind == LightKind::disc || kind == LightKind::tube;
 }
 
-// KHR_lights_punctual, and surfaces that shine: a rectangle and a disc, from one side or both, and a closed
-// cylinder, the tube. Every point of these sends the same radiance into every direction (Lambert); they throw
-// no shadow and are not seen themselves. Shines along -Z of its node, +X of the node is its axis; without a
-// node everything is world.
+// A light of KHR_lights_punctual or an area light: a rectangle or a disc, one-sided or two-sided, or a tube
+// (a closed cylinder). Every point of an area light sends the same radiance into every direction (Lambert).
+// Area lights throw no shadow and are not visible themselves. A light shines along -Z of its node, and +X of
+// the node is its axis; a light without a node is given in world space.
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
     glm::vec3 color{1, 1, 1};  // linear Rec.709
     float intensity = 1;       // directional: lux; point, spot: candela; area: nits
-    float range = std::numeric_limits<float>::infinity();  // m; of an area light from its centre
-    float inner_cone = 0;                                  // rad, from the axis
-    float outer_cone = gpu::PI / 4;                        // rad
-    float angle = 0;                                       // directional: the diameter of its disc, rad
-    float width = 1, height = 1;                           // rect: along the axis, and across it; m
-    float radius = 0.5f;                                   // disc, tube; m
-    float length = 1;                                      // tube: along the axis; m
-    bool two_sided = false;                                // rect, disc
+    // M, no light beyond; for an area light from its centre.
+    float range = std::numeric_limits<float>::infinity();
+    float inner_cone = 0;            // rad, from the axis
+    float outer_cone = gpu::PI / 4;  // rad
+    float angle = 0;                 // directional: the diameter of its disc, rad
+    float width = 1, height = 1;     // rect: along the axis, and across it; m
+    float radius = 0.5f;             // disc, tube; m
+    float length = 1;                // tube: along the axis; m
+    bool two_sided = false;          // rect, disc
     Importance importance = Importance::automatic;
     int node = -1;
     glm::dvec3 position{0, 0, 0};    // area: of its centre
-    glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; a tube's counts for nothing
+    glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; without effect for a tube
     glm::dvec3 axis{1, 0, 0};        // unit; rect: at right angles to the direction
 };
 
-// What shines from everywhere, as a picture of all directions: column x + 0.5 of `width` looks to the azimuth
-// 2 pi (x + 0.5) / width - pi, which is 0 at -Z, positive towards +X; row y + 0.5 of `height` to pi (y + 0.5)
-// / height from +Y. Between the pixels' centres it is bilinear, across the seam too.
+// Light from all directions, as a lat-long picture: the centre x + 0.5 of column x of `width` has the
+// azimuth 2 pi (x + 0.5) / width - pi, which is 0 at -Z and positive towards +X; the centre of row y of
+// `height` lies pi (y + 0.5) / height from +Y. Bilinear between the pixels' centres, across the seam too.
 struct Environment {
     std::string name;  // the file
     Image radiance;    // width x height x 3, linear Rec.709, W/(sr m^2), >= 0 and finite
 };
 
-// Looks along -Z of its node, +Y up.
+// Looks along -Z of its node, with +Y up.
 struct Camera {
     std::string name;
     bool orthographic = false;
@@ -162,7 +163,7 @@ struct Camera {
     double near = 0.1;                 // m
     double far = std::numeric_limits<double>::infinity();
     int node = -1;
-    glm::dmat4 world_from_camera{1.0};  // without a node
+    glm::dmat4 world_from_camera{1.0};  // used where `node` is -1
 };
 
 struct Scene {
@@ -175,16 +176,16 @@ struct Scene {
     std::vector<Light> lights;
     std::optional<Environment> environment;
     std::vector<Camera> cameras;
-    std::vector<Transform> transforms;        // of the nodes that an animation moves
+    std::vector<Transform> transforms;        // of the nodes that animations move
     std::vector<std::vector<float>> weights;  // of morph targets, of the nodes that have their own
-    std::vector<Skin> skins;                  // those that something is drawn with
-    std::vector<Animation> animations;        // what of them moves a node of this scene
-    glm::vec3 background{0, 0, 0};            // what pictures show where nothing is; channels hold 0 there
-    std::vector<std::string> notes;           // what was read otherwise than the file says
+    std::vector<Skin> skins;                  // those that a drawn mesh uses
+    std::vector<Animation> animations;        // only channels that move a node of this scene
+    glm::vec3 background{0, 0, 0};   // colour of uncovered pixels in pictures; in channels they are 0
+    std::vector<std::string> notes;  // what was read otherwise than as the file says, one line each
 };
 
-// What lies further out, in an object or in the world, is not drawn: shaders square coordinates and add the
-// squares in float32, which ends at 3.4e38.
+// Geometry further out, in object or in world space, is not drawn: shaders add up squares of coordinates in
+// float32, which ends at 3.4e38.
 inline constexpr double maxCoordinate = 1e18;  // m
 
 }  // namespace diptych

@@ -15,7 +15,7 @@ namespace diptych {
 
 namespace {
 
-// Vertices `source` of `primitive`, in that order, as its new vertices.
+// Replaces the vertices of `primitive` by the vertices `source` of it, in that order.
 void gather(Primitive& primitive, const std::vector<std::uint32_t>& source) {
     const auto take = [&](auto& attribute) {
         if (attribute.empty()) return;
@@ -86,7 +86,7 @@ glm::vec4 anyTangent(const glm::vec3& normal) {
     return length > 0 ? glm::vec4(glm::vec3(t / length), 1) : glm::vec4(1, 0, 0, 1);
 }
 
-// What decides whether two vertices are one: 0 and -0 are equal.
+// The values that decide whether two vertices are welded; 0 and -0 compare equal.
 struct VertexKey {
     std::array<std::uint32_t, 8> bits;
     std::uint32_t vertex;
@@ -101,7 +101,7 @@ struct Triangle {
     glm::dvec3 tangent{0};                          // unit dP/ds
     bool degenerate = false;
     bool orientation_preserving = false;
-    bool joins_any = true;  // no derivative of its own: goes along with whichever group reaches it first
+    bool joins_any = true;  // has no derivative of its own: it joins whichever group reaches it first
 };
 
 class TangentSpace {
@@ -120,7 +120,7 @@ public:
         const Triangle& triangle = triangles_[corner / 3];
         const int vertex = triangle.vertex[corner % 3];
         int group = triangle.group[corner % 3];
-        // A triangle without area takes what a healthy one has at the same vertex.
+        // A triangle without area takes the group of a valid triangle at the same vertex.
         if (group == none && triangle.degenerate) group = group_of_vertex_[static_cast<std::size_t>(vertex)];
         if (group == none || tangents_[static_cast<std::size_t>(group)] == glm::dvec3(0))
             return anyTangent(glm::vec3(normal(vertex)));
@@ -132,7 +132,7 @@ private:
     const Primitive& primitive_;
     const std::vector<glm::vec2>& texcoords_;
     std::vector<std::uint32_t>
-        source_;  // welded vertex -> first of the primitive's vertices that it stands for
+        source_;  // welded vertex -> the first of the primitive's vertices that it stands for
     std::vector<Triangle> triangles_;
     std::vector<int> vertex_of_group_;
     std::vector<int> group_of_vertex_;  // the first group at each welded vertex
@@ -150,7 +150,7 @@ private:
         return {uv.x, 1 - uv.y};
     }
 
-    // By sorting, not by hashing: a file could be made of vertices that all hash alike.
+    // By sorting rather than hashing: a file could be made of vertices that all have the same hash.
     void weld() {
         std::vector<VertexKey> keys(primitive_.positions.size());
         for (std::uint32_t v = 0; v < keys.size(); ++v) {
@@ -162,7 +162,7 @@ private:
             keys[v].vertex = v;
         }
         std::sort(keys.begin(), keys.end());
-        std::vector<std::uint32_t> first(keys.size());  // of the vertices that are one with it
+        std::vector<std::uint32_t> first(keys.size());  // for each vertex, the first of those welded with it
         for (std::size_t i = 0; i < keys.size(); ++i)
             first[keys[i].vertex] =
                 i > 0 && keys[i].sameAs(keys[i - 1]) ? first[keys[i - 1].vertex] : keys[i].vertex;
@@ -197,8 +197,8 @@ private:
         }
     }
 
-    // Two triangles are neighbours across an edge that they run along in opposite directions; where more
-    // than two meet, first finds first.
+    // Two triangles are neighbours across an edge if they traverse it in opposite directions. Where more
+    // than two triangles share an edge, they are paired in index order.
     void findNeighbors() {
         struct Edge {
             int low, high, triangle, corner;
@@ -222,7 +222,7 @@ private:
             for (end = begin; end < edges.size() && edges[end].low == edges[begin].low &&
                               edges[end].high == edges[begin].high;)
                 ++end;
-            std::array<std::size_t, 2> next{begin, begin};  // unmatched, by direction
+            std::array<std::size_t, 2> next{begin, begin};  // unmatched edges, by direction
             const auto advance = [&](bool rising) {
                 while (next[rising] < end && edges[next[rising]].rising != rising) ++next[rising];
                 return next[rising] < end;
@@ -301,13 +301,14 @@ void makeTangents(Primitive& primitive, int texcoord) {
     }
     const TangentSpace space(primitive, texcoord);
 
-    // A vertex keeps the first tangent found for it; each other one gets a copy of the vertex. Corners with
-    // one tangent share a copy, as long as there are few: a vertex of a million triangles may have a million.
+    // A vertex keeps the first tangent found for it; for each further tangent the vertex is copied. Corners
+    // with equal tangents share a copy as long as the search is short: a vertex of a million triangles may
+    // have a million tangents.
     constexpr std::uint32_t last = ~0u;
     constexpr int mostShared = 16;
     std::vector<std::uint32_t> source(primitive.positions.size());
     for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
-    std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: none yet
+    std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: not set yet
     std::vector<std::uint32_t> nextCopy(source.size(), last);
     for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
         const glm::vec4 tangent = space.at(corner);

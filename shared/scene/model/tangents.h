@@ -5,8 +5,8 @@
 
 namespace diptych {
 
-// Flat normals, as glTF asks for where NORMAL is missing: vertices are split so that every triangle has its
-// own. A triangle without area gets (0, 0, 1).
+// Flat normals, which glTF asks for where NORMAL is missing. Vertices are split, so that every triangle has
+// vertices of its own. A triangle without area gets (0, 0, 1).
 void makeFlatNormals(Primitive& primitive);
 
 // Tangents as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008),

@@ -22,8 +22,8 @@ glm::dvec4 rotationOf(const std::vector<double>& xyzw) {
     return {xyzw[0], xyzw[1], xyzw[2], xyzw[3]};
 }
 
-// Spherical linear interpolation (Shoemake 1985, "Animating Rotation with Quaternion Curves"). The angle by
-// atan2 is exact where that by acos loses half of the digits: near 0.
+// Spherical linear interpolation (Shoemake 1985, "Animating Rotation with Quaternion Curves"). The angle
+// comes from atan2, which is exact near 0, where acos loses half of the digits.
 glm::dvec4 slerp(const glm::dvec4& from, glm::dvec4 to, double u) {
     if (glm::dot(from, to) < 0) to = -to;
     const double angle = 2 * std::atan2(glm::length(to - from), glm::length(to + from));
@@ -32,7 +32,7 @@ glm::dvec4 slerp(const glm::dvec4& from, glm::dvec4 to, double u) {
     return unit((std::sin((1 - u) * angle) * from + std::sin(u * angle) * to) / sine);
 }
 
-// The keys around a time, and how far it is from the first of them to the second: 0 to 1.
+// The two keys around a time, and the position between them: 0 at the first, 1 at the second.
 struct Between {
     std::size_t first, second;
     double u, interval;  // s
@@ -59,7 +59,7 @@ double spline(double from, double out, double in, double to, double u, double in
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds) {
     const bool cubic = keyframes.interpolation == Interpolation::cubic_spline;
     const std::size_t width = keyframes.width;
-    // A cubic spline's key is in-tangent, value, out-tangent.
+    // Order of the values in a cubic spline's key: in-tangent, value, out-tangent.
     enum : std::size_t { in, value, out };
     const auto at = [&](std::size_t key, std::size_t which = value) {
         const std::size_t first = cubic ? (3 * key + which) * width : key * width;
@@ -83,7 +83,8 @@ std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, doubl
         }
     }
     if (!rotation) return result;
-    const glm::dvec4 q = unit(rotationOf(result));  // a spline may pass through 0, where nothing turns
+    // A spline may pass through 0, which is no rotation: then no rotation is applied.
+    const glm::dvec4 q = unit(rotationOf(result));
     return {q.x, q.y, q.z, q.w};
 }
 

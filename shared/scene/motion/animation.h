@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keyframes at a time, in double (glTF 2.0, 3.11 and appendix C).
+// Keyframe interpolation, in double (glTF 2.0, 3.11 and appendix C).
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -9,16 +9,16 @@
 
 namespace diptych {
 
-// `keyframes.width` values at `seconds`; before the first key those of the first, after the last those of the
-// last. A rotation (x, y, z, w) is unit and takes the shorter way round.
+// The `keyframes.width` values at `seconds`: before the first key those of the first, after the last those
+// of the last. A rotation (x, y, z, w) is unit; interpolation takes the shorter way round.
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds);
 
-// What the scene's animations make of its nodes. All of them play at once; where two move the same part of a
-// node, the later one has it.
+// The nodes' transforms and weights under the scene's animations. All animations play at once; where two
+// move the same part of a node, the later one applies.
 struct NodeMotion {
-    std::vector<glm::dmat4> parent_from_node;  // of every node, moved or not
+    std::vector<glm::dmat4> parent_from_node;  // of every node, animated or not
     std::map<int, std::vector<double>>
-        weights;  // by node: of the morph targets, where an animation moves them
+        weights;  // by node: weights of the morph targets, for nodes whose weights an animation moves
 };
 NodeMotion motionAt(const Scene& scene, double seconds);
 

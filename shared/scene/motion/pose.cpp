@@ -17,8 +17,8 @@ namespace diptych {
 
 namespace {
 
-// Every node's transform, parents in any order, chains of any length: each unresolved ancestor waits on a
-// stack until its own parent is known.
+// Every node's world transform. Parents may come in any order and chains have any length: unresolved
+// ancestors wait on a stack until their own parent is known.
 std::vector<glm::dmat4> worldFromNode(const std::vector<Node>& nodes,
                                       const std::vector<glm::dmat4>& parentFromNode) {
     std::vector<glm::dmat4> world(nodes.size());
@@ -47,15 +47,16 @@ std::vector<glm::dmat4> worldFromNodeAtRest(const std::vector<Node>& nodes) {
     return worldFromNode(nodes, parentFromNode);
 }
 
-// A light ignores its node's scale: only where it stands and where it points counts. A node that is
-// squashed along its axis points nowhere; its light keeps -Z.
+// A light uses only its node's position and orientation, not the scale. If the node is scaled to 0 along the
+// light's direction, the light keeps -Z.
 Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     Light result = light;
     if (light.node < 0) return result;
     const glm::dmat4& worldFromLight = world[static_cast<std::size_t>(light.node)];
     result.position = glm::dvec3(worldFromLight * glm::dvec4(light.position, 1));
     result.direction = unitOr(glm::dmat3(worldFromLight) * light.direction, {0, 0, -1});
-    // A sheared node's axes are not at right angles; what is left of nearly parallel ones is rounding.
+    // The axes of a sheared node are not at right angles; if they are nearly parallel, the projected axis is
+    // only rounding error and the default is used.
     const glm::dvec3 axis = unitOr(glm::dmat3(worldFromLight) * light.axis, {1, 0, 0});
     const glm::dvec3 across = axis - glm::dot(axis, result.direction) * result.direction;
     result.axis = light.kind == LightKind::tube ? axis
@@ -65,7 +66,8 @@ Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     return result;
 }
 
-// Whether all of what lies within +-extent of the object's origin is where float32 can work with it.
+// Whether everything within +-extent of the object's origin has coordinates that float32 can work with
+// (maxCoordinate).
 bool isWithin(const glm::dmat4& worldFromObject, const glm::dvec3& extent) {
     for (int row = 0; row < 3; ++row) {
         double reach = std::abs(worldFromObject[3][row]);
@@ -89,8 +91,9 @@ bool hasPlace(const Camera& camera, const std::vector<glm::dmat4>& world) {
     return camera.node < 0 || isWithin(world[static_cast<std::size_t>(camera.node)]);
 }
 
-// In bind pose all joints move a vertex alike, so the first will do; the transform of a skinned mesh's own
-// node counts nothing (glTF 2.0, 3.7.3.3). It does where that joint puts everything nowhere or into a plane.
+// In bind pose all joints move a vertex alike, so the first joint is used; the transform of a skinned mesh's
+// own node has no effect (glTF 2.0, 3.7.3.3). The node's transform is used, however, if that joint's is not
+// finite or collapses the mesh into a plane.
 glm::dmat4 worldFromPrimitive(const Scene& scene, const std::vector<glm::dmat4>& world, std::size_t node,
                               const Primitive& primitive) {
     const int index = scene.nodes[node].skin;
@@ -120,13 +123,13 @@ std::vector<glm::dmat4> worldFromMesh(const Skin& skin, const std::vector<glm::d
     return result;
 }
 
-// The weights of nodes' morph targets, those of a mesh once for all nodes that have no others.
+// The weights of nodes' morph targets. Nodes that use their mesh's weights share one entry.
 class Weights {
 public:
     Weights(const Scene& scene, NodeMotion& motion, Pose& pose)
         : scene_(scene), motion_(motion), pose_(pose), place_of_mesh_(scene.meshes.size(), unknown) {}
 
-    // Their place in the pose; -1 where all are 0.
+    // The index of a node's weights in Pose::weights; -1 if all are 0.
     int placeOf(int index) {
         const Node& node = scene_.nodes[static_cast<std::size_t>(index)];
         if (const auto moved = motion_.weights.find(index); moved != motion_.weights.end())
@@ -168,7 +171,7 @@ Pose poseAt(const Scene& scene, double seconds) {
         const int placeOfWeights = primitives.empty() ? -1 : weights.placeOf(static_cast<int>(n));
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             const glm::dmat4 worldFromObject = worldFromPrimitive(scene, world, n, primitives[p]);
-            // At rest all vertices have been looked at (leaveOutWhatIsBeyond).
+            // At rest, all vertices have been checked by leaveOutWhatIsBeyond().
             const glm::dvec3 extent = scene.animations.empty() ? glm::dvec3(0) : extentOf(primitives[p]);
             if (!isWithin(worldFromObject, extent)) continue;
             pose.instances.push_back({.mesh = node.mesh,

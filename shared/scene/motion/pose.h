@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene at one time: where the node tree, animations, skins and morph targets put its instances, lights and
-// cameras.
+// A scene at one time: the world transforms of instances, lights and cameras under the node tree,
+// animations, skins and morph targets.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -11,32 +11,33 @@
 
 namespace diptych {
 
-// A mesh's primitive where the node tree puts it. Where joints or morph targets move its vertices, posed.h
-// has them; world_from_object is then where it stands undeformed: where its skin's first joint puts it.
+// A primitive of a mesh, placed by the node tree. If joints or morph targets move its vertices, posed.h
+// computes them; world_from_object is then the transform of the undeformed primitive: that of its skin's
+// first joint.
 struct Instance {
     int mesh = 0, primitive = 0, node = 0;
     glm::dmat4 world_from_object{1.0};
     int skin = -1;     // into Pose::skins
-    int weights = -1;  // into Pose::weights; -1: no target adds anything
+    int weights = -1;  // into Pose::weights; -1: no morph target applies
     bool deformed() const { return skin >= 0 || weights >= 0; }
 };
 
-// The scene at one time: everything in world space.
+// The scene at one time, in world space.
 struct Pose {
     std::vector<Instance> instances;  // in node order, primitives in order
-    std::vector<Light> lights;        // node = -1, world position and direction, directional ones first
+    std::vector<Light> lights;        // node = -1, world position and direction; directional lights first
     std::vector<Camera> cameras;      // node = -1
     double seconds = 0;
-    std::vector<std::vector<glm::dmat4>> skins;  // as Scene::skins: world from mesh, by each joint
-    std::vector<std::vector<double>> weights;    // of morph targets, not all 0
+    std::vector<std::vector<glm::dmat4>> skins;  // as Scene::skins; for each joint the matrix world from mesh
+    std::vector<std::vector<double>> weights;    // of morph targets; entries that are all 0 are left out
 };
 
-// Animations play from 0 s on, as animation.h says. What has no place (a transform that is not finite or
-// reaches beyond maxCoordinate) is not in the pose.
+// Animations play from 0 s on, as described in animation.h. Instances, lights and cameras whose transform is
+// not finite or reaches beyond maxCoordinate are left out.
 Pose poseAt(const Scene& scene, double seconds);
 
-// What is beyond maxCoordinate at rest is taken from its node, lights and cameras from the scene, with a
-// note.
+// Removes from the scene what is beyond maxCoordinate at rest (meshes from their nodes, lights and cameras),
+// each with a note.
 void leaveOutWhatIsBeyond(Scene& scene);
 
 }  // namespace diptych

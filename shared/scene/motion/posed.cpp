@@ -13,7 +13,7 @@ namespace diptych {
 
 namespace {
 
-// An instance as its scene and pose say it.
+// Computes the posed vertices of one instance.
 class Posing {
 public:
     Posing(const Scene& scene, const Pose& pose, const Instance& instance)
@@ -27,7 +27,7 @@ public:
 
     const Primitive& primitive() const { return primitive_; }
 
-    // A vertex's attribute and what the targets add to it, in the object.
+    // A vertex's attribute plus the weighted sum of its morph targets, in object space.
     template <class T>
     glm::dvec3 morphed(const std::vector<T>& base, std::vector<glm::vec3> MorphTarget::*deltas,
                        std::size_t vertex) const {
@@ -40,7 +40,8 @@ public:
         return sum;
     }
 
-    // The mean of its joints. float32 weights add up to 1 but for rounding, which is divided out.
+    // The weighted mean of the joints' matrices. float32 weights add up to 1 but for rounding, so the sum is
+    // divided by their sum.
     glm::dmat4 worldFrom(std::size_t vertex) const {
         if (!world_from_mesh_) return world_from_object_;
         glm::dmat4 sum(0);
@@ -58,8 +59,8 @@ public:
 private:
     const Primitive& primitive_;
     const glm::dmat4 world_from_object_;
-    const std::vector<glm::dmat4>* world_from_mesh_;  // by joint; none: no skin moves it
-    const std::vector<double>* weights_;              // none: no target adds anything
+    const std::vector<glm::dmat4>* world_from_mesh_;  // by joint; nullptr: not skinned
+    const std::vector<double>* weights_;              // nullptr: no morph target applies
 };
 
 glm::dvec3 placed(const glm::dvec4& p) {
@@ -68,13 +69,14 @@ glm::dvec3 placed(const glm::dvec4& p) {
     return glm::dvec3(p);
 }
 
-// However long or short: its square may be out of double's range.
+// Normalised without squaring the components directly: the square of a very long or short vector may leave
+// double's range.
 glm::dvec3 unitOrZero(const glm::dvec3& v) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0);
 }
 
-// The inverse transpose times the determinant, which is there where no inverse is.
+// The inverse transpose times the determinant; it exists also for singular matrices.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where an instance's vertices are: morph targets first, then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3), in
-// double.
+// The vertices of an instance: morph targets first, then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3), in double.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -10,15 +9,15 @@
 
 namespace diptych {
 
-// World space. What lies beyond maxCoordinate or nowhere has positions that are not a number: its triangles
-// are not there.
+// World space. Positions that are beyond maxCoordinate or not finite become NaN, and triangles that use them
+// are not drawn.
 std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, const Instance& instance);
 
-// Normals and tangents are unit, or 0 where nothing is left of them. A normal moves by the inverse transpose
-// of what moves its vertex and points to the side from which world_from_object's handedness shows the
-// triangle's front; a flat primitive's follows from the posed triangle. Tangents move with the surface, those
-// that makeTangents made as well as the file's: what a target adds is what the file says. The sign of a
-// bitangent is the primitive's times that of world_from_object's determinant.
+// Normals and tangents are unit, or 0 where they have no direction. A normal is transformed by the inverse
+// transpose of its vertex's matrix, and points to the side from which the triangle's front is seen under the
+// handedness of world_from_object; the normals of a flat primitive are those of its posed triangles.
+// Tangents move with the surface, whether they are the file's or come from makeTangents; morph targets add
+// to both. The sign of a bitangent is the primitive's times that of the determinant of world_from_object.
 struct PosedVertices {
     std::vector<glm::dvec3> positions, normals, tangents;
 };
