@@ -38,7 +38,7 @@ std::size_t componentBytes(int type) {
     }
 }
 
-// Columns of a matrix begin at multiples of 4 bytes (glTF 2.0, 3.6.2.4); a vector is one column.
+// Each column of a matrix begins at a multiple of 4 bytes (glTF 2.0, 3.6.2.4); a vector is one column.
 struct Shape {
     std::size_t columns = 0, rows = 0, component_bytes = 0;
     std::size_t width() const { return columns * rows; }
@@ -47,7 +47,7 @@ struct Shape {
         return columns > 1 ? (bytes + 3) / 4 * 4 : bytes;
     }
     std::size_t bytes() const { return (columns - 1) * columnStride() + rows * component_bytes; }
-    std::size_t at(std::size_t i) const {  // the byte at which component i begins
+    std::size_t at(std::size_t i) const {  // the byte offset of component i in the element
         return i / rows * columnStride() + i % rows * component_bytes;
     }
 };
@@ -88,7 +88,8 @@ struct Elements {
     const unsigned char* at(std::size_t i) const { return first + i * stride; }
 };
 
-// `count` elements of `size` bytes, `stride` apart, from `offset` in a bufferView on.
+// Checks that `count` elements of `size` bytes, `stride` apart, starting `offset` bytes into a bufferView,
+// lie inside it.
 Elements locate(const tinygltf::Model& model, int view, std::size_t offset, std::size_t count,
                 std::size_t size, std::size_t stride, const std::string& who, const char* noun) {
     const std::span<const unsigned char> bytes = viewBytes(model, view, who);
@@ -115,7 +116,7 @@ T load(const unsigned char* at) {
     return value;
 }
 
-// Calls use(T{}) with the component type's C++ type.
+// Calls use(T{}), where T is the C++ type of the component type.
 template <class Use>
 void withType(int type, const Use& use) {
     switch (type) {
@@ -134,7 +135,7 @@ void withType(int type, const Use& use) {
     }
 }
 
-// glTF 2.0, 3.11: the most negative integer counts as -1 too.
+// glTF 2.0, 3.11: the most negative integer is also mapped to -1.
 template <class T>
 float number(const unsigned char* at, bool normalized) {
     const T value = load<T>(at);
@@ -145,10 +146,10 @@ float number(const unsigned char* at, bool normalized) {
     return static_cast<float>(value);
 }
 
-// An accessor whose every element lies inside its bufferView.
+// An accessor whose every element has been checked to lie inside its bufferView.
 class SoundAccessor {
 public:
-    // `width`: components that the one who asks can use; 0: any number.
+    // `width`: the number of components that the caller can use; 0: any.
     SoundAccessor(const tinygltf::Model& model, int index, const std::string& asks, const char* noun,
                   std::size_t width = 0)
         : file_(find(model, index, asks)),
@@ -174,7 +175,8 @@ public:
     const Shape& shape() const { return shape_; }
     std::size_t size(const Selection& which) const { return which ? which->size() : file_.count; }
 
-    // put(i, bytes of element which[i]), the sparse elements last. Elements without bytes are 0: not put.
+    // Calls put(i, bytes of element which[i]) for each element, sparse elements last. Elements without bytes
+    // are 0, and put is not called for them.
     template <class Put>
     void visit(const Selection& which, const Put& put) const {
         if (own_.first)
@@ -204,7 +206,8 @@ private:
     }
 
     static std::size_t strideOf(const tinygltf::Model& model, int view) {
-        if (static_cast<std::size_t>(view) >= model.bufferViews.size()) return 0;  // viewBytes refuses it
+        // ViewBytes() reports the fault.
+        if (static_cast<std::size_t>(view) >= model.bufferViews.size()) return 0;
         return model.bufferViews[static_cast<std::size_t>(view)].byteStride;
     }
 
@@ -221,7 +224,8 @@ private:
         sparse_values_ =
             locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
                    shape_.bytes(), shape_.columns * shape_.columnStride(), who_, "sparse values");
-        // Ascending without repetition (glTF 2.0, 3.6.2.3), so that no element costs more than two visits.
+        // Indices of sparse elements must be strictly ascending (glTF 2.0, 3.6.2.3), so that no element is
+        // visited more than twice.
         for (std::size_t s = 0; s < count; ++s) {
             if (sparseIndex(s) >= file_.count)
                 fail(who_, fmt::format("sparse index {} of {} elements", sparseIndex(s), file_.count));

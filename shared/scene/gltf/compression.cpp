@@ -13,9 +13,10 @@ namespace diptych::gltf {
 
 namespace {
 
-// What a file may decode to: 64 bytes for each byte of its buffers, EXT_meshopt_compression's best (16 equal
-// bytes are 2 bits), and 128 MiB more, for Draco's streams have no such bound. Beyond it many objects share
-// one stream, or a stream claims what it does not hold.
+// What a file may decode to: 64 bytes for each byte of its buffers, the best ratio of
+// EXT_meshopt_compression (16 equal bytes take 2 bits), and 128 MiB more, because Draco's ratio has no such
+// bound. A file beyond that either lets many objects share one stream, or has a stream that claims more than
+// it holds.
 constexpr std::size_t freeBytes = std::size_t(128) << 20;
 constexpr std::size_t bytesPerByte = 64;
 
@@ -28,7 +29,7 @@ void decompress(tinygltf::Model& model, const std::vector<bool>& drawn, std::vec
 
     std::vector<MeshoptView> views = findMeshopt(model);
     const std::vector<DracoPrimitive> primitives = findDraco(model, drawn);
-    double claimed = 0;  // a sum of claims: it may pass 64 bits
+    double claimed = 0;  // double, because the sum of the claimed sizes may exceed 64 bits
     for (const MeshoptView& view : views) claimed += static_cast<double>(view.count * view.stride);
     for (const DracoPrimitive& primitive : primitives) claimed += dracoCost(model, primitive);
     if (claimed > static_cast<double>(limit))

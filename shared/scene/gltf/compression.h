@@ -10,13 +10,14 @@ class Model;
 
 namespace diptych::gltf {
 
-// Afterwards nothing in the model is compressed and readers need not know that anything was: bufferViews of
-// EXT_meshopt_compression cover decoded bytes, primitives of KHR_draco_mesh_compression name accessors over
-// decoded bytes, in buffers, bufferViews and accessors that are appended. On all cores. Of meshes only those
-// that are drawn are decoded; the first of them that fails is thrown as std::runtime_error: "mesh 0,
-// primitive 1: KHR_draco_mesh_compression: ...". A bufferView that fails is noted, and thrown at whoever
-// reads it: "bufferView 3: EXT_meshopt_compression: ...". What is compressed comes from anywhere: how much it
-// says it decodes to is checked before memory is taken for it. `drawn`: one flag a mesh.
+// Decodes all compressed geometry of the model in place, on all cores, so that readers need not know that
+// anything was compressed: bufferViews of EXT_meshopt_compression then cover decoded bytes, and primitives
+// of KHR_draco_mesh_compression name accessors over decoded bytes, in buffers, bufferViews and accessors
+// that are appended. Only meshes that are drawn are decoded (`drawn`: one flag for each mesh); the first
+// that fails is thrown as std::runtime_error: "mesh 0, primitive 1: KHR_draco_mesh_compression: ...". A
+// bufferView that fails is noted, and the error is thrown when it is read: "bufferView 3:
+// EXT_meshopt_compression: ...". The data is not trusted: the claimed decoded size is checked before memory
+// is allocated.
 void decompress(tinygltf::Model& model, const std::vector<bool>& drawn, std::vector<std::string>& notes);
 
 }  // namespace diptych::gltf

@@ -90,11 +90,11 @@ struct Result {
     std::vector<std::uint32_t> indices;
 };
 
-// One value of all its components, from what the stream has to what the accessor says.
+// Converts all components of one value from the stream's type to the accessor's.
 template <class T>
 bool convert(const draco::PointAttribute& from, draco::AttributeValueIndex index, std::size_t components,
              unsigned char* to) {
-    std::array<T, 16> values;  // a matrix of 4 x 4 at most
+    std::array<T, 16> values;  // at most a 4 x 4 matrix
     if (!from.ConvertValue<T>(index, static_cast<std::int8_t>(components), values.data())) return false;
     std::memcpy(to, values.data(), components * sizeof(T));
     return true;
@@ -121,8 +121,8 @@ const Type* typeOf(Key Type::*member, Key key) {
     return at == types.end() ? nullptr : at;
 }
 
-// The attribute as its accessor says. Whole numbers may have another width there, for the exporters' JOINTS_0
-// often do; normalized ones may not, for then they would be other values.
+// The attribute's values in the type of its accessor. Integers may have another width in the stream, as many
+// exporters write JOINTS_0; normalized integers may not, since their values would change.
 Bytes valuesOf(const draco::Mesh& mesh, const DracoPrimitive::Attribute& attribute,
                const tinygltf::Accessor& to, const std::string& who) {
     const draco::PointAttribute* from = mesh.GetAttributeByUniqueId(attribute.id);
@@ -188,7 +188,7 @@ Result decoded(const tinygltf::Model& model, const DracoPrimitive& p, std::size_
     return result;
 }
 
-// A new accessor like `accessor` over bytes of its own.
+// Appends a copy of `accessor` that reads bytes of its own; returns its index.
 int append(tinygltf::Model& model, tinygltf::Accessor accessor, Bytes bytes) {
     tinygltf::BufferView view;
     view.buffer = static_cast<int>(model.buffers.size());
@@ -197,7 +197,7 @@ int append(tinygltf::Model& model, tinygltf::Accessor accessor, Bytes bytes) {
     accessor.bufferView = static_cast<int>(model.bufferViews.size());
     accessor.byteOffset = 0;
     accessor.sparse = {};
-    accessor.minValues.clear();  // of before the compression
+    accessor.minValues.clear();  // they describe the uncompressed values
     accessor.maxValues.clear();
     model.bufferViews.push_back(std::move(view));
     model.accessors.push_back(std::move(accessor));
@@ -236,7 +236,7 @@ void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& prim
             primitive.attributes[attribute.name] =
                 append(model, accessorAt(model, attribute.accessor), std::move(results[i].attributes[a]));
         }
-        // A strip has become the triangles that it is made of.
+        // Triangle strips are stored as the triangles that they consist of.
         tinygltf::Accessor indices;
         indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
         indices.type = TINYGLTF_TYPE_SCALAR;

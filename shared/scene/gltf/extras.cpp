@@ -23,14 +23,15 @@ using Json = nlohmann::json;
 using Notes = std::vector<std::string>;
 
 constexpr const char* ours = "diptych";
-constexpr double maxCount = 2147483647, maxIntensity = 1e12;  // a product with any texel is a float
+// maxIntensity keeps the product with any texel finite in float32.
+constexpr double maxCount = 2147483647, maxIntensity = 1e12;
 
 const Json* memberOf(const Json& object, const char* key) {
-    const auto at = object.find(key);  // the end where it is no object
+    const auto at = object.find(key);  // end() if it is not an object
     return at == object.end() ? nullptr : &*at;
 }
 
-// What "extras" of `owner` hold of ours; what is not `known` is noted.
+// The object "diptych" in the "extras" of `owner`; a key in it that is not `known` gets a note.
 const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known,
                       const std::string& who, Notes& notes) {
     const Json* extras = memberOf(owner, "extras");
@@ -46,13 +47,13 @@ const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view>
     return own;
 }
 
-// The one member that is known.
+// The member `key` of that object, the only one that is known.
 const Json* ourExtra(const Json& owner, const char* key, const std::string& who, Notes& notes) {
     const Json* own = ourExtras(owner, {key}, who, notes);
     return own ? memberOf(*own, key) : nullptr;
 }
 
-// "node" of `object`, which loses it.
+// The value of "node" of `object`, which is removed from it.
 int takeNode(Json& object, std::size_t nodes, const std::string& who) {
     const auto at = object.find("node");
     if (at == object.end()) return -1;
@@ -169,7 +170,8 @@ void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteL
     if (found == extras.lights.end()) return;
     for (const std::string& note : found->second.notes) notes.add(note);
     light.importance = found->second.importance;
-    if (light.kind == LightKind::directional) light.angle = found->second.angle;  // a broken one is a point
+    // A broken light is a point light.
+    if (light.kind == LightKind::directional) light.angle = found->second.angle;
 }
 
 void hangLights(const LightExtras& extras, std::size_t index, const std::vector<int>& place, Scene& scene,

@@ -12,21 +12,20 @@
 
 namespace diptych::gltf {
 
-// What glTF has no words for, in a file's "extras". Of light:
+// Light properties that glTF does not define, in a file's "extras":
 //
 //   scenes[i].extras.diptych.lights: [ ... ]   objects as in lights_json.h. With "node", a node's index,
-//   position,
-//                                              direction and axis are in its space; its scale changes no
-//                                              size.
+//                                              position, direction and axis are in the node's space; its
+//                                              scale does not change sizes.
 //   extensions.KHR_lights_punctual.lights[i].extras.diptych.angle: rad    of a directional light
 //                                                       ...importance: "auto", "important", "not_important"
 //
-// What is wrong with one leaves it out with a note.
+// A light with a fault is left out with a note.
 struct LightExtras {
     struct Hung {
         std::string who;  // "scene 0: extras: diptych: light 2"
         Light light;
-        int node = -1;  // the file's index, one of its nodes; -1: in world space
+        int node = -1;  // the node's index in the file, valid; -1: in world space
     };
     struct OfScene {
         std::vector<Hung> lights;
@@ -37,15 +36,15 @@ struct LightExtras {
         Importance importance = Importance::automatic;
         std::vector<std::string> notes;
     };
-    std::map<std::size_t, OfScene> scenes;  // that have any
+    std::map<std::size_t, OfScene> scenes;  // only scenes that have such lights
     std::map<std::size_t, OfLight> lights;
 };
 
-// Of materials:
+// Material properties:
 //
 //   materials[i].extras.diptych.lightmap: { "index": a texture, "texCoord": 0 or 1 (1), "intensity": F (1) }
 //
-// The texture's image is PNG or JPEG, sRGB, or OpenEXR, Radiance HDR or PFM, linear. Its colour times
+// The texture's image is PNG or JPEG (sRGB), or OpenEXR, Radiance HDR or PFM (linear). Its colour times
 // intensity is irradiance over pi, W/(sr m^2).
 struct MaterialExtras {
     struct Lightmap {
@@ -53,17 +52,18 @@ struct MaterialExtras {
         double intensity = 1;
         std::vector<std::string> notes;
     };
-    std::map<std::size_t, Lightmap> lightmaps;  // of the materials that have any
+    std::map<std::size_t, Lightmap> lightmaps;  // only materials that have one
 };
 
-// `document` may still be anything.
+// `document` need not have been checked against the schema.
 LightExtras lightExtras(const nlohmann::json& document);
 MaterialExtras materialExtras(const nlohmann::json& document);
 
 class NoteList;
 
-// To light `index` of KHR_lights_punctual what its extras say, to the scene the lights of those of the file's
-// scene `index`. `place` of each of the file's nodes is that in Scene::nodes, -1: not there.
+// addExtras() applies the extras of light `index` of KHR_lights_punctual to that light; the other function
+// adds to the scene the lights in the extras of the file's scene `index`. `place` maps the file's nodes to
+// Scene::nodes, -1: not in the scene.
 void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteList& notes);
 void hangLights(const LightExtras& extras, std::size_t index, const std::vector<int>& place, Scene& scene,
                 NoteList& notes);

@@ -41,7 +41,7 @@ bool isBuilt(std::string_view extension) {
 
 // ---- container ---------------------------------------------------------------------------------------
 
-// Where the JSON and the binary chunk lie.
+// The byte ranges of the JSON and of the binary chunk.
 struct Container {
     struct Range {
         std::size_t offset = 0, size = 0;
@@ -112,7 +112,7 @@ Json parse(std::string_view text) {
     }
 }
 
-// The newest version that this reader may be asked for.
+// Whether a version is newer than the one this reader implements.
 bool isBeyond(const std::string& version) {
     int major = 0, minor = 0;
     char end = 0;
@@ -150,7 +150,7 @@ void checkRequired(const Json& document) {
 
 // ---- buffers and images ------------------------------------------------------------------------------
 
-// A buffer that only stands in where EXT_meshopt_compression is not known may have no bytes.
+// A buffer that is only the fallback for readers without EXT_meshopt_compression may have no bytes.
 bool mayBeEmpty(const Json& buffer) {
     static const Json::json_pointer meshopt("/extensions/EXT_meshopt_compression");
     return buffer.contains(meshopt);
@@ -177,8 +177,8 @@ Bytes bytesOf(const Json& json, bool isFirst, Bytes& file, const std::optional<C
     return data;
 }
 
-// The first buffer of a .glb without a uri is its binary chunk. `bytes` is used up for it. A buffer whose
-// bytes are not there is a fault only where somebody reads it.
+// The first buffer of a .glb without a uri is its binary chunk, for which `bytes` is used up. A buffer whose
+// bytes are missing is an error only if it is read.
 void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Container::Range>& binary,
                  Document& out) {
     std::uint64_t total = 0;
@@ -205,7 +205,7 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
     notes.moveTo(out.notes);
 }
 
-// Only what they are called and where they are.
+// Lists the images' names and locations only; nothing is decoded.
 void listImages(const Json& images, tinygltf::Model& model) {
     for (std::size_t i = 0; i < images.size(); ++i) {
         tinygltf::Image& image = model.images.emplace_back();
@@ -224,8 +224,9 @@ Json taken(Json& document, const char* key) {
     return value;
 }
 
-// tinygltf refuses indices without a bufferView, which are zeros but for the sparse ones (glTF 2.0, 3.6.2.3):
-// it does not see them.
+// tinygltf refuses indices whose accessor has no bufferView, although glTF 2.0 (3.6.2.3) allows them (they
+// are zero but for sparse elements). They are taken out of the document before it parses, and added
+// afterwards.
 struct Withheld {
     std::size_t mesh, primitive;
     int indices;
@@ -250,7 +251,7 @@ std::vector<Withheld> withholdIndices(Json& document) {
 
 tinygltf::Model parseModel(const std::string& text) {
     tinygltf::TinyGLTF parser;
-    // Nothing is left in the document that would ask for a file.
+    // The document no longer names any file, so these are never called.
     parser.SetFsCallbacks(
         {[](const std::string&, void*) { return false; }, [](const std::string& name, void*) { return name; },
          [](Bytes*, std::string*, const std::string&, void*) { return false; },
@@ -281,7 +282,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
         checkRequired(document);
         result.light_extras = lightExtras(document);
         result.material_extras = materialExtras(document);
-        Schema found = applySchema(document);  // takes extras out
+        Schema found = applySchema(document);  // removes extras from the document
         result.notes = container.notes;
         result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
         for (const auto& [name, where] : found.misplaced)
@@ -294,7 +295,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
         images = taken(document, "images");
         const std::vector<Withheld> withheld = withholdIndices(document);
         const std::string text = document.dump();
-        document = nullptr;  // tinygltf builds the same once more
+        document = nullptr;  // free it, since tinygltf builds the same tree once more
         result.model = parseModel(text);
         for (const Withheld& w : withheld)
             result.model.meshes.at(w.mesh).primitives.at(w.primitive).indices = w.indices;

@@ -14,21 +14,21 @@
 
 namespace diptych::gltf {
 
-// A file that has come through the door: its model's numbers have the types and ranges of the schema, its
-// indices name objects that are there, its buffers are loaded. What lies behind accessors is not checked yet.
+// A file that has been checked: the numbers of its model have the types and ranges of the schema, its
+// indices name objects that exist, its buffers are loaded. The elements of accessors are not checked yet.
 struct Document {
     tinygltf::Model model;
-    Resources resources;  // images are read from there, when somebody needs them
+    Resources resources;  // images are read through it when they are needed
     LightExtras light_extras;
     MaterialExtras material_extras;
-    std::set<std::string> left_out;  // extensions that are not read
-    std::vector<std::string> notes;  // what was repaired or left out
+    std::set<std::string> left_out;  // extensions that the file uses and that are not read
+    std::vector<std::string> notes;  // what was repaired or left out, one line each
 };
 
-// The door. Checked before anything is believed: the container's lengths, the size and nesting of the JSON,
-// the version, what the file requires, and the schema (gltf_schema.h). tinygltf then parses what the schema
-// left, without reading a file. `folder` holds the buffers and images; empty: data URIs only. Throws
-// std::runtime_error without the file's name.
+// Loads a file. Nothing in it is trusted before it is checked: the container's lengths, the size and nesting
+// of the JSON, the version, the required extensions, and the schema (schema.h). tinygltf then parses the
+// document as the schema left it, without reading a file. `folder` holds the buffers and images; empty: only
+// data URIs are read. Throws std::runtime_error without the file's name.
 Document open(std::vector<unsigned char> bytes, const std::filesystem::path& folder);
 
 }  // namespace diptych::gltf

@@ -34,7 +34,7 @@ void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>&
     gltf::limitNotes(notes, 0, "extensions");
 }
 
-// The encoded bytes of those images that somebody reads.
+// Reads the encoded bytes of the images that a material uses.
 void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
                  std::vector<std::string>& sceneNotes) {
     std::atomic<std::uint64_t> held = 0;
@@ -50,7 +50,8 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
         try {
             const std::uint64_t left =
                 gltf::MAX_ENCODED_IMAGE_BYTES - std::min(held.load(), gltf::MAX_ENCODED_IMAGE_BYTES);
-            image.image = document.resources.read(uri, left + 1, notes[i]);  // one too many tells
+            // One byte more than allowed shows that a file is too long.
+            image.image = document.resources.read(uri, left + 1, notes[i]);
             if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
                 throw std::runtime_error(
                     fmt::format("the image files are more than {} bytes together: not read",
@@ -84,8 +85,8 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     gltf::readMaterials(document.model, document.material_extras, scene, imageOf);
     fetchImages(document, imageOf, scene.notes);
 
-    // Pixels and vertices know nothing of each other; each fails only after the other has ended, meshes
-    // first.
+    // Pixels and vertices are decoded at the same time. A failure is thrown after both have ended, that of
+    // meshes first.
     const tinygltf::Model& model = document.model;
     std::size_t pieces = imageOf.size();
     for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();

@@ -10,13 +10,13 @@
 
 namespace diptych {
 
-// A .gltf or .glb file, version 2.0. `scene` is one of its scenes by index or name; empty: its default, which
-// is its first where it names none. What is read otherwise than the file says is in Scene::notes. Throws
-// std::runtime_error: "FILE: OBJECT INDEX: what is wrong".
+// Loads a .gltf or .glb file, version 2.0. `scene` is the index or name of one of its scenes; empty: its
+// default scene, which is the first where it names none. Scene::notes lists what was read otherwise than as
+// the file says. Throws std::runtime_error: "FILE: OBJECT INDEX: what is wrong".
 Scene loadGltf(const std::string& file, const std::string& scene = "", const LoadProgress& progress = {});
 
-// The same from memory, called `name`; its buffers and images are inside it, or in `folder` where there is
-// one.
+// The same from memory; `name` is the file's name in messages. Buffers and images are embedded, or in
+// `folder` if it is given.
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
                 const std::filesystem::path& folder = {});
 

@@ -26,7 +26,7 @@ namespace {
 
 class MaterialReader {
 public:
-    // `faults`: of each texture.
+    // `faults`: what is wrong with each texture; empty: nothing.
     MaterialReader(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
                    const std::vector<std::string>& faults, std::size_t index)
         : model_(model),
@@ -47,7 +47,8 @@ public:
         m.roughness = within("roughnessFactor", pbr.roughnessFactor, 0, 1);
         m.normal_scale = within("normalTexture.scale", file_.normalTexture.scale, -maxFactor, maxFactor);
         m.occlusion_strength = within("occlusionTexture.strength", file_.occlusionTexture.strength, 0, 1);
-        m.alpha_cutoff = within("alphaCutoff", file_.alphaCutoff, 0, maxFactor);  // above 1: all is cut out
+        // Above 1, everything is cut out.
+        m.alpha_cutoff = within("alphaCutoff", file_.alphaCutoff, 0, maxFactor);
         m.alpha_mode = alphaMode();
         m.double_sided = file_.doubleSided;
         m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
@@ -67,16 +68,17 @@ private:
     const tinygltf::Material& file_;
     Scene& scene_;
     const std::vector<std::string>& faults_;
-    const MaterialExtras::Lightmap* lightmap_;  // nullptr: none
+    const MaterialExtras::Lightmap* lightmap_;  // nullptr: the material has none
     std::string who_;
 
-    // Where glTF has no bound, or none on one side: squares and products of such stay finite in float32.
+    // Bound for numbers that glTF leaves unbounded, at least on one side: keeps their squares and products
+    // finite in float32.
     static constexpr double maxFactor = 1e12;
 
     double bounded(const std::string& what, double x, double least, double most) {
         const double inside = std::clamp(x, least, most);
         if (inside != x)
-            // Every digit: 1.0000001 is outside, too.
+            // Printed with all digits, since 1.0000001 is outside as well.
             scene_.notes.push_back(fmt::format("{}: {} {} is outside {:g} to {:g}: taken as {:g}", who_, what,
                                                x, least, most, inside));
         return inside;
@@ -120,8 +122,8 @@ private:
         return result;
     }
 
-    // KHR_texture_transform: scale, then a rotation that is counter-clockwise where v grows downwards, then
-    // the offset. Returns the UV set: the transform's, or that of the texture.
+    // KHR_texture_transform: scale, then rotation (counter-clockwise with v growing downwards), then offset.
+    // Returns the UV set: the transform's if it gives one, otherwise the texture's.
     int readTransform(const tinygltf::Value& transform, const std::string& slot, TextureSlot& result,
                       int texcoord) {
         const std::string who = fmt::format("{}: {}", who_, slot);
@@ -136,7 +138,7 @@ private:
         return indexIn(transform, "texCoord", texcoord, who);
     }
 
-    // A texture inside an extension, which tinygltf does not know.
+    // A texture in an extension, which tinygltf does not parse.
     TextureSlot slotIn(const tinygltf::Value& object, const char* name) {
         if (!object.Has(name)) return {};
         const std::string who = fmt::format("{}: {}", who_, name);
@@ -149,7 +151,7 @@ private:
         return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
     }
 
-    // KHR_materials_unlit: all other parameters are ignored.
+    // KHR_materials_unlit: all parameters but base colour, alpha and sides are reset.
     static Material unlit(const Material& lit) {
         Material m;
         m.unlit = true;
@@ -203,7 +205,7 @@ private:
     }
 };
 
-// "3 materials (a, b, c) ..." for those that `test` picks.
+// "3 materials (a, b, c) ..." of those for which `test` is true.
 template <class Test>
 void noteMaterials(const tinygltf::Model& model, const Test& test, const char* what, Scene& scene) {
     std::string names;
@@ -229,7 +231,8 @@ std::vector<bool> drawnMaterials(const tinygltf::Model& model, const Scene& scen
     return drawn;
 }
 
-// Scene::images holds what some material reads, in the file's order; textures are pointed there.
+// Reduces Scene::images to those that a material reads, in the file's order, and updates the textures'
+// indices.
 void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
     std::vector<bool> used(imageCount, false);
     for (const Material& m : scene.materials)

@@ -10,14 +10,14 @@ class Model;
 
 namespace diptych::gltf {
 
-// Materials, textures and samplers in the file's order, and a last material, glTF's default, if a primitive
-// names none. One that nothing is drawn with reads no texture, and its faults are notes. Scene::images gets
-// the encoded images' places only: those that a material reads, and `imageOf[i]` is the file's index of
-// Scene::images[i].
+// Reads materials, textures and samplers in the file's order. If a primitive names no material, glTF's
+// default material is appended. A material that nothing is drawn with reads no texture, and its faults
+// become notes. Scene::images gets one empty entry for each image that a material reads; `imageOf[i]` is the
+// file's index of Scene::images[i].
 void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
                    std::vector<int>& imageOf);
 
-// Which of Scene::images are read as lightmaps and as nothing else.
+// For each of Scene::images, whether it is read only as a lightmap.
 std::vector<bool> lightmapsAlone(const Scene& scene);
 
 }  // namespace diptych::gltf

@@ -17,10 +17,10 @@ namespace diptych::gltf {
 
 namespace {
 
-// What the scene's nodes do with a mesh.
+// How the scene's nodes use a mesh.
 struct MeshUse {
     bool drawn = false;
-    std::size_t joints = 0;  // of the smallest skin that moves it; 0: none does
+    std::size_t joints = 0;  // of the smallest skin that moves it; 0: not skinned
 };
 
 std::vector<MeshUse> usesOf(std::size_t meshes, const Scene& scene) {
@@ -45,7 +45,7 @@ const tinygltf::Primitive& fileOf(const tinygltf::Model& model, const Task& task
     return model.meshes[task.mesh].primitives[task.primitive];
 }
 
-// Before anything is decoded, from counts alone.
+// Checks the decoded size from counts alone, before anything is decoded.
 void checkSize(const tinygltf::Model& model, const std::vector<Task>& tasks) {
     std::size_t encoded = 0, decoded = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) encoded += buffer.data.size();

@@ -11,11 +11,11 @@ namespace diptych::gltf {
 
 class Tally;
 
-// The meshes that the scene's nodes draw, on all cores: triangles with normals and tangents, joints where a
-// skin moves them, morph targets. Places are the file's: a mesh that no node draws has no primitives. What
-// draws nothing (points, lines, no triangle) is left out, with a note. The scene has its nodes, skins and
-// materials already. Throws std::runtime_error, before anything is decoded if it would be too much
-// (gltf_limits.h).
+// Reads the meshes that the scene's nodes draw, on all cores: triangles with normals and tangents, joints
+// where a skin moves them, morph targets. Indices are the file's: a mesh that no node draws has no
+// primitives. Primitives without triangles (points, lines) are left out with a note. The scene must have its
+// nodes, skins and materials already. Throws std::runtime_error; if the decoded size exceeds the limits
+// (limits.h), before anything is decoded.
 std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
                              std::vector<std::string>& notes, Tally& tally);
 

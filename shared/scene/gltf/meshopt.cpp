@@ -29,7 +29,7 @@ std::string nameOf(std::size_t view) {
 
 // ---- the extension's rules ---------------------------------------------------------------------------
 
-// The place of a member's text among the words that it may be; `fallback` where there is no member.
+// The position of a member's text among the allowed words; `fallback` if the member is absent.
 template <class Enum, std::size_t n>
 Enum choice(const tinygltf::Value& object, const char* key, const char* const (&words)[n],
             const char* fallback, std::size_t view) {
@@ -41,7 +41,7 @@ Enum choice(const tinygltf::Value& object, const char* key, const char* const (&
     return static_cast<Enum>(at - words);
 }
 
-// The bytes of the stream, inside their buffer.
+// The bytes of the stream, checked to lie inside their buffer.
 std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tinygltf::Value& e,
                                         std::size_t view) {
     const std::string who = nameOf(view);
@@ -57,8 +57,8 @@ std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tiny
     return std::span(buffer.data).subspan(offset, length);
 }
 
-// No stream of these elements is shorter: a header, then what the bitstreams store of elements that are all
-// alike, then a tail. Source: EXT_meshopt_compression, appendix A.
+// The smallest possible size of a stream of these elements: a header, then the minimum that the bitstream
+// stores if all elements are alike, then a tail. Source: EXT_meshopt_compression, appendix A.
 std::size_t shortestStream(const MeshoptView& v) {
     switch (v.mode) {
         case Mode::triangles:
@@ -94,7 +94,8 @@ void checkRules(const MeshoptView& v, const tinygltf::BufferView& parent) {
     require(v.count > 0, "has no element");
     require(parent.byteStride == 0 || parent.byteStride == v.stride,
             fmt::format("byteStride {}, but the bufferView's is {}", v.stride, parent.byteStride));
-    require(v.count * v.stride == parent.byteLength,  // of 31 and 9 bits
+    // Cannot overflow: a count of 31 bits times a stride of 9 bits.
+    require(v.count * v.stride == parent.byteLength,
             fmt::format("{} elements of {} bytes, but the bufferView has {} bytes", v.count, v.stride,
                         parent.byteLength));
     require(v.stream.size() >= shortestStream(v),
@@ -112,7 +113,7 @@ Bytes decoded(const MeshoptView& v) {
                        : v.mode == Mode::triangles
                            ? meshopt_decodeIndexBuffer(bytes.data(), v.count, v.stride, stream, size)
                            : meshopt_decodeIndexSequence(bytes.data(), v.count, v.stride, stream, size);
-    // The library's three answers beside 0.
+    // The library's three error codes.
     if (result == -1) fail(v.view, "its bytes are not of its mode");
     if (result == -2) fail(v.view, "its bytes end before its elements");
     if (result != 0) fail(v.view, "its bytes do not end with its elements");
@@ -146,7 +147,7 @@ MeshoptView viewOf(const tinygltf::Model& model, const tinygltf::Value& e, std::
     return v;
 }
 
-// The view of a buffer of its own: decoded bytes, or none, and the line for whoever reads them.
+// Gives the view a buffer of its own: decoded bytes, or none and the error for whoever reads it.
 void give(tinygltf::Model& model, std::size_t view, Bytes bytes, std::string line) {
     tinygltf::BufferView& file = model.bufferViews[view];
     file.buffer = static_cast<int>(model.buffers.size());

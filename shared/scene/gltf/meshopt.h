@@ -11,25 +11,26 @@
 
 namespace diptych::gltf {
 
-// A bufferView of EXT_meshopt_compression. Source: Khronos, EXT_meshopt_compression, 2021, "JSON schema
+// A bufferView with EXT_meshopt_compression. Source: Khronos, EXT_meshopt_compression, 2021, "JSON schema
 // updates".
 struct MeshoptView {
     enum class Mode { attributes, triangles, indices };
     enum class Filter { none, octahedral, quaternion, exponential };
 
     std::size_t view;
-    std::span<const unsigned char> stream = {};  // long enough to hold `count` elements
-    std::size_t count = 0, stride = 0;           // elements, bytes: their product is the bufferView's length
+    std::span<const unsigned char> stream =
+        {};                             // at least as long as the smallest stream of `count` elements
+    std::size_t count = 0, stride = 0;  // elements, bytes each; their product is the bufferView's length
     Mode mode = Mode::attributes;
     Filter filter = Filter::none;
-    std::string fault = {};  // which rule of the extension it breaks; then there is nothing to decode
+    std::string fault = {};  // the rule of the extension that it breaks: it is not decoded then
 };
 
-// All that the file has.
+// All such bufferViews of the file.
 std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model);
 
-// Gives every one of them a buffer of decoded bytes. Decoded indices may still be any number. What cannot be
-// decoded is noted, and its fault is thrown at whoever reads it (missing, gltf_value.h).
+// Gives each view a buffer of decoded bytes. Decoded indices may still have any value. A view that cannot be
+// decoded is noted, and the error is thrown when it is read (missing(), value.h).
 void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteList& notes);
 
 }  // namespace diptych::gltf

@@ -33,7 +33,7 @@ std::size_t targetsOf(const tinygltf::Model& model, const tinygltf::Node& node) 
     return primitives.empty() ? 0 : primitives[0].targets.size();
 }
 
-// What decodes to more than its bytes is counted, over the whole file.
+// Counts, over the whole file, data that decodes to more bytes than the file has for it.
 class Budget {
 public:
     explicit Budget(const tinygltf::Model& model) : left_(FREE_DECODED_BYTES) {
@@ -41,13 +41,13 @@ public:
             left_ += buffer.data.size() * DECODED_BYTES_PER_BYTE;
     }
     Numbers read(const tinygltf::Model& model, int accessor, const std::string& who) {
-        // The widest element is a MAT4; each is visited once more if it is sparse.
+        // The widest element is a MAT4; sparse elements are visited twice.
         const std::size_t count = soundCount(model, accessor, who), bytes = 2 * 16 * sizeof(float) * count;
         if (bytes > left_) fail(who, fmt::format("{} keys or matrices more are too many", count));
         left_ -= bytes;
         return readNumbers(model, accessor, who);
     }
-    // Channels share keyframes, but every node that they move has its own weights.
+    // Channels may share keyframes, but every animated node has its own weights.
     void holdWeights(std::size_t count, const std::string& who) {
         const std::size_t bytes = count * sizeof(double);
         if (bytes > left_) fail(who, fmt::format("{} weights more are too many", count));
@@ -66,7 +66,7 @@ public:
         : model_(model), scene_node_(sceneNode), budget_(budget), scene_(scene) {}
 
     void read() {
-        std::map<int, int> place;  // of the file's skins in Scene::skins
+        std::map<int, int> place;  // the file's skin -> its index in Scene::skins
         const std::size_t before = scene_.notes.size();
         for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
             const tinygltf::Node& file = model_.nodes[n];
@@ -113,7 +113,7 @@ private:
             if (result.joints.back() < 0)
                 fail(who, fmt::format("joint node {} is not in the scene that is drawn", joint));
         }
-        // It says nothing that the joints do not say: one outside the scene is none.
+        // The skeleton only hints at what the joints say already; one outside the scene is dropped.
         if (file.skeleton >= 0) result.skeleton = sceneNode(file.skeleton, who, "skeleton");
         result.joint_from_mesh.assign(result.joints.size(), glm::mat4(1.0f));
         if (file.inverseBindMatrices >= 0)
@@ -134,7 +134,7 @@ private:
                 if (!std::isfinite(value)) fail(who, fmt::format("matrix {} is not finite", j));
                 matrices[j][static_cast<int>(i / 4)][static_cast<int>(i % 4)] = value;
             }
-            // Exporters round; 1e-4 is far beyond that and far below what one would see.
+            // Exporters round; 1e-4 is far above rounding and far below what is visible.
             for (int c = 0; c < 4; ++c) {
                 const float last = c == 3 ? 1.0f : 0.0f;
                 if (std::abs(matrices[j][c][3] - last) > 1e-4f)
@@ -175,10 +175,11 @@ private:
         who_ = fmt::format("animation {}", index);
         Animation result;
         result.name = file_->name;
-        std::map<std::pair<int, AnimatedPart>, int> place;  // of the file's samplers in result.keyframes
+        // (the file's sampler, part) -> its index in result.keyframes.
+        std::map<std::pair<int, AnimatedPart>, int> place;
         std::set<std::pair<int, AnimatedPart>> moved;
         std::size_t faulty = 0;
-        std::string first;  // what is wrong with the first of them
+        std::string first;  // the fault of the first of them
         for (std::size_t c = 0; c < file_->channels.size(); ++c) {
             const tinygltf::AnimationChannel& channel = file_->channels[c];
             const std::string who = fmt::format("channel {}", c);
@@ -301,7 +302,7 @@ private:
                                   targets));
     }
 
-    // The numbers have been checked where the node's matrix was made of them.
+    // The numbers have been checked when the node's matrix was made from them.
     void giveTransform(int node) {
         Node& target = scene_.nodes[static_cast<std::size_t>(scene_node_[static_cast<std::size_t>(node)])];
         if (target.transform >= 0) return;

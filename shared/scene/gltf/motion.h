@@ -11,12 +11,12 @@ class Model;
 
 namespace diptych::gltf {
 
-// Skins, animations, and what nodes need for them: Node::skin, transform and weights. `sceneNode[n]` is the
-// place of the file's node n in Scene::nodes, -1 where the scene does not hold it.
+// Reads skins and animations, and sets Node::skin, transform and weights. `sceneNode[n]` is the index in
+// Scene::nodes of the file's node n, -1 if the scene does not contain it.
 //
-// A skin that something is drawn with must be right: every joint in the scene, inverse bind matrices finite
-// and affine. Throws std::runtime_error, "skin 0: ...", where it is not. Of an animation, what moves nodes
-// outside the scene counts nothing, and a channel with a fault is left out with a note.
+// A skin that a drawn mesh uses must be valid: every joint in the scene, inverse bind matrices finite and
+// affine; otherwise std::runtime_error is thrown, "skin 0: ...". Animation channels of nodes outside the
+// scene are ignored, and a channel with a fault is left out with a note.
 void readMotion(const tinygltf::Model& model, const std::vector<int>& sceneNode, Scene& scene);
 
 }  // namespace diptych::gltf

@@ -33,7 +33,7 @@ std::string quotedName(const std::string& name) {
 
 // ---- transforms --------------------------------------------------------------------------------------
 
-// As many numbers as asked for, or none.
+// Throws unless there are as many numbers as expected, or none.
 void checkLength(const std::vector<double>& values, std::size_t count, const std::string& who,
                  const char* what) {
     if (!values.empty() && values.size() != count)
@@ -50,7 +50,8 @@ glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteL
     glm::dmat4 m(1.0);
     if (!node.matrix.empty()) {
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-        // Exporters multiply matrices in float32: its last row may be off by some roundings.
+        // Tolerance for the last row of a matrix: exporters multiply matrices in float32, with some rounding
+        // errors.
         constexpr double rounding = 1e-4;
         const glm::dvec4 row(m[0][3], m[1][3], m[2][3], m[3][3] - 1);
         if (!(glm::length(row) <= rounding)) fail(who, "the last row of its matrix is not 0 0 0 1");
@@ -88,10 +89,11 @@ std::vector<int> parentsOf(const tinygltf::Model& model) {
     return parent;
 }
 
-// With at most one parent each, a node is in a circle exactly if its ancestors lead back to it; walks stop
-// where an earlier one has been.
+// Throws if the parents form a cycle. Every node has at most one parent, so a node is in a cycle exactly if
+// its ancestors lead back to it; a walk stops at a node that an earlier walk has visited.
 void refuseCircles(const std::vector<int>& parent) {
-    std::vector<std::size_t> walk(parent.size(), 0);  // the number of the walk that came by; 0: none yet
+    // The number of the walk that visited the node; 0: none yet.
+    std::vector<std::size_t> walk(parent.size(), 0);
     for (std::size_t start = 0; start < parent.size(); ++start) {
         for (int n = static_cast<int>(start); n >= 0 && walk[static_cast<std::size_t>(n)] != start + 1;) {
             if (walk[static_cast<std::size_t>(n)]) break;
@@ -103,7 +105,7 @@ void refuseCircles(const std::vector<int>& parent) {
     }
 }
 
-// The scene that was asked for, by index or name, or else the file's default. -1: the file has none.
+// The requested scene, by index or name, or else the file's default. -1: the file has no scenes.
 int chooseScene(const tinygltf::Model& model, const std::string& choice, std::vector<std::string>& notes) {
     const int count = static_cast<int>(model.scenes.size());
     if (choice.empty()) {
@@ -121,7 +123,7 @@ int chooseScene(const tinygltf::Model& model, const std::string& choice, std::ve
     fail("scene=" + choice, fmt::format("names none of the file's {} scene{}", count, count == 1 ? "" : "s"));
 }
 
-// The nodes that the scene reaches. Without any scene, all of them.
+// For each node, whether the scene reaches it. Without any scene, all nodes.
 std::vector<bool> reached(const tinygltf::Model& model, int index, const std::vector<int>& parent) {
     if (index < 0) return std::vector<bool>(model.nodes.size(), true);
     const std::string who = fmt::format("scene {}", index);
@@ -145,7 +147,7 @@ std::vector<bool> reached(const tinygltf::Model& model, int index, const std::ve
 
 // ---- what hangs on nodes -----------------------------------------------------------------------------
 
-// `x` within its bounds, with a note where it was not.
+// `x` limited to its bounds, with a note if that changed it.
 double bounded(const std::string& who, const char* what, double x, double least, double most,
                NoteList& notes) {
     const double inside = std::clamp(x, least, most);
@@ -155,7 +157,7 @@ double bounded(const std::string& who, const char* what, double x, double least,
 
 void readCone(const tinygltf::SpotLight& spot, const std::string& who, Light& light, NoteList& notes) {
     static constexpr double right = glm::half_pi<double>();
-    // A rounded pi / 2 is one.
+    // Accept a pi / 2 that was rounded up.
     const auto rounded = [](double x) { return x <= right + 1e-6 ? std::min(x, right) : x; };
     const double outer = bounded(who, "outerConeAngle", rounded(spot.outerConeAngle), 0, right, notes);
     light.outer_cone = static_cast<float>(outer);
@@ -186,7 +188,7 @@ Light readLight(const tinygltf::Light& l, const std::string& who, NoteList& note
     return light;
 }
 
-// Throws where nothing can be seen through it.
+// Throws if the camera's parameters make no valid projection.
 Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& notes) {
     Camera camera;
     camera.name = c.name;
@@ -229,13 +231,13 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
     const int chosen = chooseScene(model, choice, scene.notes);
     const std::vector<bool> inScene = reached(model, chosen, parent);
 
-    std::vector<int> place(model.nodes.size(), -1);  // in Scene::nodes
+    std::vector<int> place(model.nodes.size(), -1);  // the file's node -> its index in Scene::nodes
     int count = 0;
     for (std::size_t n = 0; n < place.size(); ++n)
         if (inScene[n]) place[n] = count++;
 
     NoteList nodeNotes("nodes"), notes("lights and cameras");
-    std::vector<std::pair<int, Camera>> cameras;  // with the file's index
+    std::vector<std::pair<int, Camera>> cameras;  // (the file's node index, camera)
     for (std::size_t n = 0; n < model.nodes.size(); ++n) {
         if (!inScene[n]) continue;
         const tinygltf::Node& file = model.nodes[n];

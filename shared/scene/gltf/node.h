@@ -10,10 +10,10 @@ class Model;
 
 namespace diptych::gltf {
 
-// The nodes of one scene in the file's order, each with one parent and in no circle, and the lights and
-// cameras that hang there: lights in node order, then those of the scene's extras, cameras in the file's
-// order. `choice` is the scene's index or name; empty: the file's default. Returns each of the file's nodes'
-// place in Scene::nodes, -1: not there.
+// Reads the nodes of one scene in the file's order, each with at most one parent and without cycles, and the
+// lights and cameras attached to them: lights in node order, then those of the scene's extras; cameras in
+// the file's order. `choice` is the scene's index or name; empty: the file's default. Returns for each node
+// of the file its index in Scene::nodes, -1: not in the scene.
 std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, const std::string& choice,
                            Scene& scene);
 

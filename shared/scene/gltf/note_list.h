@@ -11,11 +11,11 @@
 
 namespace diptych::gltf {
 
-// Notes of one kind, of which a file may give any number: the first are kept, once each, the rest are
-// counted.
+// Notes of one kind, of which a file may cause any number: the first ones are kept, duplicates dropped, the
+// rest only counted.
 class NoteList {
 public:
-    // `about` is what a line calls them: "12 more notes on nodes like these".
+    // `about` names them in the last line: "12 more notes on nodes like these".
     explicit NoteList(std::string about) : about_(std::move(about)) {}
 
     void add(std::string note) {
@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t shown = 20;  // a screenful
+    static constexpr std::size_t shown = 20;  // about a screenful
     std::string about_;
     std::vector<std::string> notes_;
     std::size_t more_ = 0;

@@ -35,7 +35,7 @@ bool isUsable(const Vec& v) {
     return true;
 }
 
-// Of what readVectors will ask an attribute; 0: that is found out there.
+// The number of components that readVectors() will require of an attribute; 0: checked there.
 std::size_t widthOf(const std::string& attribute) {
     return attribute == "POSITION" || attribute == "NORMAL" ? 3
            : attribute == "TANGENT"                         ? 4
@@ -79,9 +79,9 @@ private:
     const PrimitiveUse& use_;
     std::vector<std::string>& notes_;
     Primitive result_;
-    std::size_t count_ = 0;               // of the file's vertices
-    std::vector<std::uint32_t> touched_;  // of them, those that triangles touch, ascending
-    bool all_ = false;                    // every one is
+    std::size_t count_ = 0;               // the file's vertices
+    std::vector<std::uint32_t> touched_;  // those of them that triangles use, ascending
+    bool all_ = false;                    // whether all of them are used
 
     template <class... Args>
     void note(fmt::format_string<Args...> text, Args&&... args) {
@@ -97,7 +97,7 @@ private:
 
     // ---- triangles -----------------------------------------------------------------------------------
 
-    // Every attribute has as many elements as there are positions.
+    // Checks that every attribute has as many elements as POSITION.
     void countVertices() {
         count_ = soundCount(model_, file_.attributes.at("POSITION"), who_ + ": POSITION", "vertices", 3);
         if (count_ > std::numeric_limits<std::uint32_t>::max() / 4)
@@ -114,7 +114,7 @@ private:
                 if (!name.starts_with('_')) check(fmt::format("target {}: {}", t, name), accessor, 0);
     }
 
-    // The vertices in the order in which the file draws them, as a list of triangles.
+    // Reads the indices as a list of triangles, in the order in which the file draws them.
     void readTriangles() {
         std::vector<std::uint32_t> order;
         if (file_.indices == -1) {
@@ -139,13 +139,13 @@ private:
         for (std::size_t i = 0; i + 2 < order.size(); ++i) {
             if (file_.mode == TINYGLTF_MODE_TRIANGLE_FAN)
                 out.insert(out.end(), {order[i + 1], order[i + 2], order[0]});
-            else  // a strip: every other triangle is turned back to front
+            else  // strips: every other triangle has the opposite orientation
                 out.insert(out.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
         }
     }
 
-    // From the file's vertices to those that triangles touch. What it costs goes with the indices, not with
-    // the vertices: a thousand primitives may each draw a little of one large accessor.
+    // Replaces the file's vertices by those that triangles use. The cost is proportional to the indices, not
+    // to the vertices: a thousand primitives may each draw a small part of one large accessor.
     void keepTouched() {
         std::vector<std::uint32_t>& indices = result_.indices;
         if (count_ / 4 > indices.size()) {
@@ -192,7 +192,7 @@ private:
 
     // ---- attributes ----------------------------------------------------------------------------------
 
-    // An attribute that is there, one element a vertex.
+    // Reads an attribute that is present, one element for each vertex.
     template <class Vec, class Read>
     std::vector<Vec> attribute(const std::string& name, const Read& read) const {
         const auto at = file_.attributes.find(name);
@@ -200,7 +200,7 @@ private:
         return read(model_, at->second, fmt::format("{}: {}", who_, name), which());
     }
 
-    // What is not finite or beyond what is drawn becomes `instead`.
+    // Replaces vectors that are not finite or beyond maxCoordinate by `instead`.
     template <class Vec>
     void repair(std::vector<Vec>& values, const Vec& instead, const std::string& name, const char* said) {
         std::size_t broken = 0, finite = 0;
@@ -244,7 +244,7 @@ private:
         return false;
     }
 
-    // JOINTS_n with WEIGHTS_n for n = 0, 1, ... while there are any.
+    // Reads JOINTS_n with WEIGHTS_n for n = 0, 1, ... as long as they are present.
     void readJointSets() {
         if (use_.joints == 0) return;
         for (std::size_t set = 0;; ++set) {
@@ -262,7 +262,7 @@ private:
     }
 
     void normalizeWeights() {
-        // Each weight may be rounded to 8 bits: half a step.
+        // Each of the four weights of a set may be rounded to 8 bits, an error of half a step.
         const double rounding = 4.0 * static_cast<double>(result_.joint_sets.size()) * 0.5 / 255;
         std::size_t broken = 0, unweighted = 0, uneven = 0;
         for (std::size_t v = 0; v < result_.positions.size(); ++v) {
@@ -299,7 +299,7 @@ private:
         for (std::size_t t = 0; t < file_.targets.size(); ++t) {
             MorphTarget& target = result_.targets.emplace_back();
             for (const auto& [name, accessor] : file_.targets[t]) {
-                // Normals and tangents that are made here follow from what is morphed.
+                // Generated normals and tangents are computed from the morphed positions instead.
                 const bool based = file_.attributes.contains(name);
                 std::vector<glm::vec3>* deltas = name == "POSITION"           ? &target.positions
                                                  : name == "NORMAL" && based  ? &target.normals
@@ -318,8 +318,8 @@ private:
 
     // ---- what is missing -----------------------------------------------------------------------------
 
-    // Missing normals are flat, and then the file's tangents must not be used. Present ones are made unit;
-    // one without a direction gets that of the triangles around it.
+    // Missing normals become flat ones, and then the file's tangents must not be used. Present normals are
+    // normalised; one without a direction gets that of the triangles around it.
     void finishNormals() {
         if (result_.normals.empty()) {
             result_.tangents.clear();
@@ -341,7 +341,8 @@ private:
     }
 
     void repairNormals(const std::vector<std::uint32_t>& broken) {
-        std::vector<glm::dvec3> sum(result_.positions.size(), glm::dvec3(0));  // weighted by area
+        // Sums of face normals weighted by area.
+        std::vector<glm::dvec3> sum(result_.positions.size(), glm::dvec3(0));
         for (std::size_t i = 0; i + 2 < result_.indices.size(); i += 3) {
             const std::uint32_t* t = &result_.indices[i];
             const glm::dvec3 a(result_.positions[t[0]]), b(result_.positions[t[1]]),
@@ -355,7 +356,7 @@ private:
         note("{} normals have no direction: taken from the triangles", broken.size());
     }
 
-    // A normal texture asks for MikkTSpace's tangents where the file has none; nothing else reads them.
+    // If the file has no tangents, a normal texture needs MikkTSpace's; nothing else reads them.
     void finishTangents() {
         if (result_.tangents.empty()) {
             result_.tangents_made = true;
@@ -364,7 +365,7 @@ private:
             return makeTangents(result_, slot.texture >= 0 ? slot.texcoord : -1);
         }
         std::vector<glm::vec4> read = std::move(result_.tangents);
-        makeTangents(result_, -1);  // what stays where the file's has no direction
+        makeTangents(result_, -1);  // the fallback for tangents of the file that have no direction
         std::size_t broken = 0;
         for (std::size_t v = 0; v < read.size(); ++v) {
             const glm::dvec3 t(read[v]);
@@ -395,7 +396,7 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
         file.indices == -1 ? count : soundCount(model, file.indices, who + ": indices", "indices", 1);
     const std::size_t corners =
         file.mode == TINYGLTF_MODE_TRIANGLES ? order : 3 * std::max<std::size_t>(order, 2) - 6;
-    // Flat normals and new tangents may give every corner a vertex of its own.
+    // With flat normals or generated tangents, every corner may become a vertex of its own.
     const bool split = !file.attributes.contains("NORMAL") || !file.attributes.contains("TANGENT");
     const std::size_t vertices = split ? corners : std::min(count, order);
     std::size_t perVertex = sizeof(glm::vec3) + sizeof(glm::vec4);  // normals and tangents

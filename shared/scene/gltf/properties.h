@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is read of glTF 2.0 and its extensions, as data: every property's type, range and what it names.
-// Source: Khronos, glTF 2.0 Specification, 2021, section 5, and the extensions' own texts.
+// The properties of glTF 2.0 and its extensions that are read, as data: each property's type, range and, for
+// an index, the collection it refers to. Source: Khronos, glTF 2.0 Specification, 2021, section 5, and the
+// extensions' own texts.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +17,17 @@ enum class Kind {
     whole,           // from min to max
     number,          // from min to max
     flag,            // true or false
-    text,            // one of `choices`, or anything where there are none
-    name,            // text for people
+    text,            // one of `choices`; any text if that is empty
+    name,            // any text, used in messages and lists only
     numbers,         // `least` to `most` of them, each from min to max
-    index,           // into `of`
-    indices,         // into `of`
+    index,           // of an item of collection `of`
+    indices,         // of items of collection `of`
     names,           // array of strings
-    attributes,      // an object of indices into `of`
-    attribute_sets,  // array of such
-    object,          // of `properties`
-    objects,         // array of such
-    extensions,      // an object whose known members are `properties`; others are taken out and remembered
+    attributes,      // an object whose values are indices into `of`
+    attribute_sets,  // array of such objects
+    object,          // an object with `properties`
+    objects,         // array of such objects
+    extensions,      // an object whose known members are `properties`; others are removed and remembered
 };
 
 struct Property {
@@ -35,14 +36,15 @@ struct Property {
     bool required = false;
     double min = 0, max = 0;
     std::size_t least = 0, most = 0;
-    std::string_view of = {};  // the collection that an index leads into; what one of `objects` is called
+    // The collection that an index refers to; for objects, what errors call one of them.
+    std::string_view of = {};
     std::string_view choices = {};  // separated by spaces
     std::span<const Property> properties = {};
 };
 
-constexpr double any = std::numeric_limits<float>::max();  // what every number becomes at last
+constexpr double any = std::numeric_limits<float>::max();  // all numbers are stored as float in the end
 constexpr double maxInt = std::numeric_limits<int>::max();
-constexpr double maxSize = 9007199254740992.0;  // 2^53: every whole number up to it is a double
+constexpr double maxSize = 9007199254740992.0;  // 2^53: all integers up to it are exact in double
 constexpr std::size_t anyLength = std::numeric_limits<std::size_t>::max();
 
 constexpr Property whole(std::string_view key, double min = 0, double max = maxInt) {
@@ -109,7 +111,7 @@ constexpr Property accessor[] = {index("bufferView", "bufferViews"),
                                  name()};
 
 constexpr Property meshopt[] = {required(index("buffer", "buffers")),
-                                whole("byteOffset"),  // tinygltf keeps an extension's numbers as int
+                                whole("byteOffset"),  // tinygltf stores the numbers of extensions as int
                                 required(whole("byteLength")),
                                 required(whole("byteStride", 1, 256)),
                                 required(whole("count", 0, maxInt)),
@@ -130,7 +132,7 @@ constexpr Property buffer[] = {text("uri"), required(whole("byteLength", 0, maxS
 constexpr Property image[] = {text("uri"), index("bufferView", "bufferViews"), text("mimeType"), name()};
 constexpr Property sampler[] = {whole("magFilter"), whole("minFilter"), whole("wrapS"), whole("wrapT"),
                                 name()};
-// Images of kinds that are not read: it is only told that they are there.
+// Image formats that are not read: only their presence is kept.
 constexpr Property textureExtensions[] = {object("KHR_texture_basisu", {}), object("EXT_texture_webp", {}),
                                           object("EXT_texture_avif", {})};
 constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"), name(),
@@ -167,7 +169,7 @@ constexpr Property material[] = {name(),
                                  flag("doubleSided"),
                                  extensions(materialExtensions)};
 
-// The values of these attributes are ids inside the compressed stream.
+// The values of these attributes are attribute ids in the compressed stream.
 constexpr Property draco[] = {required(index("bufferView", "bufferViews")),
                               required(attributes("attributes", {}))};
 constexpr Property primitiveExtensions[] = {object("KHR_draco_mesh_compression", draco)};
@@ -240,7 +242,7 @@ constexpr Property document[] = {required(object("asset", asset)),
                                  objects("textures", "texture", texture),
                                  extensions(documentExtensions)};
 
-// What a line calls an item of one of the document's collections.
+// What messages call an item of one of the document's collections.
 constexpr std::string_view itemOf(std::string_view collection) {
     for (const Property& p : document)
         if (p.key == collection) return p.of;

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 14> collectionNames{
     "accessors", "animations", "bufferViews", "buffers",  "cameras", "images", lightCollection,
     "materials", "meshes",     "nodes",       "samplers", "scenes",  "skins",  "textures"};
 
-// What is no array has no items; the schema says what is wrong with it.
+// A value that is not an array counts as empty; the schema reports it.
 std::size_t sizeIn(const Json& document, std::string_view name) {
     static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
     if (name == lightCollection) return document.contains(lights) ? document[lights].size() : 0;
@@ -35,7 +35,7 @@ References::References(const Json& document) {
         collections_.push_back({name, static_cast<Id>(items), sizeIn(document, name)});
         items += collections_.back().count;
     }
-    // An item is two bytes of JSON at least.
+    // Not reached within the limit on JSON (limits.h), of which an item takes at least two bytes.
     if (items >= none) throw std::runtime_error("has more objects than 32 bits can number");
     items_ = static_cast<Id>(items);
 }
@@ -77,7 +77,8 @@ std::vector<References::Fault> References::unusable() const {
             seen[id] = true;
             if (id >= roots.first && id - roots.first < roots.count) throw std::runtime_error(line);
             const auto after = std::ranges::upper_bound(collections_, id, {}, &Collection::first);
-            // Empty collections begin where the next one does: the last that begins at or before has it.
+            // An empty collection begins where the next one does, so the last collection that begins at or
+            // before the id owns it.
             const Collection& owner = *std::prev(after);
             faults.push_back({owner.name, id - owner.first, line, id == cause});
             for (auto edge = std::ranges::lower_bound(edges, std::pair{id, Id(0)});

@@ -13,39 +13,40 @@
 
 namespace diptych::gltf {
 
-// Which items of a document's collections name which, and which of them are broken. What is broken and no
-// scene needs may be left out; what a scene needs may not.
+// Records which items of a document's collections refer to which, and which items are broken. Broken items
+// that no scene needs may be left out; if a scene needs one, loading fails.
 class References {
 public:
-    // The collections as they are sized in the document, the lights of KHR_lights_punctual among them.
+    // Takes the sizes of the collections from the document, including the lights of KHR_lights_punctual.
     explicit References(const nlohmann::json& document);
 
-    // Items of a collection, as the file has them; the lights' is called KHR_lights_punctual.
+    // Number of items of a collection in the file; that of the lights is called KHR_lights_punctual.
     std::size_t count(std::string_view collection) const;
 
-    // From enter to leave, indices that are met belong to this item.
+    // References recorded between enter() and leave() belong to this item.
     void enter(std::string_view collection, std::size_t item);
     void leave() { current_ = none; }
     bool inside() const { return current_ != none; }
     void names(std::string_view collection, std::size_t item);
 
-    // The item cannot be read: "accessor 3: count is -1, not at least 0". The first line stays.
+    // Marks the item as unreadable, with the reason: "accessor 3: count is -1, not at least 0". The first
+    // reason is kept.
     void broken(std::string_view collection, std::size_t item, std::string line);
 
-    // An item that stands for nothing: broken itself, or in need of one that is, and why.
+    // An item that cannot be used: broken itself, or dependent on one that is, and the reason.
     struct Fault {
         std::string_view collection;
         std::size_t item;
         std::string line;
-        bool cause;  // broken itself
+        bool cause;  // whether it is broken itself
     };
 
-    // Everything that is of no use, in the order in which its causes were found. Throws std::runtime_error
-    // with the first cause that a scene needs (or, in a file without scenes, a node).
+    // All items that cannot be used, in the order in which their causes were found. Throws
+    // std::runtime_error with the first cause that affects a scene (or, in a file without scenes, a node).
     std::vector<Fault> unusable() const;
 
 private:
-    using Id = std::uint32_t;  // of an item among those of all collections
+    using Id = std::uint32_t;  // number of an item, counted over all collections
     static constexpr Id none = ~Id(0);
     struct Collection {
         std::string_view name;
@@ -55,9 +56,9 @@ private:
     std::vector<Collection> collections_;
     Id items_ = 0;
     Id current_ = none;
-    std::vector<std::pair<Id, Id>> edges_;            // named, who names it
+    std::vector<std::pair<Id, Id>> edges_;            // (item, item that refers to it)
     std::vector<std::pair<Id, std::string>> broken_;  // in the order in which they were found
-    std::map<Id, std::size_t> place_;                 // in broken_
+    std::map<Id, std::size_t> place_;                 // index in broken_
 
     const Collection& find(std::string_view name) const;
 };

@@ -34,7 +34,7 @@ bool equalInAnyCase(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-// RFC 3986, 3.1: schemes have no case.
+// RFC 3986, 3.1: schemes are case-insensitive.
 bool isData(std::string_view uri) {
     constexpr std::string_view scheme = "data:";
     return equalInAnyCase(uri.substr(0, scheme.size()), scheme);
@@ -54,7 +54,7 @@ Bytes decodeBase64(std::string_view text, std::vector<std::string>& notes) {
     Bytes bytes;
     bytes.reserve(text.size() / 4 * 3 + 3);
     std::uint32_t bits = 0;
-    int count = 0;  // of bits waiting
+    int count = 0;  // number of bits not yet written out
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto c = static_cast<unsigned char>(text[i]);
         if (std::isspace(c)) continue;
@@ -72,7 +72,7 @@ Bytes decodeBase64(std::string_view text, std::vector<std::string>& notes) {
     return bytes;
 }
 
-// RFC 2397: data:[type][;base64],data. Base64 may be percent-encoded as any data.
+// RFC 2397: data:[type][;base64],data. The base64 text itself may be percent-encoded, as any data.
 Bytes readData(std::string_view uri, std::vector<std::string>& notes) {
     constexpr std::string_view base64 = ";base64";
     const std::size_t comma = uri.find(',');
@@ -86,7 +86,7 @@ Bytes readData(std::string_view uri, std::vector<std::string>& notes) {
     return {text.begin(), text.end()};
 }
 
-// A relative path without a scheme.
+// Throws unless the name is a relative path without a scheme.
 void checkRelative(const std::string& name) {
     if (name.empty()) fail("its uri is empty");
     if (name.find('\0') != name.npos) fail("its uri holds a null character");
@@ -107,7 +107,7 @@ Resources::Resources(const fs::path& folder) {
 
 namespace {
 
-// The files that a uri may mean, the likeliest first, and what is said where it is that one.
+// The files that a uri may refer to, the most likely first, and the note to add if it is that one.
 struct Candidate {
     std::string name, note;
 };
@@ -133,7 +133,8 @@ std::filesystem::path Resources::find(const std::string& uri, std::vector<std::s
     const std::string shown = oneLine(all.front().name);
     for (const Candidate& c : all) checkRelative(c.name);
     if (folder_.empty()) fail(shown + ": only data URIs are read here");
-    // The words first, so that nothing outside is even asked for; then where links lead.
+    // The path's text is checked first, so that the file system is never asked about files outside; then the
+    // target of links.
     const auto inside = [&](const fs::path& path) {
         return std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end()).first == folder_.end();
     };

@@ -11,15 +11,16 @@
 
 namespace diptych::gltf {
 
-// What a scene's URIs may name: data inside the URI, and files in the scene's folder or below it. Symbolic
-// links are followed, but what they lead to must be there as well.
+// Access to what a scene's URIs may refer to: data inside the URI, and files in the scene's folder or below
+// it. Symbolic links are followed, but their target must be there as well.
 class Resources {
 public:
-    // Empty: there is no folder, only data URIs are read.
+    // `folder` empty: only data URIs are read.
     explicit Resources(const std::filesystem::path& folder);
 
-    // The first `most` bytes, or all that there are. Throws std::runtime_error: "a.bin: no such file",
-    // without the name of who asks; so are the notes on what the uri was taken for.
+    // At most the first `most` bytes. Throws std::runtime_error: "a.bin: no such file"; neither it nor the
+    // notes name the object that refers to the uri. A note says if another file was taken than the uri
+    // names.
     std::vector<unsigned char> read(const std::string& uri, std::uint64_t most,
                                     std::vector<std::string>& notes) const;
 
@@ -29,7 +30,7 @@ private:
     std::filesystem::path folder_;  // canonical
 };
 
-// How a line names it: a data URI without its data.
+// The uri as messages show it: data URIs without their data.
 std::string uriName(const std::string& uri);
 
 // RFC 3986, 2.1.

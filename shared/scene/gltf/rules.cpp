@@ -39,27 +39,27 @@ void checkAccessor(const Json& accessor, const std::string& who) {
                               accessor["count"].dump()));
 }
 
-// What must be above 0 and is 0 where an exporter means that there is none.
+// Removes a member that must be above 0 but is 0, which exporters write to mean that there is none.
 void leaveOutZero(Json& item, const char* key, const std::string& who, NoteList& notes) {
     if (!item.contains(key) || item[key] != 0) return;
     notes.add(fmt::format("{}: {} 0: taken as none", who, key));
     item.erase(key);
 }
 
-// What reads a bufferView.
+// The objects that read a bufferView.
 struct Readers {
-    std::set<std::int64_t> index_bytes;  // sizes of the indices that lie in it
+    std::set<std::int64_t> index_bytes;  // component sizes of the index accessors in it
     bool others = false;
 };
 
-// Readers of the views that have a stride, by bufferView.
+// For each bufferView with a stride, its readers.
 std::map<std::size_t, Readers> readersOf(const Json& document,
                                          const std::map<std::size_t, std::int64_t>& strides) {
     std::map<std::size_t, Readers> readers;
     if (!document.contains("accessors")) return readers;
     const Json& accessors = document["accessors"];
     std::vector<bool> isIndices(accessors.size(), false);
-    // Broken meshes may hold anything.
+    // Meshes may be broken, so nothing is assumed of them.
     const auto mark = [&](const Json& mesh) {
         if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) return;
         for (const Json& primitive : mesh["primitives"]) {
@@ -93,7 +93,7 @@ void checkRules(std::string_view collection, Json& item, const std::string& who,
     if (collection == "nodes" && item.contains("matrix") &&
         (item.contains("translation") || item.contains("rotation") || item.contains("scale")))
         notes.add(who + ": a matrix beside translation, rotation or scale: the matrix counts");
-    // A camera and a spot light bring an object that their type names.
+    // Cameras and spot lights must have the object that their type names.
     if (collection == "cameras") {
         const std::string& type = item["type"].get_ref<const std::string&>();
         if (!item.contains(type)) fail(who, fmt::format("is {0}, but has no {0}", type));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What glTF says of several properties together, where types and ranges are right already.
+// Rules of glTF that involve several properties, checked after types and ranges.
 #pragma once
 
 #include "shared/scene/gltf/note_list.h"
@@ -12,17 +12,17 @@
 
 namespace diptych::gltf {
 
-// Of one item of a collection, `who` in a line: what is against them is taken out with a note where the item
-// makes sense without it. Throws std::runtime_error where it does not.
+// Checks the rules for one item of a collection, called `who` in messages. A property that breaks a rule is
+// removed with a note if the item makes sense without it; otherwise throws std::runtime_error.
 void checkRules(std::string_view collection, nlohmann::json& item, const std::string& who, NoteList& notes);
 
-// byteStride of every bufferView: 0 and that of packed indices are taken out with a note, others that glTF
-// does not allow make the view a broken one.
+// Checks byteStride of every bufferView: 0, and the stride of tightly packed indices, are removed with a
+// note; other strides that glTF does not allow mark the view as broken.
 void checkStrides(nlohmann::json& document, References& references, NoteList& notes);
 
-// Puts empty items, so that those after them keep their numbers, in the place of what is broken and no scene
-// needs, and notes it. Nodes lose their camera or skin where it is such. Throws std::runtime_error: the first
-// fault of what a scene needs.
+// Replaces broken items that no scene needs by empty ones (so that later items keep their indices), each
+// with a note. Nodes lose a broken camera or skin. Throws std::runtime_error with the first fault that
+// affects a scene.
 void leaveOutUnusable(nlohmann::json& document, const References& references, NoteList& notes);
 
 }  // namespace diptych::gltf

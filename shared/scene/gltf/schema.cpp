@@ -23,7 +23,8 @@ using Json = nlohmann::json;
 using schema::Kind;
 using schema::Property;
 
-// Where the walk is: "mesh 0, primitive 1: attributes". Put into words only where something is wrong.
+// The position of the walk in the document: "mesh 0, primitive 1: attributes". The text is only made for
+// messages.
 struct Where {
     const Where* outer = nullptr;
     std::string_view what = {};
@@ -46,7 +47,7 @@ struct Where {
     throw std::runtime_error(words.empty() ? why : words + ": " + why);
 }
 
-// A value as a line shows it.
+// A value as messages show it.
 std::string quoted(const Json& value) {
     switch (value.type()) {
         case Json::value_t::object:
@@ -66,10 +67,10 @@ public:
 
     References references;
     std::set<std::string> met_extensions;
-    std::map<std::string, std::string> misplaced;  // where
+    std::map<std::string, std::string> misplaced;  // extension -> where it stands
     NoteList notes{"objects"};
 
-    // Takes out what is not read and checks the rest.
+    // Removes the members that are not read and checks the others.
     void object(Json& value, std::span<const Property> properties, const Where& where) {
         if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end();) {
@@ -93,7 +94,7 @@ private:
         notes.add(words.empty() ? what : words + ": " + what);
     }
 
-    // Extensions of an object that has none which are read.
+    // For an object none of whose extensions are read.
     void leaveOut(const Json& extensions, const Where& where) {
         if (!extensions.is_object()) return;
         for (const auto& extension : extensions.items()) met(extension.key(), false, where);
@@ -105,8 +106,7 @@ private:
         if (!read && !misplaced.contains(name)) misplaced[name] = where.words();
     }
 
-    // Exporters write null for what they do not have, and numbers where people expect names: neither is
-    // needed to draw.
+    // Exporters write null for absent values, and numbers for names: neither matters for drawing.
     bool isAbsent(const Json& value, const Property& p, const Where& where) {
         if (value.is_null()) {
             note(where, fmt::format("{} is null: taken as absent", p.key));
@@ -158,7 +158,7 @@ private:
         }
     }
 
-    // An item of the document's own collections that is wrong may be one that nobody needs.
+    // A fault in an item of one of the document's collections is not fatal yet: the item may be unused.
     void objects(Json& value, const Property& p, const Where& where) {
         const std::string_view collection = p.of == "light" ? "KHR_lights_punctual" : p.key;
         const bool items = !references.inside();
@@ -189,7 +189,7 @@ private:
         return value;
     }
 
-    // In range, whatever the type that it is written in.
+    // Range check for any of the JSON number types.
     static void range(const Json& value, std::string_view key, const Property& p, const Where& where) {
         const double v = value.get<double>();
         if (v >= p.min && v <= p.max) return;
@@ -235,8 +235,8 @@ private:
         }
     }
 
-    // What an index names; without a collection it may be any number. A node draws without its skin and
-    // without its camera.
+    // Checks that an index refers to an existing item; without a collection any number is allowed. A broken
+    // skin or camera only removes it from its node.
     void index(Json& value, std::string_view key, std::string_view of, const Where& where) {
         if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
             wrong(value, key, "an index", where);

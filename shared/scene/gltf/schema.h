@@ -10,15 +10,17 @@
 
 namespace diptych::gltf {
 
-// Makes a document what its schema says before any parser believes it: what is read has the right type, lies
-// in its range and names objects that are there, what is not read (extras, unknown extensions) is gone, whole
-// numbers written as 3.0 are whole, names hold no control characters. What is broken and no scene needs is
-// left out. Throws std::runtime_error: "accessor 3: count is \"36\", not a whole number". Source:
-// Khronos, glTF 2.0 Specification, 2021, section 5 and the extensions' own texts.
+// Checks a document against the schema (properties.h) before it is given to any parser. Afterwards every
+// property that is read has the right type, lies in its range and refers to existing objects; everything
+// that is not read (extras, unknown extensions) is removed, integers written as 3.0 are integers, names hold
+// no control characters, and broken objects that no scene needs are left out. Throws std::runtime_error:
+// "accessor 3: count is \"36\", not a whole number". Source: Khronos, glTF 2.0 Specification, 2021, section
+// 5 and the extensions' own texts.
 struct Schema {
-    std::set<std::string> extensions;              // that were met, or are in extensionsUsed
-    std::map<std::string, std::string> misplaced;  // where one of them stands and is not looked for
-    std::vector<std::string> notes;                // what was repaired or left out
+    std::set<std::string> extensions;  // found in objects, or listed in extensionsUsed
+    // Extension -> an object that has it although it is not read there.
+    std::map<std::string, std::string> misplaced;
+    std::vector<std::string> notes;  // what was repaired or left out, one line each
 };
 Schema applySchema(nlohmann::json& document);
 

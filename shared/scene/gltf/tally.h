@@ -9,7 +9,7 @@
 
 namespace diptych::gltf {
 
-// Counts what is done of many small pieces, from any thread, and tells whoever wants to know.
+// Counts completed pieces of work, from any thread, and reports the progress.
 class Tally {
 public:
     Tally(std::size_t pieces, const char* step, const LoadProgress& progress)

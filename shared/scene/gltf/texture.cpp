@@ -37,7 +37,7 @@ Wrap wrapOf(int value, const std::string& who) {
     }
 }
 
-// A filter that the file leaves open is linear, with mipmaps.
+// A filter that the file does not give is linear, with mipmaps.
 Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
     Sampler sampler;
     sampler.wrap_s = wrapOf(s.wrapS, who);
@@ -77,7 +77,8 @@ Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
     return sampler;
 }
 
-// Linear light as a texture. `most`: bytes that it may take decoded. Throws with `who` at the start.
+// Decodes a picture of linear light as a texture. `most`: limit of its decoded bytes. Errors begin with
+// `who`.
 TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::string& who, std::uint64_t most,
                             std::vector<std::string>& notes) {
     const PictureFile picture = readPicture(std::as_bytes(bytes), who, {}, most);
@@ -161,7 +162,7 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
             fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
         all[i].radiance = lightmaps[i] && isRadiancePicture(std::as_bytes(all[i].bytes));
     }
-    // What all of them take together is known before the first is decoded.
+    // The headers give the total decoded size before the first image is decoded.
     ofEach([](std::size_t, Encoded& image) {
         if (!image.radiance) image.decoded = imageHeader(image.bytes).bytes();
     });
@@ -170,7 +171,8 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
         if ((total += image.decoded) > limits::imageBytes())
             fail(image.who, fmt::format("with it the images take {} MiB decoded: {} MiB are read at most",
                                         total >> 20, limits::imageBytes() >> 20));
-    // Pictures of light are few, and say what they take when they are opened: one after the other.
+    // Pictures of linear light are few, and their size is known only once they are opened: they are decoded
+    // one after the other.
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (!all[i].radiance) continue;
         images[i] = decodeRadiance(all[i].bytes, all[i].who, limits::imageBytes() - total, notes);

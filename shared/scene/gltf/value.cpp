@@ -14,7 +14,7 @@ namespace diptych::gltf {
 std::string firstLine(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     std::string line(text.substr(0, text.find_first_of("\r\n")));
-    constexpr std::size_t longest = 300;  // a data URI quoted whole would be no line to read
+    constexpr std::size_t longest = 300;  // e.g. a data URI would make the line unreadable
     if (line.size() > longest) line.replace(longest, line.npos, "...");
     while (line.size() <= longest && !line.empty() && (line.back() == ' ' || line.back() == '.'))
         line.pop_back();
@@ -69,7 +69,7 @@ const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const
     return at == extensions.end() || !at->second.IsObject() ? nullptr : &at->second;
 }
 
-// No buffer is fetched any more once its bytes are in the model: the place of its uri is free.
+// The uri of a loaded buffer is no longer needed, so the reason is stored in its place.
 void setMissing(tinygltf::Buffer& buffer, std::string line) {
     buffer.uri = std::move(line);
 }

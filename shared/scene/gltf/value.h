@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small readers that all of glTF's objects share. All throw std::runtime_error with `who` at its start.
+// Helpers for reading glTF values. All throw std::runtime_error whose text begins with `who`.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -16,27 +16,27 @@ namespace diptych::gltf {
 
 std::string firstLine(std::string_view text);
 
-// `index` if it names one of `count` objects; -1 stays -1. Otherwise "WHO: WHAT 7 of 3".
+// Returns `index` if it is -1 or names one of `count` objects; otherwise throws "WHO: WHAT 7 of 3".
 int checkedIndex(int index, std::size_t count, const std::string& who, const char* what);
 
-// Members of an extension's object; `fallback` where there is none.
+// Numbers from an extension's object; `fallback` where the key is absent.
 double numberIn(const tinygltf::Value& object, const char* key, double fallback, const std::string& who);
 int indexIn(const tinygltf::Value& object, const char* key, int fallback, const std::string& who);
 std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, std::vector<double> fallback,
-                              const std::string& who);  // as many as the fallback has
+                              const std::string& who);  // as many components as the fallback
 
-// Those of `notes` from `first` on as a NoteList keeps them: the first of each kind, the others counted.
+// Applies NoteList's limit to the notes from `first` on: the first are kept, the others counted.
 void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what);
 
 // The extension's object, or nullptr.
 const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
 
-// Why a buffer's bytes are not there, as whoever reads it is told: "buffer 1: a.bin: no such file". Empty:
-// they are there.
+// The reason why a buffer's bytes are missing, for errors of whoever reads it: "buffer 1: a.bin: no such
+// file". Empty: they are there.
 void setMissing(tinygltf::Buffer& buffer, std::string line);
 const std::string& missing(const tinygltf::Buffer& buffer);
 
-// run(i) for i below `count` on all cores; then the first failure by index, whatever thread met it.
+// Calls run(i) for all i below `count` on all cores, then rethrows the failure with the lowest index.
 template <class Run>
 void forEachInParallel(std::size_t count, const Run& run) {
     std::vector<std::exception_ptr> failures(count);
