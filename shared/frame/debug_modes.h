@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The channels of shared/contract/debug_mode.h as C++ data.
+// The channels (debug modes) of shared/contract/debug_mode.h as C++ data.
 #pragma once
 
 #include "shared/contract/debug_mode.h"
@@ -17,13 +17,13 @@ enum class Metric { relative, absolute, angular, exact };
 enum class ChannelKind { color, vector, scalar, id };
 enum class MadeBy { both, forward_only, paths_only };
 
-// How a channel becomes a picture; usual: as its kind and metric say.
+// How a channel is shown as a picture; usual: as its kind and metric determine.
 enum class Shown { usual, radiance, display, normalised };
 
 struct DebugMode {
     int number;
     std::string_view name;
-    int width;  // components
+    int width;  // number of components
     Metric metric;
     ChannelKind kind;
     MadeBy maker;
@@ -31,12 +31,12 @@ struct DebugMode {
     Shown shown = Shown::usual;
 };
 
-std::span<const DebugMode> debugModes();                        // in ascending number
-const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr where there is none
+std::span<const DebugMode> debugModes();                        // in ascending order of their numbers
+const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr: unknown
 const DebugMode& debugMode(int number);                         // throws std::out_of_range
 std::string_view nameOf(Metric metric);
 
-// Channels of light: those that follow from the surface and what shines on it.
+// Channels of lighting: those that depend on the surface and on the light it receives.
 inline constexpr std::array litModes{
     static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_lit_diffuse),
     static_cast<int>(gpu::DEBUG_lit_specular), static_cast<int>(gpu::DEBUG_lit_ambient)};
@@ -44,7 +44,8 @@ constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
 
-// The EXR channel names of a mode: lit is R, G, B, depth is Z, others "albedo.R", "normals.X", "roughness.Y".
+// The EXR channel names of a mode: R, G, B for lit, Z for depth, "albedo.R", "normals.X", "roughness.Y" for
+// others.
 std::vector<std::string> exrChannels(const DebugMode& mode);
 
 }  // namespace diptych

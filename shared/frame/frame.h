@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whatever makes a Frame can be compared.
+// The result of one renderer, or of a picture file: anything that makes a Frame can be compared.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -14,7 +14,7 @@
 
 namespace diptych {
 
-// The whole frame, unsplit, from culling to linear lit; milliseconds.
+// Time of the whole frame in one piece, from culling to linear lit, in milliseconds.
 struct FrameTime {
     double median = 0, min = 0, max = 0;
     int runs = 0;
@@ -33,36 +33,37 @@ struct FrameBytes {
 struct FrameCounters {
     std::uint64_t nonfinite_pixels = 0;  // in lit
     std::uint64_t overflowed_lists = 0;
-    std::uint64_t lights = 0;               // every light, the sun too
-    std::uint64_t unreproduced_pixels = 0;  // where the capture's lit is not the timed pipeline's
+    std::uint64_t lights = 0;  // every light, the sun too
+    // Where the lit of the capture differs from that of the timed pipeline.
+    std::uint64_t unreproduced_pixels = 0;
     double energy_cut =
         0;  // share of the flux of lights without a range that settings.light_cutoff takes away
 };
 
-// What two runs of one path differ by: nothing on a CPU device, or it is a race.
+// Differences between two runs of the same path. On a CPU device there must be none; any is a race.
 struct ChannelNoise {
-    std::uint64_t pixels = 0;  // not the same, bit for bit
-    double max = 0;            // in the channel's metric, the background counted
+    std::uint64_t pixels = 0;  // not bit-identical
+    double max = 0;            // in the channel's metric, over all pixels, the background too
 };
 
-// Where a Frame comes from that was not drawn now; what is not known is empty.
+// Origin of a Frame that was read from a file; unknown fields are empty.
 struct FrameOrigin {
-    std::string file;  // empty: drawn now
+    std::string file;  // empty: drawn by this program run
     std::string device, driver, commit;
 };
 
-// What a Frame was drawn on, as a report names it.
+// The device that a Frame was drawn on, as reports name it.
 struct ReportDevice {
-    std::string name, driver, type;  // type "cpu" rounds alike in every pipeline
+    std::string name, driver, type;  // with type "cpu", all pipelines round alike
 };
 
-// Where the picture was taken from, world, metres; for the report and for another renderer.
+// The camera of the picture, in world space, metres; for the report and for other renderers.
 struct FrameCamera {
     std::string name;
     double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1}, up[3] = {0, 1, 0};
     double fov_degrees = 0;    // vertical; 0: orthographic
     double ymag = 0;           // orthographic: half the height, m
-    double near = 0, far = 0;  // far: infinity where there is none
+    double near = 0, far = 0;  // far: infinity for a camera without far plane
 };
 
 struct Frame {
@@ -72,17 +73,18 @@ struct Frame {
     Settings settings;
     FrameCamera camera;
     std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
-    // What of it was asked for and is compared and written; the rest helps (exposure, background). Empty:
-    // all.
+    // Of `channels`, those that were requested, which are compared and written; the others are helpers
+    // (exposure, background). Empty: all.
     std::vector<int> asked;
     bool isAsked(int mode) const { return asked.empty() || std::ranges::count(asked, mode) > 0; }
-    // Forward+: lit, lit_diffuse, lit_specular and lit_ambient of a surface that went through the encoding of
-    // settings.gbuffer and back: what the deferred path must show. It explains a difference of lit.
+    // Forward+ only: lit, lit_diffuse, lit_specular and lit_ambient, shaded from surfaces that were encoded
+    // as in settings.gbuffer and decoded again, as the deferred path shades them. Used to explain a
+    // difference of lit.
     std::map<int, Image> through_gbuffer;
-    std::array<float, 3> background{};  // what pictures show there, W/(sr m^2)
-    std::map<int, ChannelNoise> noise;  // of every channel, where the frame was drawn twice
-    // The reference's, where something was sampled: half the 95 % confidence interval of lit, W x H x 1,
-    // W/(sr m^2); and relative to lit as its metric is, at 99.9 % of the covered pixels.
+    std::array<float, 3> background{};  // colour of background pixels in pictures, W/(sr m^2)
+    std::map<int, ChannelNoise> noise;  // of every channel, if the frame was drawn twice
+    // Of the reference, if something was sampled: half the 95 % confidence interval of lit, W x H x 1, W/(sr
+    // m^2); and the same relative to lit (as lit's metric is), at 99.9 % of the covered pixels.
     Image uncertainty;
     double relative_uncertainty = 0;
     FrameTime time;
@@ -90,7 +92,7 @@ struct Frame {
     double made_in_ms = 0;  // wall clock of all drawing, timing, capturing and reading back for this Frame
     FrameBytes bytes;
     FrameCounters counters;
-    std::vector<std::string> notes;  // what a reader must know: what was drawn otherwise than asked
+    std::vector<std::string> notes;  // what users must know: what was drawn otherwise than requested
 };
 
 // A Frame of our reference: drawn now, or read from a file that we wrote. Another renderer's file is none.

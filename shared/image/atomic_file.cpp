@@ -12,7 +12,7 @@ namespace diptych {
 
 namespace fs = std::filesystem;
 
-// Refused before a temporary file is made beside what is none of ours.
+// Refuses folders and devices before a temporary file is made beside them.
 fs::path AtomicFile::resolved(const fs::path& file) {
     std::error_code ignored;
     fs::path real = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file, ignored) : file;
@@ -32,8 +32,8 @@ AtomicFile::~AtomicFile() {
     if (stream_) std::fclose(stream_);
 }
 
-// A write that failed has left its errno with nobody, so one byte more asks the disk again: the file is lost
-// anyway. EIO stands for what is gone by then.
+// The errno of an earlier failed write is lost, so one more byte is written to get it again; the file is
+// discarded anyway. If that write succeeds, the cause has vanished meanwhile: EIO is reported.
 void AtomicFile::commit() {
     const bool failed = std::ferror(stream_) != 0;
     errno = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file appears under its name whole or not at all.
+// Output files that appear under their name complete or not at all.
 #pragma once
 
 #include "shared/image/temporary.h"
@@ -11,19 +11,21 @@
 
 namespace diptych {
 
-// Written beside `file` under a temporary name and renamed by commit(); without a commit the temporary is
-// removed. Not synced to the disk: this guards against a full disk and an interrupted program, not against
-// a power cut. Everything throws std::runtime_error naming `file`, what the system says and what helps.
+// A file written under a temporary name beside `file` and renamed by commit(); without a commit the
+// temporary is removed. It is not synced to the disk: this protects against a full disk and an interrupted
+// program, not against a power cut. All functions throw std::runtime_error naming `file`, the system's
+// message and a remedy.
 class AtomicFile {
 public:
-    // A symbolic link keeps pointing where it does; a folder or a device is refused.
+    // If `file` is a symbolic link, its target is written and the link is kept; a folder or a device is
+    // refused.
     explicit AtomicFile(const std::filesystem::path& file);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     std::FILE* stream() const { return stream_; }
-    void commit();  // checks every write before, closes, renames
+    void commit();  // checks all writes so far, closes and renames
 
 private:
     static std::filesystem::path resolved(const std::filesystem::path& file);
@@ -34,10 +36,10 @@ private:
     std::FILE* stream_ = nullptr;
 };
 
-// The whole file at once.
+// Writes a whole file at once.
 void writeFile(const std::filesystem::path& file, std::string_view contents);
 
-// "FILE: what the system says; what helps", of an errno met in writing.
+// "FILE: the system's message; a remedy", for an errno of a failed write.
 std::string writingFailed(const std::filesystem::path& file, int error);
 
 }  // namespace diptych

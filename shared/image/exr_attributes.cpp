@@ -24,8 +24,8 @@ static_assert(std::endian::native == std::endian::little, "EXR files are little-
 struct Kept {
     std::string_view name, type;
     std::size_t size;             // 0: any
-    bool parts_only = false;      // means something only among several parts
-    std::string_view value = {};  // of every part, whatever the file says
+    bool parts_only = false;      // has a meaning only in a file of several parts
+    std::string_view value = {};  // written for every part instead of the file's
 };
 constexpr std::string_view no_window("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 16),
     square_pixels("\0\0\x80\x3f", 4);
@@ -123,8 +123,8 @@ void append(std::vector<std::byte>& out, const Attributes& part) {
         number(value.size());
         out.insert(out.end(), value.begin(), value.end());
     }
-    // The shortest attribute that can have been left out, a name and a type of one letter, is as long as an
-    // empty filler.
+    // The shortest attribute that may have been left out has a name and a type of one letter each: it is as
+    // long as an empty filler.
     constexpr std::size_t empty_filler = 2 + 2 + 4;
     if (end - out.size() > empty_filler) {
         const std::size_t size = end - out.size() - empty_filler - 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The attributes of one part of an EXR file: read with suspicion, and written again as the library may have
-// them. Source: "OpenEXR File Layout", the format's own description (openexr.com).
+// The attributes of one part of an EXR file: read without trusting the file, and written again in a form
+// that is safe to give to the library. Source: "OpenEXR File Layout", the format's own description
+// (openexr.com).
 #pragma once
 
 #include <cstddef>
@@ -15,15 +16,14 @@ namespace diptych::exr {
 
 using Bytes = std::span<const std::byte>;
 
-// What has not been read yet, from the front. Throws std::runtime_error without a name where that is too
-// little.
+// The bytes that are not read yet. Throws std::runtime_error without the file's name if there are too few.
 class Cursor {
 public:
     explicit Cursor(Bytes rest) : rest_(rest) {}
 
     std::size_t left() const { return rest_.size(); }
     Bytes take(std::size_t count);
-    std::string name();  // up to its null character
+    std::string name();  // without its terminating null character
     template <class T>
     T number() {
         T value;
@@ -36,24 +36,25 @@ private:
 };
 
 struct Attributes {
-    std::map<std::string, Bytes, std::less<>> needed;  // what the pixels need, of the right type and size
+    // Those needed to read the pixels, with the right type and size.
+    std::map<std::string, Bytes, std::less<>> needed;
     std::map<std::string, std::string_view, std::less<>> strings;  // all others of type "string"
     Bytes all;                                                     // with the null character at the end
 
-    // Throws where it is missing.
+    // Throws if it is missing.
     Cursor valueOf(std::string_view name) const;
-    // "" where it is missing.
+    // "" if it is missing.
     std::string_view textOf(std::string_view name) const;
 };
 
-// Up to the empty name that ends them; none at all at the end of several parts. Throws std::runtime_error
-// without a name.
+// Reads attributes up to the empty name that ends them; the result is empty at the end of the header of a
+// file of several parts. Throws std::runtime_error without the file's name.
 Attributes readAttributes(Cursor& in, Bytes from, bool several);
 
-// As long as they stood in the file: the needed attributes, and one that fills the room of the others.
-// Previews, histories, manifests of any claimed size are not handed on. Display window and pixel aspect
-// ratio, which this reader does not take from the library, are the same in every part: the library opens no
-// other file.
+// Appends the needed attributes, and a filler that takes the space of the others, so that the header has the
+// same length as in the file. Other attributes (previews, histories, manifests of any claimed size) are not
+// passed to the library. Display window and pixel aspect ratio, which this reader does not take from the
+// library, are made equal in all parts, because the library refuses other files.
 void append(std::vector<std::byte>& out, const Attributes& part);
 
 }  // namespace diptych::exr

@@ -24,7 +24,8 @@ using exr::Cursor;
     throw std::runtime_error(what);
 }
 
-// By the number in the attribute "compression": lines a chunk, and the most that one stored byte unfolds to.
+// By the number in the attribute "compression": lines in a chunk, and the most bytes that one stored byte
+// can expand to.
 struct Compressor {
     int lines;
     double ratio;
@@ -53,7 +54,7 @@ ExrWindow windowOf(const Attributes& part, std::string_view name) {
     ExrWindow window;
     for (std::int32_t* end : {&window.min_x, &window.min_y, &window.max_x, &window.max_y})
         *end = in.number<std::int32_t>();
-    // OpenEXR's own limit, which keeps its sums inside 32 bits.
+    // OpenEXR's own limit, which keeps its coordinate sums within 32 bits.
     constexpr std::int32_t farthest = 1 << 29;
     for (const std::int32_t end : {window.min_x, window.min_y, window.max_x, window.max_y})
         if (end < -farthest || end > farthest) fail(fmt::format("attribute {}: ends at {}", name, end));
@@ -69,7 +70,7 @@ ExrWindow windowOf(const Attributes& part, std::string_view name) {
                          : ""));
 }
 
-// Subsampled ones are refused where they are `wanted`.
+// Subsampled channels are refused if the part is `wanted`.
 std::vector<ExrChannel> channelsOf(const Attributes& part, bool wanted) {
     Cursor in = part.valueOf("channels");
     std::vector<ExrChannel> channels;
@@ -94,7 +95,7 @@ std::vector<ExrChannel> channelsOf(const Attributes& part, bool wanted) {
 
 struct Tiles {
     std::int64_t width = 0, height = 0;  // 0: scan lines
-    int levels = 0;  // smaller copies follow: 1 of both sides at once, 2 of each by itself
+    int levels = 0;  // mip-map levels: 1 halves both sides together, 2 each side separately
 };
 
 Tiles tilesOf(const Attributes& part, bool tiled) {
@@ -109,8 +110,8 @@ Tiles tilesOf(const Attributes& part, bool tiled) {
     return {width, height, levels};
 }
 
-// Every chunk of a part has eight bytes in a table, which OpenEXR makes before it looks whether they are
-// there.
+// For each chunk of a part OpenEXR allocates eight bytes of a table, before it checks that the file has
+// them.
 std::uint64_t tableBytes(const ExrWindow& window, const Tiles& tiles, int lines) {
     const auto over = [](std::int64_t size, std::int64_t step) { return (size + step - 1) / step; };
     const std::int64_t chunks = tiles.width > 0
@@ -119,17 +120,19 @@ std::uint64_t tableBytes(const ExrWindow& window, const Tiles& tiles, int lines)
     return 8 * static_cast<std::uint64_t>(chunks);
 }
 
-// A display window is filled with zeros that stand in no file: so much of it is allowed around the pixels of
-// a crop, and a whole frame of 8192 x 8192 float32 RGBA around the smallest.
+// The display window is filled with zeros that are not in the file. So that a small crop cannot claim
+// unlimited memory, the window may need at most 256 times the bytes of the pixels, or 1 GiB (8192 x 8192
+// float32 RGBA), whichever is more.
 std::uint64_t displayBytes(std::uint64_t dataBytes, std::uint64_t most) {
     constexpr std::uint64_t around = 256, always = std::uint64_t{1} << 30;
     return std::min(most, std::max(around * dataBytes, always));
 }
 
-// What the parts before have claimed together.
+// Sums over the parts that have been read.
 struct Claims {
-    std::uint64_t tables = 0, data = 0, display = 0;  // bytes: in the file; decoded; with the zeros around
-    double least_file = 0;                            // bytes that hold the pixels at the best compression
+    // Bytes: of chunk tables; of decoded pixels; of display windows.
+    std::uint64_t tables = 0, data = 0, display = 0;
+    double least_file = 0;  // bytes that the pixels take at the best compression
 };
 
 std::int64_t storedBytes(const std::vector<ExrChannel>& channels) {
@@ -137,7 +140,7 @@ std::int64_t storedBytes(const std::vector<ExrChannel>& channels) {
     for (const ExrChannel& channel : channels) bytes += channel.sample == ExrSample::half ? 2 : 4;
     return bytes;
 }
-// float32, and uint32 beside it.
+// 4 bytes for float32, and another 4 for each uint32 channel.
 std::int64_t decodedBytes(const std::vector<ExrChannel>& channels) {
     return 4 * (std::ssize(channels) + std::ranges::count(channels, ExrSample::uint, &ExrChannel::sample));
 }
@@ -149,7 +152,8 @@ void checkClaims(Claims& claims, const ExrPart& part, const ExrWindow& display, 
     checkImageSize(window.width(), window.height(), pixel, most);
     const auto data = static_cast<std::uint64_t>(window.width() * window.height() * pixel);
     checkImageSize(display.width(), display.height(), pixel, displayBytes(data, most));
-    // OpenEXR decodes whole chunks: rows of tiles, or a compressor's block of lines.
+    // OpenEXR decodes whole chunks: rows of tiles, or a compressor's block of lines. These may be larger
+    // than the picture.
     constexpr std::int64_t small_tile = 4096;
     if (tiles.width > std::max(window.width(), small_tile) ||
         tiles.height > std::max(window.height(), small_tile))

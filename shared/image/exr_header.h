@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What stands before the pixels of an EXR file, read with suspicion. OpenEXR allocates what attributes claim
-// and trusts their types to have the sizes they should; it is handed none but those that pictures need, after
-// every length of every part has been checked.
+// The header of an EXR file, read without trusting it. OpenEXR allocates what attributes claim and assumes
+// that their types have the right sizes; it is only given the attributes that pictures need, after every
+// length of every part has been checked.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace diptych {
 
-// A pixel window, both ends inside.
+// A pixel window; both corners are inside.
 struct ExrWindow {
     std::int32_t min_x = 0, min_y = 0, max_x = -1, max_y = -1;
     std::int64_t width() const { return std::int64_t{max_x} - min_x + 1; }
@@ -25,7 +25,7 @@ struct ExrWindow {
     bool operator==(const ExrWindow&) const = default;
 };
 
-// The numbers that stand in files.
+// Numbered as in the file format.
 enum class ExrSample { uint, half, float32 };
 
 struct ExrChannel {
@@ -34,28 +34,28 @@ struct ExrChannel {
 };
 
 struct ExrPart {
-    int number = 0;    // among the file's
-    std::string name;  // "" where it is the only one that is asked for
+    int number = 0;    // index of the part in the file
+    std::string name;  // "" if only one part is read
     ExrWindow data;
-    std::vector<ExrChannel> channels;  // as they stand in the file
+    std::vector<ExrChannel> channels;  // in the order of the file
     std::uint64_t stored_bytes = 0;    // of all pixels, uncompressed
 };
 
-// Of the parts that are to be read.
+// Of the parts that are read.
 struct ExrHeader {
-    ExrWindow display;  // theirs all
+    ExrWindow display;  // common to all parts
     std::vector<ExrPart> parts;
-    std::map<std::string, std::string> attributes;  // the strings; of several parts' the first one's
-    std::vector<std::string> notes;                 // what is left out, a line each
-    // The file's beginning, as long as it was, to be read in its place: headers of the same parts that hold
-    // the needed attributes and one that fills the room of the others.
+    std::map<std::string, std::string> attributes;  // the string attributes, of the first part
+    std::vector<std::string> notes;                 // what is left out, one line each
+    // To be read in place of the file's beginning, which has the same length: headers of the same parts with
+    // only the needed attributes, and a filler for the space of the others.
     std::vector<std::byte> bytes;
 };
 
-// Of every part, or of the one that is `asked` for by its name. Throws std::runtime_error without a name
-// where a header is broken, is of deep or subsampled pixels, or claims what the file cannot hold; pictures of
-// different display windows are refused, and such as need over `most` bytes as float32, and uint32 beside it,
-// in all.
+// Reads the headers of every part, or of the part named `asked`. Throws std::runtime_error without the
+// file's name if a header is broken, has deep or subsampled pixels, or claims more than the file can hold;
+// if display windows differ; and if all pictures together need more than `most` bytes as float32 (and in
+// addition uint32, where stored).
 ExrHeader readExrHeader(std::span<const std::byte> file, std::uint64_t most, std::string_view asked = {});
 
 }  // namespace diptych

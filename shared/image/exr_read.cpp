@@ -34,13 +34,13 @@ void exr::useAllCores() {
 
 namespace {
 
-// The file from memory, its beginning replaced.
+// The file in memory, with its beginning replaced.
 class MemoryStream : public Imf::IStream {
 public:
     MemoryStream(std::span<const std::byte> beginning, std::span<const std::byte> file)
         : IStream("EXR"), beginning_(beginning), file_(file) {}
 
-    // Like a file's: false where nothing comes after what was read.
+    // As for a file stream: false at the end of the file.
     bool read(char* to, int count) override {
         const auto size = static_cast<std::size_t>(std::max(count, 0));
         if (size > file_.size() - std::min(at_, file_.size())) throw std::runtime_error("is cut short");
@@ -61,7 +61,8 @@ private:
 
 // ---- layers ------------------------------------------------------------------------------------------
 
-// R, G, B, A and X, Y, Z and U, V in this order, however they are spelled; others after them.
+// The position of a component in the order R, G, B, A and X, Y, Z and U, V, in upper or lower case; others
+// come after them.
 std::size_t componentRank(std::string component) {
     std::ranges::transform(component, component.begin(), [](char c) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -73,15 +74,15 @@ std::size_t componentRank(std::string component) {
     return component.size() == 1 ? std::min(letters.find(component[0]), letters.size()) : letters.size();
 }
 
-// A layer and, channel by channel, what the file calls and holds it as.
+// A layer and, for each channel, its name and type in the file.
 struct Layer {
     PictureLayer picture;
     std::vector<ExrChannel> stored{};
-    // The uint channels' numbers, all of them; by channel.
+    // The values of the uint channels, by channel.
     std::vector<std::vector<std::uint32_t>> numbers{};
 };
 
-// The part's name where the layer's does not begin with it.
+// The layer's name, prefixed by the part's name unless it begins with that already.
 std::string fullName(const std::string& part, const std::string& layer) {
     if (part.empty() || layer == part || layer.starts_with(part + ".")) return layer;
     return layer.empty() ? part : part + "." + layer;
@@ -94,7 +95,7 @@ std::string sampleOf(const std::vector<ExrChannel>& channels) {
     return mixed ? "mixed" : names.at(static_cast<std::size_t>(first));
 }
 
-// By the part of their names before the last dot, sorted, without pixels.
+// Groups channels by the part of their names before the last dot, sorted; pixels are not read yet.
 std::vector<Layer> layersOf(const ExrPart& part) {
     std::map<std::string, std::vector<ExrChannel>> byName;
     for (const ExrChannel& channel : part.channels) {
@@ -120,7 +121,7 @@ std::vector<Layer> layersOf(const ExrPart& part) {
 
 // ---- pixels ------------------------------------------------------------------------------------------
 
-// The part of `stored` that the display window shows, 0 where nothing is stored.
+// Crops or extends `stored` to the display window, with 0 where nothing is stored.
 template <class T>
 std::vector<T> displayed(const std::vector<T>& stored, std::size_t components, const ExrWindow& data,
                          const ExrWindow& display) {
@@ -138,7 +139,7 @@ std::vector<T> displayed(const std::vector<T>& stored, std::size_t components, c
     return whole;
 }
 
-// Room for the pixels of `window`, and where in it those of the data window go.
+// Allocates the pixels of `window`, and returns where in them those of the data window go.
 Imf::FrameBuffer makeRoom(std::vector<Layer>& layers, const ExrWindow& data, const ExrWindow& window) {
     const Imath::Box2i origin(Imath::V2i(data.min_x, data.min_y), Imath::V2i(data.max_x, data.max_y));
     const int x = data.min_x - window.min_x, y = data.min_y - window.min_y;
@@ -170,7 +171,7 @@ Imf::FrameBuffer makeRoom(std::vector<Layer>& layers, const ExrWindow& data, con
     return buffer;
 }
 
-// The numbers as float32; they are kept where that has rounded one.
+// Converts the integers to float32; they are kept if rounding changed any of them.
 void convertNumbers(Layer& layer) {
     Image& image = layer.picture.image;
     bool rounded = false;
@@ -202,7 +203,8 @@ std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, 
     const Imath::Box2i window = in.header().dataWindow();
     if (ExrWindow{window.min.x, window.min.y, window.max.x, window.max.y} != part.data)
         throw std::runtime_error("its data window can be read in two ways");
-    // Pixels go where they are seen; where some are not, they are read all and cut out.
+    // If the display window contains all pixels they are read in place; otherwise all are read first and
+    // then cropped.
     const bool direct = display.holds(part.data);
     std::vector<Layer> layers = layersOf(part);
     in.setFrameBuffer(makeRoom(layers, part.data, direct ? display : part.data));
@@ -214,7 +216,7 @@ std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, 
     return layers;
 }
 
-// Two parts can spell one name in two ways.
+// Two parts can result in the same full name.
 void checkNames(const std::vector<PictureLayer>& layers) {
     std::set<std::string_view> names;
     for (const PictureLayer& layer : layers)
@@ -226,7 +228,7 @@ void checkNames(const std::vector<PictureLayer>& layers) {
 PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
     ExrHeader header = readExrHeader(file, most, asked);
     MemoryStream stream(header.bytes, file);
-    // A thread for every MiB: small pictures are done before another one has woken.
+    // One thread for each MiB: small pictures would be read before another thread has started.
     std::uint64_t useful = 0;
     for (const ExrPart& part : header.parts) useful = std::max(useful, part.stored_bytes >> 20);
     Imf::MultiPartInputFile in(
@@ -250,7 +252,7 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
         std::vector<Layer> layers =
             part.name.empty() ? read() : named("part \"" + oneLine(part.name, 60) + "\"", read);
         for (Layer& layer : layers) picture.layers.push_back(std::move(layer.picture));
-        in.flushPartCache();  // its buffers
+        in.flushPartCache();  // frees its buffers
     }
     checkNames(picture.layers);
     return picture;

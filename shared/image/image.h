@@ -6,7 +6,7 @@
 
 namespace diptych {
 
-// W x H x N float32, row 0 on top, components of one pixel side by side.
+// W x H x N float32, row 0 on top, the components of a pixel next to each other.
 struct Image {
     int width = 0, height = 0, components = 0;
     std::vector<float> data;

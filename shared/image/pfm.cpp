@@ -26,9 +26,9 @@ static_assert(std::endian::native == std::endian::little, "a scale below 0 says 
 
 constexpr std::string_view blanks = " \t\n\v\f\r";
 
-// Up to the one blank behind it, blanks before it left out; `rest` goes on behind that blank.
+// Takes the next word, skipping blanks before it and the one blank after it; `rest` is what follows.
 std::string_view takeWord(std::string_view& rest) {
-    constexpr std::size_t longest = 64;  // far above any number
+    constexpr std::size_t longest = 64;  // longer than any number
     const std::size_t begin = rest.find_first_not_of(blanks);
     if (begin == rest.npos) fail("its header is cut short");
     const std::string_view from = rest.substr(begin);
@@ -56,7 +56,7 @@ struct Header {
     float scale = 1;  // below 0: the pixels are little-endian
 };
 
-// `rest` goes on with the pixels.
+// Leaves `rest` at the first pixel.
 Header readHeader(std::string_view& rest) {
     const std::string_view kind = takeWord(rest);
     if (kind != "PF" && kind != "Pf")
@@ -76,7 +76,7 @@ float swapped(float value) {
     return std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
 }
 
-// Rows are stored from the bottom up.
+// Rows are stored from bottom to top.
 void readPixels(Image& image, std::string_view stored, float scale) {
     const std::size_t row =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.components);

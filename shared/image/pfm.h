@@ -16,17 +16,18 @@ namespace diptych {
 
 struct PfmPicture {
     Image image;             // 1 component (Pf) or RGB (PF), linear, row 0 on top
-    std::size_t behind = 0;  // bytes in the file after its last pixel
+    std::size_t behind = 0;  // bytes in the file after the last pixel
 };
 
-// Both byte orders, by the sign of the scale; values are multiplied by its magnitude, which the format leaves
-// open: 1 keeps every bit of them. What needs more than `most` bytes decoded is refused. Throws
+// Reads both byte orders, as given by the sign of the scale. Values are multiplied by the scale's magnitude,
+// whose meaning the format leaves open; a scale of 1 keeps every bit. Refuses what needs more than `most`
+// bytes decoded. Throws std::runtime_error, one line naming file and fault.
 // std::runtime_error, one line naming file and fault.
 PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name,
                    std::uint64_t most = limits::imageBytes());
 
-// An image of 1 or 3 components: little-endian, scale 1, every bit. Written beside `file` and renamed. Throws
-// std::runtime_error naming the file.
+// Writes an image of 1 or 3 components: little-endian, scale 1, bit-exact. Written beside `file` and
+// renamed. Throws std::runtime_error naming the file.
 void writePfm(const std::filesystem::path& file, const Image& image);
 
 }  // namespace diptych

@@ -18,18 +18,18 @@ struct Failure {
     std::string message;
 };
 
-// libpng's way out of an error is a longjmp: nothing between setjmp and here may own anything.
+// libpng leaves by longjmp on an error: no object with a destructor may be created between setjmp and here.
 void onError(png_structp png, png_const_charp message) {
     static_cast<Failure*>(png_get_error_ptr(png))->message = message;
     png_longjmp(png, 1);
 }
 void onWarning(png_structp, png_const_charp) {}
 
-// Who wrote it, so that the tool knows its own files. libpng wants them writable.
+// Names the program that wrote the file, so that the tool recognises its own files. libpng needs char*.
 char key[] = "Software", value[] = "diptych";
 
-// Speed first: a report has dozens of pictures. Level 1 with the one filter that suits smooth shading takes
-// a third of the time that libpng needs to choose among all filters, for files no larger.
+// Optimised for speed, since a report has dozens of pictures: level 1 with the one filter that suits smooth
+// shading takes a third of the time that libpng needs to choose among all filters, and files are no larger.
 bool encode(png_structp png, png_infop info, std::FILE* stream, const Image8& image) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_init_io(png, stream);
@@ -70,7 +70,7 @@ void writePng(const std::filesystem::path& file, const Image8& image) {
     if (!info) failure.message = "out of memory";
     const bool written = info && encode(png, info, out.stream(), image);
     png_destroy_write_struct(&png, &info);
-    if (!written && std::ferror(out.stream())) out.commit();  // which says what the system said
+    if (!written && std::ferror(out.stream())) out.commit();  // throws with the system's message
     if (!written) throw std::runtime_error(fmt::format("{}: {}", file.string(), failure.message));
     out.commit();
 }

@@ -22,20 +22,20 @@ struct Image8 {
 // Written beside `file` and renamed. Throws std::runtime_error naming the file.
 void writePng(const std::filesystem::path& file, const Image8& image);
 
-// What a PNG holds, not converted: value / 255 or value / 65535 of every component.
+// The values of a PNG without colour conversion: value / 255 or value / 65535 for each component.
 struct PngPicture {
-    Image image;          // Y, YA, RGB or RGBA: palettes are looked up, transparent colours become an A
-    int bits = 8;         // 16, or 8: fewer are held by 8 exactly
-    bool linear = false;  // its gamma is 1 (gAMA, where no sRGB stands beside it); else taken as sRGB-encoded
-    std::vector<std::string> notes{};  // gammas and colour profiles that are not applied, a line each
+    Image image;          // Y, YA, RGB or RGBA: palettes are expanded, transparent colours become an A
+    int bits = 8;         // 16, or 8 for files of 8 or fewer bits, whose values 8 bits hold exactly
+    bool linear = false;  // its gamma is 1 (gAMA, without an sRGB chunk); otherwise it counts as sRGB-encoded
+    std::vector<std::string> notes{};  // gammas and colour profiles that are not applied, one line each
 };
 
-// An interlaced file's rows are in memory once more, as they are stored, until all are there. What needs more
-// than `most` bytes decoded is refused. Throws std::runtime_error, one line naming file and fault.
+// Reads a PNG. An interlaced file needs memory for all stored rows in addition. Refuses what needs more than
+// `most` bytes decoded. Throws std::runtime_error, one line naming file and fault.
 PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name,
                           std::uint64_t most = limits::imageBytes());
 
-// The same as RGBA, 8 bits.
+// Reads a PNG as RGBA, 8 bits.
 Image8 readPng(const std::filesystem::path& file);
 Image8 readPng(std::span<const std::byte> bytes, const std::string& name,
                std::uint64_t most = limits::imageBytes());

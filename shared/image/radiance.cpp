@@ -29,7 +29,7 @@ using Rgbe = std::array<std::uint8_t, 4>;
 
 // ---- header ------------------------------------------------------------------------------------------
 
-// What has not been read yet, from the front.
+// The bytes that are not read yet.
 class Cursor {
 public:
     explicit Cursor(std::span<const std::byte> rest) : rest_(rest) {}
@@ -66,7 +66,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
 }
 
-// The next word as a T, whole; `text` goes on behind it.
+// Parses the next word completely as a T; `text` becomes what follows.
 template <class T>
 bool takeNumber(std::string_view& text, T& value) {
     text = trimmed(text);
@@ -77,14 +77,14 @@ bool takeNumber(std::string_view& text, T& value) {
     return error == std::errc() && rest == end && !word.empty();
 }
 
-// Stored lines run along the second axis of the resolution, and follow each other along the first.
+// Stored lines run along the second axis of the resolution line, and follow each other along the first.
 struct Orientation {
     bool columns = false;  // a stored line is a column of the picture
     bool right_to_left = false, bottom_to_top = false;
 };
 
 struct Header {
-    std::array<double, 3> scale{1, 1, 1};  // radiance from pixels
+    std::array<double, 3> scale{1, 1, 1};  // factor from stored values to radiance
     Orientation orientation;
     int width = 0, height = 0;
 };
@@ -101,7 +101,7 @@ void readVariable(std::string_view line, Header& header) {
             fail(fmt::format("FORMAT {} is not 32-bit_rle_rgbe", oneLine(value, 60)));
         return;
     }
-    // Each says what the pixels have been multiplied by since they were radiance; they add up.
+    // Each of these lines gives a factor that has been applied to the radiance; their factors multiply.
     const std::size_t count = name == "EXPOSURE" ? 1 : name == "COLORCORR" ? 3 : 0;
     std::string_view rest = value;
     for (std::size_t c = 0; c < count; ++c) {
@@ -113,7 +113,7 @@ void readVariable(std::string_view line, Header& header) {
     }
 }
 
-// "-Y 480 +X 640" and the other seven. The Y of a picture goes up, so -Y is from its top.
+// "-Y 480 +X 640" and the other seven orientations. Y goes up the picture, so -Y starts from its top.
 void readResolution(std::string_view line, Header& header) {
     const auto malformed = [&] {
         fail(fmt::format("resolution \"{}\" is not like -Y 480 +X 640", oneLine(line, 60)));
@@ -145,11 +145,11 @@ Header readHeader(Cursor& in) {
 
 // ---- pixels ------------------------------------------------------------------------------------------
 
-// Lengths that the run-length code by component is made for; others have it by pixel.
+// Lengths of lines for which the run-length code by component is defined; others are stored by pixel.
 constexpr std::size_t shortest_run_line = 8, longest_run_line = 32767;
 
-// Pixels as they are, or 1, 1, 1, n: the one before n times more. Runs in a row are digits of base 256, the
-// lowest first.
+// Flat pixels, or 1, 1, 1, n: the pixel before is repeated n times. The counts of consecutive runs are
+// digits of base 256, the lowest first.
 void readOldLine(Cursor& in, std::span<Rgbe> line) {
     int shift = 0;
     for (std::size_t x = 0; x < line.size();) {
@@ -168,7 +168,8 @@ void readOldLine(Cursor& in, std::span<Rgbe> line) {
     }
 }
 
-// Per component: a count up to 128 and as many bytes, or 128 + count and the one byte to repeat.
+// For each component: either a count up to 128 followed by as many bytes, or 128 + count followed by the
+// byte to repeat.
 void readNewLine(Cursor& in, std::span<Rgbe> line) {
     for (std::size_t component = 0; component < 4; ++component)
         for (std::size_t x = 0; x < line.size();) {
@@ -194,7 +195,7 @@ void readLine(Cursor& in, std::span<Rgbe> line) {
     readNewLine(in, line);
 }
 
-// Radiance takes the middle of what a mantissa's step may have been.
+// As Radiance does, a mantissa is decoded to the middle of its step.
 float decoded(std::uint8_t mantissa, std::uint8_t exponent, double scale) {
     if (exponent == 0) return 0;
     return static_cast<float>(std::ldexp(mantissa + 0.5, exponent - (128 + 8)) * scale);
@@ -207,7 +208,7 @@ Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
     checkImageSize(header.width, header.height, 3 * sizeof(float), most);
     const int lines = order.columns ? header.width : header.height;
     const int length = order.columns ? header.height : header.width;
-    constexpr std::size_t shortest_line = 4;  // one pixel; runs of it need more
+    constexpr std::size_t shortest_line = 4;  // for a line of one pixel; runs of longer lines need more
     if (in.left() / shortest_line < static_cast<std::size_t>(lines))
         failToHold(header.width, header.height, bytes.size());
     constexpr double largest = std::numeric_limits<float>::max();
@@ -216,7 +217,8 @@ Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
             fail("EXPOSURE and COLORCORR take its values beyond a float's range");
 
     std::vector<Rgbe> line(static_cast<std::size_t>(length));
-    // Old runs make a line of 12 bytes. Before much memory is taken, the lines are seen to be there.
+    // A line may take as little as 12 bytes (old runs). Before much memory is allocated, all lines are
+    // parsed once to see that they are there.
     constexpr std::size_t much = std::size_t{1} << 28;
     const auto bytesOfImage =
         3 * sizeof(float) * static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
@@ -239,7 +241,7 @@ Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
 
 // ---- writing -----------------------------------------------------------------------------------------
 
-// `fits` becomes false where a component is not what RGBE can hold.
+// Sets `fits` to false if RGBE cannot hold a component.
 Rgbe encoded(const float* rgb, bool& fits) {
     constexpr float largest = 0x1.fep126f;  // mantissa 255 at exponent 255
     std::array<float, 3> held{};
@@ -261,7 +263,7 @@ Rgbe encoded(const float* rgb, bool& fits) {
     return pixel;
 }
 
-// One component: runs of at least four, what is between them as it is.
+// Appends one component of a line: runs of at least four bytes, the bytes between runs as they are.
 void appendRuns(std::vector<std::uint8_t>& out, const std::vector<Rgbe>& line, std::size_t component) {
     constexpr std::size_t shortest_run = 4, longest_run = 127, longest_dump = 128;
     const auto runAt = [&](std::size_t x) {

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Never destroyed: an interruption may come while the program ends by itself.
+// Never destroyed, because a signal may interrupt the program while it exits.
 struct Registry {
     std::recursive_mutex mutex;
     std::map<fs::path, fs::path> targets;  // by temporary name
@@ -33,12 +33,12 @@ Registry& registry() {
     return *all;
 }
 
-// At most 200 of a file name's 255 bytes, so that process and number fit.
+// At most 200 bytes of the target's name (a file name has up to 255), so that process and number fit.
 std::string prefixOf(const fs::path& target) {
     return fmt::format(".{}.", target.filename().string().substr(0, 200));
 }
 
-// Of "PROCESS-NUMBER.tmp"; 0: it is not called so.
+// The process number in "PROCESS-NUMBER.tmp"; 0 if the name has another form.
 pid_t processOf(std::string_view rest) {
     if (!rest.ends_with(".tmp")) return 0;
     pid_t process = 0;
@@ -50,8 +50,8 @@ pid_t processOf(std::string_view rest) {
     return second.ec == std::errc{} && second.ptr == end ? process : 0;
 }
 
-// No process of that number here, and nobody holds its lock: one in another container, whose numbers we do
-// not see, would.
+// No such process is visible here, and nobody holds the lock. The lock matters for processes in another
+// container, whose process numbers are not visible.
 bool isAbandoned(const fs::path& path, pid_t process) {
     if (::kill(process, 0) == 0 || errno != ESRCH) return false;
     const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
@@ -108,7 +108,7 @@ std::FILE* Temporary::createFile() {
         errno = error;
         return nullptr;
     }
-    // Where locks are unknown the process number alone must do.
+    // Where locks are not supported, the process number alone decides.
     ::flock(::fileno(file), LOCK_EX | LOCK_NB);
     return file;
 }
@@ -154,11 +154,11 @@ std::unique_lock<std::recursive_mutex> holdTemporaries() {
 }
 
 void abandonTemporaries() noexcept {
-    registry().mutex.lock();  // for ever
+    registry().mutex.lock();  // never released
     std::error_code ignored;
     for (const auto& [path, target] : registry().targets) try {
             fs::remove_all(path, ignored);
-        } catch (const std::exception&) {  // no memory: the next program sweeps it
+        } catch (const std::exception&) {  // out of memory: the next program's sweep removes it
         }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Names for what is not whole yet: ".NAME.PROCESS-NUMBER.tmp". However the program ends they vanish: by the
-// destructor, by abandonTemporaries() where it is interrupted, by the next program's sweep where it was
-// killed.
+// Temporary names for incomplete output: ".NAME.PROCESS-NUMBER.tmp". They are removed however the program
+// ends: by the destructor, by abandonTemporaries() on an interruption, and by the next program's sweep if it
+// was killed.
 #pragma once
 
 #include <cstdio>
@@ -11,38 +11,41 @@
 
 namespace diptych {
 
-// One such name, a file or a folder. Nothing throws but for want of memory; errno says what went wrong.
+// A temporary name of a file or a folder. Throws only when out of memory; errno tells what went wrong.
 class Temporary {
 public:
-    // To become `target` or a part of it; stands in `folder`, after what dead programs left there for the
-    // same target was swept.
+    // `target` is the output that it will become, or become a part of; it is created in `folder`, after
+    // leftovers of ended programs for the same target have been removed from there.
     Temporary(const std::filesystem::path& folder, std::filesystem::path target);
-    ~Temporary();  // removes it, with all in it
+    ~Temporary();  // removes it with all its contents
     Temporary(const Temporary&) = delete;
     Temporary& operator=(const Temporary&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
 
-    std::FILE* createFile();  // to write; nullptr
+    std::FILE* createFile();  // opens it for writing; nullptr on failure
     bool createFolder();
-    bool moveTo(const std::filesystem::path& folder);  // keeps its name, and stays temporary
-    bool become(const std::filesystem::path& file);  // takes that name, whatever has it: no longer temporary
+    bool moveTo(const std::filesystem::path& folder);  // keeps its name and stays temporary
+    // Renames it to `file`, replacing what is there; it is no longer temporary.
+    bool become(const std::filesystem::path& file);
 
 private:
     std::filesystem::path path_, target_;
-    int lock_ = -1;  // a folder's
+    int lock_ = -1;  // of a folder
 };
 
-// While it lives an interruption waits: for steps that must all be done or none. Milliseconds, not more.
+// While the returned lock is held, an interruption waits: for steps that must be done together. Milliseconds
+// at most.
 std::unique_lock<std::recursive_mutex> holdTemporaries();
 
-// Removes all there are and never lets another be made nor become a file: the caller ends the program.
+// Removes all temporaries, and prevents that another one is created or committed: the caller ends the
+// program.
 void abandonTemporaries() noexcept;
 
-// A name that a Temporary of `target` has, in this or another program.
+// Whether `name` is that of a Temporary of `target`, in this or another program.
 bool isTemporaryOf(const std::filesystem::path& target, const std::string& name);
 
-// What `path`, in a temporary folder, will be called in the end; otherwise `path`. For messages.
+// The final name of `path` if it is in a temporary folder; otherwise `path`. For messages.
 std::filesystem::path finalName(const std::filesystem::path& path);
 
 }  // namespace diptych

@@ -7,8 +7,8 @@
 
 namespace diptych {
 
-// JSON from anywhere, no deeper than json_depth. Throws std::runtime_error, one line without a name: "nests
-// deeper than 128", "is not JSON: parse error at line 3, column 7: ...".
+// Parses untrusted JSON, nested no deeper than json_depth. Throws std::runtime_error, one line without the
+// file's name: "nests deeper than 128", "is not JSON: parse error at line 3, column 7: ...".
 nlohmann::json parseJson(std::string_view text);
 
 }  // namespace diptych

@@ -6,19 +6,20 @@
 
 namespace diptych {
 
-// What JSON will ask of a parser, counted before it is parsed: parsers and what walks their trees recurse, so
-// that a few bytes a level overflow the stack, and they spend far more bytes on a value than its text has.
+// What parsing a JSON text will cost, computed before it is parsed. Parsers and code that walks their trees
+// recurse, so that a few bytes for each level could overflow the stack; and they use far more memory for a
+// value than its text has.
 struct JsonShape {
-    std::size_t depth = 0;  // arrays and objects that are open at once: 0 for "1", 2 for "[{}]"
+    std::size_t depth = 0;  // largest number of open arrays and objects: 0 for "1", 2 for "[{}]"
     std::size_t objects = 0;
-    std::size_t values = 0;  // at most so many: one more than commas, arrays and objects
+    std::size_t values = 0;  // upper bound: the number of commas, arrays and objects, plus one
 };
 
-// Text that is no JSON has a shape, too, no less than what a parser can reach before it finds that out.
+// Text that is not JSON also has a shape: at least what a parser reaches before it finds the error.
 JsonShape jsonShape(std::string_view text);
 
 // Deeper than any file in use (glTF's own objects end at eight, extensions and extras add a few); a level
-// costs the recursive walks less than 1 KiB of stack.
+// takes less than 1 KiB of stack in recursive code.
 inline constexpr std::size_t json_depth = 128;
 
 }  // namespace diptych

@@ -10,8 +10,8 @@
 
 namespace diptych {
 
-// What read() returns; whatever goes wrong in it becomes a std::runtime_error whose line begins with the
-// file's name.
+// Returns the result of read(). Any error in it is rethrown as a std::runtime_error whose line begins with
+// the file's name.
 template <class Read>
 auto named(const std::string& name, const Read& read) {
     try {

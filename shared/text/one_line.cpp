@@ -11,7 +11,7 @@ bool continues(char c) {
     return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u;
 }
 
-// Bytes of the character of UTF-8 that `text` begins with; 0 where it begins with none (RFC 3629, 4).
+// Length in bytes of the UTF-8 character that `text` begins with; 0 if it is invalid (RFC 3629, 4).
 std::size_t characterAt(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const std::size_t size = byte(0) < 0x80   ? 1
@@ -24,7 +24,7 @@ std::size_t characterAt(std::string_view text) {
     for (std::size_t i = 1; i < size; ++i)
         if (!continues(text[i])) return 0;
     if (size < 3) return size;
-    // Longer than needed, half of a pair of UTF-16, beyond the last character.
+    // Overlong encodings, surrogates, and code points beyond U+10FFFF.
     const bool wrong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xed && byte(1) > 0x9f) ||
                        (byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f);
     return wrong ? 0 : size;

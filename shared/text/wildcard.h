@@ -5,7 +5,7 @@
 
 namespace diptych {
 
-// Whether `pattern`, in which * is any number of characters and ? is one, is all of `text`.
+// Whether `pattern` matches all of `text`; * stands for any number of characters, ? for one.
 bool matches(std::string_view pattern, std::string_view text);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Test scenes about light that was worked out beforehand.
+// Test scenes with baked lighting (lightmaps).
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
@@ -22,9 +22,9 @@ struct Ball {
     double radius;
 };
 
-// What a place gets of a sky of radiance 1 past balls that reflect nothing, over pi: each hides its
-// configuration factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010; a ball wholly above the horizon of
-// the place).
+// Irradiance over pi at a place under a sky of radiance 1, partly hidden by black balls: each ball hides its
+// configuration factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010; the ball must be wholly above the
+// horizon of the place).
 double skyLight(const glm::dvec3& place, const glm::dvec3& normal, std::span<const Ball> balls) {
     double share = 1;
     for (const Ball& ball : balls) {
@@ -36,7 +36,7 @@ double skyLight(const glm::dvec3& place, const glm::dvec3& normal, std::span<con
     return std::max(share, 0.0);
 }
 
-// texel(u, v) is linear light; u to the right and v down the picture.
+// Makes a lightmap: texel(u, v) is its linear light; u goes right and v down the picture.
 template <class Texel>
 TextureImage floats(const std::string& name, int size, const Texel& texel) {
     TextureImage image{name, size, size, {}};
@@ -50,7 +50,8 @@ TextureImage floats(const std::string& name, int size, const Texel& texel) {
     return image;
 }
 
-// The second set mirrored left to right and turned by a quarter: who reads the first one is seen.
+// The second UV set is the first, mirrored left to right and turned by a quarter: using the wrong set
+// becomes visible.
 Primitive unwrapped(Primitive shape) {
     for (const glm::vec2& uv : shape.texcoords[0]) shape.texcoords[1].push_back({uv.y, 1 - uv.x});
     return shape;
@@ -58,10 +59,11 @@ Primitive unwrapped(Primitive shape) {
 
 }  // namespace
 
-// A floor and a wall under a sky, with two balls that hide some of it, and a stripe of 40 W/(sr m^2) along
-// the wall's foot: the floats of the floor's lightmap leave 8 bits far behind. The balls' own lightmaps are
-// of 8 bits, times 1.5. In front the same tile five times: without a lightmap, with one, under an occlusion
-// map as well, as metal, which reflects nothing of one, and unlit. A weak sun and a lamp shine on all of it.
+// A floor and a wall under a sky that two balls partly hide, and a stripe of 40 W/(sr m^2) along the wall's
+// foot: the floats of the floor's lightmap go far beyond the range of 8 bits. The balls' own lightmaps have
+// 8 bits, with an intensity of 1.5. In front, the same tile five times: without a lightmap, with one, also
+// under an occlusion map, as metal, which reflects none of the baked light, and unlit. A weak sun and a lamp
+// light everything as well.
 Scene lightmaps() {
     Builder b;
     b.camera("front", {0, 2.4, 6.5}, {0, 0.7, 0}, 38, 0.1, 100);
@@ -78,7 +80,7 @@ Scene lightmaps() {
     };
     const glm::dvec3 sky(0.55, 0.7, 0.9), glow(40, 9, 2);
 
-    // unwrapped() has u across as v, and v as 1 - u.
+    // Lightmap coordinates (u, v) of unwrapped() are (1 - v, u) in the first UV set.
     const int floor = lit("floor", {glm::vec3(0.6f), 0, 0.5f},
                           floats("floor light", 128,
                                  [&](double u, double v) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a built-in scene is put together: each call adds one thing to `scene`.
+// Helper that builds a built-in scene: each call adds one object to `scene`.
 #pragma once
 
 #include "shared/scene/builtin/shapes.h"
@@ -22,30 +22,33 @@ class Builder {
 public:
     Scene scene;
 
-    // The index of a new material; `scene.materials.back()` may be refined afterwards.
+    // Adds a material and returns its index; `scene.materials.back()` may be changed afterwards.
     int material(const std::string& name, const Surface& surface);
 
-    // A slot that reads a new texture, `tiles` times over [0, 1] of the first texture coordinates.
+    // Adds a texture and returns a slot that reads it, repeated `tiles` times over [0, 1] of the first UV
+    // set.
     TextureSlot texture(TextureImage image, double tiles = 1, const Sampler& sampler = {});
 
-    // A node with a mesh of one primitive; returns the node's index.
+    // Adds a node whose mesh is one primitive; returns the node's index.
     int add(const std::string& name, Primitive shape, int material,
             const glm::dmat4& worldFromShape = glm::dmat4(1.0));
     int add(const std::string& name, Primitive shape, int material, const glm::dvec3& position);
     int addMesh(Primitive shape, int material, const std::string& name);
     int addNode(const std::string& name, int mesh, const glm::dmat4& parentFromNode, int parent = -1);
 
-    // Candela and metres, half angles of the cone in degrees; lux for the sun. `direction` need not be unit.
+    // Intensities in candela, lux for the sun; metres; half angles of the cone in degrees. `direction` need
+    // not be unit.
     void point(const glm::dvec3& position, const glm::vec3& color, float candela,
                float range = std::numeric_limits<float>::infinity());
     void spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float candela,
               float range, double innerDegrees, double outerDegrees);
     void sun(const glm::dvec3& direction, const glm::vec3& color, float lux);
-    // A square metre of so many nits that shines towards `target`; the light, to be given its shape.
+    // Adds an area light of a square metre with the given nits, shining towards `target`. Returns it, so
+    // that its shape can be changed.
     Light& rect(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float nits,
                 float range = std::numeric_limits<float>::infinity());
 
-    // Looks from `eye` at `target`, +Y up unless that is where it looks.
+    // Adds a camera at `eye` looking at `target`, with +Y up (unless it looks along Y).
     Camera& camera(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,
                    double yfovDegrees, double near = 0.1, double far = 1000);
 };

@@ -19,7 +19,7 @@ struct Row {
     bool for_tests;
     Scene (*make)();
     Scene (*makeWithLights)(std::uint32_t) = nullptr;
-    std::uint32_t lights = 0;  // the parameter's default
+    std::uint32_t lights = 0;  // default of the parameter "lights"
 };
 
 constexpr bool PICTURE = false, TEST = true;
@@ -81,7 +81,7 @@ std::string knownNames() {
     return names;
 }
 
-// "lights=64"
+// Parses "lights=64".
 std::uint32_t lightsFrom(const std::string& name, const Row& row, std::string_view query) {
     const std::string_view key = query.substr(0, query.find('='));
     if (row.makeWithLights == nullptr)

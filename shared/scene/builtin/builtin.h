@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes that need no file: the same on every machine, made from numbers.
+// Built-in scenes: they need no file, and are computed, the same on every machine.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -11,16 +11,17 @@ namespace diptych {
 
 struct BuiltinName {
     std::string name;       // without "builtin:"
-    std::string parameter;  // "lights=256": the parameter and its default; empty where there is none
-    std::string shows;      // one line
-    bool for_tests;         // made to catch one way in which two paths differ, not to be looked at
+    std::string parameter;  // "lights=256": the parameter and its default; empty if it takes none
+    std::string shows;      // one line that describes it
+    bool for_tests;         // made to test one way in which two paths may differ, not to be looked at
 };
 
-// In the order in which a reader wants them: pictures first.
+// In the order of the list that users see: pictures first.
 std::vector<BuiltinName> builtinNames();
 
-// `name` is what follows "builtin:", e.g. "gallery" or "spheres?lights=64". The scene's own name gets the
-// prefix back. Throws std::runtime_error: one line that names what is unknown and lists what there is.
+// `name` is what follows "builtin:", e.g. "gallery" or "spheres?lights=64". The name of the returned scene
+// includes the prefix. Throws std::runtime_error: one line that names what is unknown and lists what there
+// is.
 Scene makeBuiltin(const std::string& name);
 
 }  // namespace diptych

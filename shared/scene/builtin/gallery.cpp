@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first picture a newcomer sees: a sculpture hall in the evening.
+// The default scene: a sculpture hall in the evening.
 #include "shared/scene/builtin/gallery.h"
 
 #include "shared/scene/builtin/scenes.h"
@@ -56,7 +56,7 @@ void lamps(Room& room) {
         if (i % 2 == 0)
             b.spot({RIGHT - 0.4, 2.6, z - 0.6}, {RIGHT - 2.2, CEILING, z - 0.6}, COOL, 7, 6, 20, 60);
     }
-    for (int i = 0; i < 4; ++i)  // on the stage: from the front warm, from behind cool
+    for (int i = 0; i < 4; ++i)  // on the stage: warm from the front, cool from behind
         b.spot({STAGE.x - 2.7 + 1.8 * i, CEILING - 0.5, 0.6}, {STAGE.x - 1.8 + 1.2 * i, 0.9, STAGE.z}, IVORY,
                44, 9, 12, 26);
     for (int i = 0; i < 3; ++i)
@@ -70,7 +70,7 @@ void lamps(Room& room) {
     b.spot({PLANTER.x + 0.9, CEILING - 0.5, PLANTER.z + 1.0}, {PLANTER.x, 1.1, PLANTER.z}, IVORY, 26, 6, 10,
            20);
     b.spot({PLANTER.x + 1.2, 0.4, PLANTER.z + 2.2}, {PLANTER.x, 1.0, PLANTER.z}, IVORY, 6, 5, 10, 24);
-    for (int i = 0; i < 8; ++i) {  // what the neon gives off
+    for (int i = 0; i < 8; ++i) {  // light given off by the neon
         const double angle = glm::radians(45.0 * i);
         b.point({KNOT.x + 1.45 * std::cos(angle), 2.45 + 1.45 * std::sin(angle), FAR_END + 0.55}, CYAN, 1.8f,
                 4);
@@ -84,7 +84,7 @@ void lamps(Room& room) {
     for (int i = 0; i < 5; ++i)
         b.point({RIGHT - 0.35, 0.35, NEAR_END - 3.2 * i}, WARM, 1.6f, 2.8f);  // at the piers' feet
     b.point({3.0, 0.6, -5.2}, WARM, 3.0f, 4);                                 // behind the screen
-    b.sun({-0.75, -0.5, -0.35}, {0.62f, 0.66f, 1.0f}, 0.3f);  // the last of the day, through the arches
+    b.sun({-0.75, -0.5, -0.35}, {0.62f, 0.66f, 1.0f}, 0.3f);  // evening sun through the arches
 }
 
 }  // namespace

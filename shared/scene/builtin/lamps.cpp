@@ -10,7 +10,7 @@
 namespace diptych::builtin {
 namespace {
 
-// A floor, a wall and six balls for the lights to fall on.
+// A floor, a wall and six balls that receive the light.
 Builder stage() {
     Builder b;
     b.camera("front", {0, 2.2, 7}, {0, 0.8, 0}, 40, 0.1, 100);
@@ -28,9 +28,9 @@ Builder stage() {
 
 }  // namespace
 
-// Strong lights with short ranges, so that any light left at the end of the range would show as a rim; some
-// touch the floor in a single point, one ends just above it, one holds the eye, one ends on a ball's foremost
-// point.
+// Strong lights with short ranges: light left at the end of a range would show as a rim. Some touch the
+// floor in a single point, one ends just above it, one contains the eye, one ends on the foremost point of a
+// ball.
 Scene rangeEdge() {
     Builder b = stage();
     for (int i = 0; i < 4; ++i)
@@ -38,7 +38,7 @@ Scene rangeEdge() {
                 0.9f + 0.1f * static_cast<float>(i));
     b.point({-3, 1, 2.5}, {1.0f, 0.3f, 0.3f}, 5, 1.0f);        // touches the floor
     b.point({3, 1, 2.5}, {0.3f, 1.0f, 0.3f}, 5, 0.999f);       // ends a millimetre above it
-    b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);           // around the eye
+    b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);           // contains the eye
     b.point({-0.6, 0.45, 2.45}, {1.0f, 1.0f, 0.5f}, 6, 2.0f);  // ends on the foremost point of a ball
     b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 20, 3.0f, 15, 25);  // ends on the floor
     b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 10, 2.0f, 0, 40);    // ends on the wall
@@ -65,7 +65,7 @@ Scene points() {
     return std::move(b.scene);
 }
 
-// Inner and outer cones from a needle to a half-space, an edge without width, and one without range.
+// Inner and outer cones from very narrow to a half-space, one with a hard edge, and one without a range.
 Scene spots() {
     Builder b = stage();
     const double cones[][2] = {{0, 5}, {0, 30}, {14.9, 15}, {20, 40}, {25, 25.0001}, {60, 90}};
@@ -75,17 +75,19 @@ Scene spots() {
                {1.0f, 0.6f + 0.06f * static_cast<float>(i), 0.4f + 0.1f * static_cast<float>(i)}, 9,
                i == 3 ? std::numeric_limits<float>::infinity() : 6.0f, cones[i][0], cones[i][1]);
     }
-    b.spot({-4, 0.5, 3}, {3, 0.8, -2}, {0.4f, 0.6f, 1.0f}, 40, 12, 4, 9);  // along the floor
+    // Along the floor, at a grazing angle.
+    b.spot({-4, 0.5, 3}, {3, 0.8, -2}, {0.4f, 0.6f, 1.0f}, 40, 12, 4, 9);
     return std::move(b.scene);
 }
 
-// From both sides and one, over the floor and through it, with ranges and without, near and far, one around a
-// ball.
+// Two-sided and one-sided, above the floor and through it, with ranges and without, near and far, and one
+// around a ball.
 Scene areas() {
     Builder b = stage();
     b.rect({-3, 2.4, -1.8}, {-2, 0.5, 1}, {1.0f, 0.7f, 0.4f}, 8).height = 0.5f;
     Light& panel =
-        b.rect({0.6, 0.3, 1.4}, {0.6, 0.5, 0}, {0.5f, 1.0f, 0.6f}, 2, 2.5f);  // stands in the floor
+        // Its lower part is below the floor.
+        b.rect({0.6, 0.3, 1.4}, {0.6, 0.5, 0}, {0.5f, 1.0f, 0.6f}, 2, 2.5f);
     panel.width = 0.4f, panel.two_sided = true;
     Light& disc = b.rect({0, 3, 0.5}, {0, 0, 0.5}, {0.8f, 0.9f, 1.0f}, 9, 6);
     disc.kind = LightKind::disc;
@@ -93,16 +95,19 @@ Scene areas() {
     dish.kind = LightKind::disc, dish.radius = 0.4f;
     Light& tube = b.rect({2, 0.25, 1.5}, {2, 0, 1.5}, {0.4f, 0.6f, 1.0f}, 25);
     tube.kind = LightKind::tube, tube.radius = 0.05f, tube.axis = glm::normalize(glm::dvec3(1, 0.1, 0.3));
-    Light& column = b.rect({-4, 0.4, 1}, {-3, 0.4, 1}, {1.0f, 0.9f, 0.6f}, 4, 3);  // stands in the floor
+    // Its lower part is below the floor.
+    Light& column = b.rect({-4, 0.4, 1}, {-3, 0.4, 1}, {1.0f, 0.9f, 0.6f}, 4, 3);
     column.kind = LightKind::tube, column.radius = 0.3f, column.length = 1.5f, column.axis = {0.2, 0.96, 0.2};
     column.axis = glm::normalize(column.axis);
     Light& barrel =
-        b.rect({-1.8, 0.45, 0}, {-1.8, 0, 0}, {1.0f, 0.5f, 1.0f}, 1, 2);  // around a ball: dark inside
+        // Encloses a ball, which stays dark inside.
+        b.rect({-1.8, 0.45, 0}, {-1.8, 0, 0}, {1.0f, 0.5f, 1.0f}, 1, 2);
     barrel.kind = LightKind::tube, barrel.radius = 0.5f, barrel.length = 1.2f;
     return std::move(b.scene);
 }
 
-// A camera, so that no default view is made; the tool may add its sun, the paths alone must show black.
+// It has a camera, so that no default view is made. The tool may add its default sun; the paths alone must
+// draw black.
 Scene unlit() {
     return std::move(stage().scene);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What builtin.cpp lists; each function makes one scene, README.md says what it is for.
+// The scenes that builtin.cpp lists; each function makes one. README.md says what each is for.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -12,7 +12,7 @@ Scene gallery();
 Scene spheres(std::uint32_t lights);
 Scene furnace();
 
-// surfaces.cpp: what a G-buffer has to carry
+// surfaces.cpp: surface properties that a G-buffer must store
 Scene normals();
 Scene emission();
 Scene darkAlbedo();
@@ -25,7 +25,7 @@ Scene unlitMaterials();
 Scene sixteenBits();
 Scene lightmaps();
 
-// places.cpp: where things are, and what covers what
+// places.cpp: positions, visibility, transforms
 Scene coplanar();
 Scene deep();
 Scene mirrored();

@@ -39,7 +39,7 @@ void triangle(Primitive& shape, std::uint32_t a, std::uint32_t b, std::uint32_t 
 }
 
 // Appends (columns + 1) x (rows + 1) vertices, `at(i, j)` with i growing to the right and j downwards, as
-// seen from outside. A row that is one point leaves out its triangles without area.
+// seen from outside. In a row that collapses to one point, triangles without area are left out.
 template <class At>
 void grid(Primitive& shape, int columns, int rows, bool pointAbove, bool pointBelow, At&& at) {
     const auto first = static_cast<std::uint32_t>(shape.positions.size());
@@ -57,7 +57,8 @@ void grid(Primitive& shape, int columns, int rows, bool pointAbove, bool pointBe
         }
 }
 
-// Positions outwards, counter-clockwise; one flat normal, texture coordinates in metres.
+// Adds a flat polygon, corners counter-clockwise seen from outside; one normal, texture coordinates in
+// metres.
 void facet(Primitive& shape, const std::vector<dvec3>& corners) {
     const dvec3 right = glm::normalize(corners[1] - corners[0]);
     const dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
@@ -96,7 +97,7 @@ Primitive box(const dvec3& size, double bevel) {
     Primitive shape;
     const dvec3 half = size / 2.0;
     const dvec3 flat = half - bevel;
-    // Side `sign` of `axis`; the other two axes in cyclic order give right and up seen from outside.
+    // Side `sign` of `axis`; the other two axes, in cyclic order, are right and up seen from outside.
     const auto axisVector = [](int axis, double length) {
         dvec3 v(0.0);
         v[axis] = length;
@@ -104,7 +105,7 @@ Primitive box(const dvec3& size, double bevel) {
     };
     for (int axis : {0, 1, 2})
         for (double sign : {-1.0, 1.0}) {
-            // On the x and z sides the image stands upright, on top and below its top is towards -z.
+            // On the x and z sides the image is upright; on the top and bottom sides its top is towards -z.
             const int upAxis = axis == 1 ? 2 : 1;
             const dvec3 normal = axisVector(axis, sign), up = axisVector(upAxis, axis == 1 ? -1.0 : 1.0);
             const dvec3 right = glm::cross(up, normal);
@@ -115,7 +116,7 @@ Primitive box(const dvec3& size, double bevel) {
         }
     if (bevel <= 0) return shape;
 
-    for (int axis : {0, 1, 2})  // the edges along this axis
+    for (int axis : {0, 1, 2})  // the edges parallel to this axis
         for (double s : {-1.0, 1.0})
             for (double t : {-1.0, 1.0}) {
                 const int other = (axis + 1) % 3, third = (axis + 2) % 3;
@@ -158,14 +159,14 @@ Primitive lathe(const std::vector<dvec2>& profile, int segments) {
     const double smooth = std::cos(TAU / 9);
     double length = 0;
     for (std::size_t k = 1; k < profile.size(); ++k) length += glm::distance(profile[k - 1], profile[k]);
-    const auto normalOf = [&](std::size_t k) {  // of the piece that ends in point k, outwards
+    const auto normalOf = [&](std::size_t k) {  // outwards, of the segment that ends in point k
         const dvec2 d = glm::normalize(profile[k] - profile[k - 1]);
         return dvec2(d.y, -d.x);
     };
     double below = 0;
     for (std::size_t k = 1; k < profile.size(); ++k) {
         const double above = below + glm::distance(profile[k - 1], profile[k]);
-        std::array<dvec2, 2> normals{normalOf(k), normalOf(k)};  // at the upper and the lower end
+        std::array<dvec2, 2> normals{normalOf(k), normalOf(k)};  // of the segments above and below
         if (k + 1 < profile.size() && glm::dot(normals[0], normalOf(k + 1)) > smooth)
             normals[0] += normalOf(k + 1);
         if (k > 1 && glm::dot(normals[1], normalOf(k - 1)) > smooth) normals[1] += normalOf(k - 1);
@@ -185,8 +186,8 @@ Primitive lathe(const std::vector<dvec2>& profile, int segments) {
 
 Primitive tube(const std::function<dvec3(double)>& curve, double radius, int segments, int sides) {
     const auto forward = [&](double s) { return glm::normalize(curve(s + 1e-4) - curve(s - 1e-4)); };
-    // A frame carried along without turning about the curve; what it has turned by after one round is spread
-    // over the whole length, so that the ends meet.
+    // A frame moved along the curve without rotation about the tangent (parallel transport). The rotation
+    // that remains after one round is distributed evenly over the length, so that both ends match.
     std::vector<dvec3> across;
     dvec3 n = glm::cross(forward(0), std::abs(forward(0).y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0));
     for (int i = 0; i <= segments; ++i) {
@@ -253,7 +254,7 @@ Primitive archway(double width, double height, double depth, double opening, dou
     };
     flat(-width / 2, 0, -radius, height);
     flat(radius, 0, width / 2, height);
-    const auto arc = [&](int k) {  // from the left end to the right one
+    const auto arc = [&](int k) {  // point k of the arc, from its left end to its right one
         const double angle = TAU / 2 * (1 - static_cast<double>(k) / segments);
         return dvec2(radius * std::cos(angle), spring + radius * std::sin(angle));
     };
@@ -264,7 +265,8 @@ Primitive archway(double width, double height, double depth, double opening, dou
         triangle(shape, a, b, c);
         triangle(shape, a, c, d);
     }
-    // The reveal, all along the opening's edge; u into the wall, v along the edge from its right foot.
+    // The inner surface of the opening, along its whole edge; u into the wall, v along the edge from its
+    // right foot.
     const double length = 2 * spring + TAU / 2 * radius;
     const auto edge = [&](int k) -> Vertex {  // k: right foot, the arc backwards, left foot
         const dvec2 p = k == 0             ? dvec2(radius, 0)

@@ -16,7 +16,7 @@ std::uint32_t hash(int x, int y, std::uint32_t salt) {
     return pcg(static_cast<std::uint32_t>(x) + pcg(static_cast<std::uint32_t>(y) + pcg(salt)));
 }
 
-// 0 at and below 0, FULL at and above FULL, without a kink between.
+// A smooth step: 0 at and below 0, FULL at and above FULL.
 int smooth(int t) {
     const std::int64_t x = std::clamp(t, 0, FULL);
     return static_cast<int>(x * x / FULL * (3 * FULL - 2 * x) / FULL);
@@ -50,7 +50,7 @@ int octaves(int x, int y, int size, int cells, int count, std::uint32_t salt) {
     return std::min(sum, FULL);
 }
 
-// A cell of a wall: which one, and how far into it a texel lies, in texels from the nearest edge.
+// A cell of a wall pattern: its index, and how far inside it a texel lies, in texels from the nearest edge.
 struct Cell {
     int column, row, edge;
 };
@@ -102,7 +102,7 @@ int HeightField::at(int x, int y) const {
 
 HeightField brickHeights(int size) {
     return heights(size, [size](int x, int y) {
-        // The edges are worn: their distance wanders by a few texels.
+        // Worn edges: the distance to them varies by a few texels.
         const Cell cell = cellAt(x, y, size, 4, 8, true);
         const int worn = cell.edge * 4096 - octaves(x, y, size, 16, 3, 7) / 2;
         const int face = FULL * 3 / 4 + static_cast<int>(hash(cell.column, cell.row, 1) >> 19);
@@ -126,7 +126,8 @@ HeightField plasterHeights(int size) {
 HeightField weaveHeights(int size) {
     return heights(size, [size](int x, int y) {
         const int cell = size / 8, i = x / cell, j = y / cell;
-        // Strands are round across their width and, in turns, above and below along their length.
+        // Strands have a round profile across their width, and pass above and below each other along their
+        // length.
         const auto arc = [cell](int t) {
             const std::int64_t d = 2 * (t % cell) + 1 - cell;
             return static_cast<int>(FULL - FULL * d * d / (std::int64_t{cell} * cell));
@@ -139,8 +140,8 @@ HeightField weaveHeights(int size) {
 
 TextureImage normalMap(const std::string& name, const HeightField& field, double relief) {
     return image(name, field.size, [&](int x, int y) {
-        // Central differences; v falls upwards, so the slope along the bitangent is above minus below. What
-        // is multiplied here is exact in double, so that no build can round it otherwise.
+        // Central differences; v grows downwards, so the slope along the bitangent is the texel above minus
+        // the one below. These products are exact in double, so that no compiler can round them differently.
         const double dx = field.at(x - 1, y) - field.at(x + 1, y),
                      dy = field.at(x, y + 1) - field.at(x, y - 1);
         const double dz = std::round(2 * FULL / relief);
@@ -169,7 +170,8 @@ TextureImage checker(const std::string& name, int size, int cells, Rgba8 a, Rgba
 
 TextureImage leaf(const std::string& name, int size) {
     return image(name, size, [size](int x, int y) {
-        // From the tip (top) to the stem, in 1/1024 of the size; half the width is a bent parabola.
+        // From the tip (at the top) to the stem, in 1/1024 of the size; half the width follows a distorted
+        // parabola.
         const int u = 1024 * x / size - 512, v = 1024 * y / size;
         const int t = std::clamp(v - 20, 0, 800);
         const int half = t * (800 - t) / 800 * (600 + t) / 800;  // widest below the middle

@@ -174,8 +174,8 @@ void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteL
     if (light.kind == LightKind::directional) light.angle = found->second.angle;
 }
 
-void hangLights(const LightExtras& extras, std::size_t index, const std::vector<int>& place, Scene& scene,
-                NoteList& notes) {
+void attachLights(const LightExtras& extras, std::size_t index, const std::vector<int>& place, Scene& scene,
+                  NoteList& notes) {
     const auto found = extras.scenes.find(index);
     if (found == extras.scenes.end()) return;
     for (const std::string& note : found->second.notes) notes.add(note);

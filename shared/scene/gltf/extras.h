@@ -65,7 +65,7 @@ class NoteList;
 // adds to the scene the lights in the extras of the file's scene `index`. `place` maps the file's nodes to
 // Scene::nodes, -1: not in the scene.
 void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteList& notes);
-void hangLights(const LightExtras& extras, std::size_t index, const std::vector<int>& place, Scene& scene,
-                NoteList& notes);
+void attachLights(const LightExtras& extras, std::size_t index, const std::vector<int>& place, Scene& scene,
+                  NoteList& notes);
 
 }  // namespace diptych::gltf

@@ -18,8 +18,7 @@ struct MeshoptView {
     enum class Filter { none, octahedral, quaternion, exponential };
 
     std::size_t view;
-    std::span<const unsigned char> stream =
-        {};                             // at least as long as the smallest stream of `count` elements
+    std::span<const unsigned char> stream = {};  // long enough to hold `count` elements
     std::size_t count = 0, stride = 0;  // elements, bytes each; their product is the bufferView's length
     Mode mode = Mode::attributes;
     Filter filter = Filter::none;

@@ -271,7 +271,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
         }
         scene.nodes.push_back(std::move(node));
     }
-    if (chosen >= 0) hangLights(extras, static_cast<std::size_t>(chosen), place, scene, notes);
+    if (chosen >= 0) attachLights(extras, static_cast<std::size_t>(chosen), place, scene, notes);
     nodeNotes.moveTo(scene.notes);
     notes.moveTo(scene.notes);
     std::stable_sort(cameras.begin(), cameras.end(),
