@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::bench {
 
 // What is measured of one Settings.
 struct BenchRow {
     Settings settings;
-    std::string scene;                   // with its number of lights
-    std::optional<std::uint32_t> asked;  // lights asked for
-    std::string camera;                  // its title
+    std::string scene;  // with its number of lights
+    std::optional<std::uint32_t> requested_lights;
+    std::string camera;  // its title
     FrameTime time;
     std::vector<double> ms;        // every timed frame, in order
     std::vector<PassTime> passes;  // medians of the profiled frames
@@ -75,6 +75,6 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
 
 // Writes the folder. Returns bench.json.
 std::string writeBench(const Bench& bench, const std::filesystem::path& folder, bool force);
-inline constexpr const char* benchMark = "bench.json";
+inline constexpr const char* benchManifest = "bench.json";
 
-}  // namespace diptych
+}  // namespace diptych::bench

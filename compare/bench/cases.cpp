@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace diptych {
+namespace diptych::bench {
 namespace {
 
 std::vector<std::string> wordsOf(const std::string& list, std::string_view option) {
@@ -112,7 +112,7 @@ std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
     return counts;
 }
 
-BenchCases planBench(const std::string& scene, const Settings& given, const BenchOptions& options) {
+BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options) {
     const std::vector<Path> paths =
         options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
     const std::vector<Assignment> assignments = options.assign.empty() ? all<Assignment>() : options.assign;
@@ -172,4 +172,4 @@ std::string skipName(const BenchSkip& skip) {
     return name;
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace diptych {
+namespace diptych::bench {
 
 // As asked for; an empty list is what its comment says.
 struct BenchOptions {
@@ -52,7 +52,7 @@ struct BenchCases {
 // Light counts are put into a built-in scene that takes ?lights=N, into a `--lights` whose name holds {}, or
 // else into a seeded rig of point lights. Throws std::runtime_error where both a count and other lights were
 // asked for, and where nothing is left to time.
-BenchCases planBench(const std::string& scene, const Settings& given, const BenchOptions& options);
+BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options);
 
 // What a frame will take with `lights`, ms: on the line through the last two of (lights, ms), ascending, and
 // no less than the last. Nothing where there are not two.
@@ -64,4 +64,4 @@ std::string modeName(Path path, Assignment assign);
 // "forward_plus, every, 640x360, 1024 lights"
 std::string skipName(const BenchSkip& skip);
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -9,7 +9,11 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::bench {
+
+using page::bytes;
+using page::markup;
+
 namespace {
 
 std::string cell(const std::string& text) {
@@ -118,11 +122,11 @@ std::string benchHtml(const Bench& bench) {
         "<style>{1}{2}{3}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>Times side by "
         "side: {0}</h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
         "{8}{9}{10}{11}{12}</body></html>\n",
-        markup(bench.scene), pageStyle, plotStyle, benchStyle, bench.rows.size(), bench.runs,
+        markup(bench.scene), page::style, plotStyle, benchStyle, bench.rows.size(), bench.runs,
         markup(bench.device.name), markup(bench.device.driver),
         bench.rows.empty() ? ""
                            : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
         rows(bench), kernels(bench), skips(bench), how(bench));
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

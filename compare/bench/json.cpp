@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace diptych {
+namespace diptych::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -27,7 +27,7 @@ Json jsonOf(const BenchRow& row) {
             {"scene", row.scene},
             {"camera", row.camera},
             {"size", jsonOf(row.settings.size)},
-            {"light_count", orNull(row.asked)},
+            {"light_count", orNull(row.requested_lights)},
             {"settings", Json::parse(toJson(row.settings))},
             {"ms",
              {{"median", row.time.median},
@@ -89,4 +89,4 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
     return json.dump(2) + "\n";
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

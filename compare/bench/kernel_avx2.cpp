@@ -10,7 +10,7 @@
 
 #include <immintrin.h>
 
-namespace diptych {
+namespace diptych::bench {
 namespace {
 
 using Float = float __attribute__((vector_size(32)));
@@ -148,14 +148,14 @@ void shadeTileAvx2(const KernelTile& tile) {
         }
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench
 
 #else
 
-namespace diptych {
+namespace diptych::bench {
 
 void shadeTileAvx2(const KernelTile&) {}
 
-}  // namespace diptych
+}  // namespace diptych::bench
 
 #endif

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace diptych {
+namespace diptych::bench {
 
 // One tile of 16 x 16 pixels. This and what it is made with are compiled for AVX2 and FMA: only plain types
 // here, so that no template or inline function shared with other files is.
@@ -18,4 +18,4 @@ struct KernelTile {
 };
 void shadeTileAvx2(const KernelTile& tile);
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -10,7 +10,7 @@
 #include <array>
 #include <cstring>
 
-namespace diptych {
+namespace diptych::bench {
 namespace {
 
 constexpr VkBufferUsageFlags anyBuffer = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -152,4 +152,4 @@ std::unique_ptr<DrawnKernel> makeDrawnKernel(Device& device, const KernelWorkloa
     return std::make_unique<Drawn>(device, workload, kernel);
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -13,7 +13,7 @@
 #include <functional>
 #include <memory>
 
-namespace diptych {
+namespace diptych::bench {
 
 static_assert(sizeof(gpu::Light) == 8 * sizeof(float));
 
@@ -105,4 +105,4 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
     return report;
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -12,8 +12,10 @@
 #include <vector>
 
 namespace diptych {
-
 class Device;
+}
+
+namespace diptych::bench {
 
 struct KernelRow {
     std::string name;             // "uniform buffer, uniform base"
@@ -60,4 +62,4 @@ bool hasCpuKernel();
 // The same picture by hand-written AVX2 on all cores: 8 pixels a vector. W x H x 3.
 void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture);
 
-}  // namespace diptych
+}  // namespace diptych::bench

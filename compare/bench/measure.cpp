@@ -9,7 +9,10 @@
 #include <map>
 #include <utility>
 
-namespace diptych {
+namespace diptych::bench {
+
+using page::cameraTitle;
+
 namespace {
 
 // Frames whose passes are timed one by one, where --runs says fewer.
@@ -36,7 +39,8 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
                                *skip.lights);
     std::vector<std::pair<std::uint32_t, double>> measured;
     for (const BenchRow& row : bench.rows)
-        if (row.asked && isMode(row.settings, settings)) measured.emplace_back(*row.asked, row.time.median);
+        if (row.requested_lights && isMode(row.settings, settings))
+            measured.emplace_back(*row.requested_lights, row.time.median);
     const std::optional<double> predicted = predictedMs(measured, *group.lights);
     if (!predicted || *predicted <= bench.options.max_ms) return {};
     return fmt::format("would take {} ms by what {} and {} lights took; --max-ms {:.6g}", msText(*predicted),
@@ -140,4 +144,4 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::bench {
+
+using page::markup;
+
 namespace {
 
 // Of the drawing, in its own units.
@@ -39,9 +42,10 @@ std::vector<Series> seriesOf(const Bench& bench, const Size& size) {
 std::string markAt(Path path, double x, double y) {
     constexpr double r = 4;
     return path == Path::deferred
-               ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", at(x), at(y), r)
-               : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", at(x - r),
-                             at(y - r), 2 * r, 2 * r);
+               ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(x),
+                             svgNumber(y), r)
+               : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+                             svgNumber(x - r), svgNumber(y - r), 2 * r, 2 * r);
 }
 
 std::string groupOf(const Series& series, const std::string& inside) {
@@ -71,21 +75,23 @@ std::string panelOf(const Bench& bench, const Size& size, double above) {
         std::string line, marks;
         for (const BenchRow* r : series.rows) {
             const double px = x(static_cast<double>(r->counters.lights)), py = y(r->time.median);
-            line += fmt::format("{}{} {}", line.empty() ? "M" : "L", at(px), at(py));
+            line += fmt::format("{}{} {}", line.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
             marks += fmt::format(
                 "<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
                 markup(fmt::format("{}, {} lights: {} ms ({} to {})", modeName(series.path, series.assign),
                                    r->counters.lights, msText(r->time.median), msText(r->time.min),
                                    msText(r->time.max))),
-                at(px), at(y(r->time.min)), at(y(r->time.max)), markAt(series.path, px, py));
+                svgNumber(px), svgNumber(y(r->time.min)), svgNumber(y(r->time.max)),
+                markAt(series.path, px, py));
         }
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));
         const double lx = box.right + 14;
         out += groupOf(
-            series, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}<text class=\"tick\" x=\"{}\" "
-                                "y=\"{}\">{}</text>",
-                                at(lx), at(row), markAt(series.path, lx + 12, row), at(lx + 30), at(row + 4),
-                                markup(modeName(series.path, series.assign))));
+            series,
+            fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}<text class=\"tick\" x=\"{}\" "
+                        "y=\"{}\">{}</text>",
+                        svgNumber(lx), svgNumber(row), markAt(series.path, lx + 12, row), svgNumber(lx + 30),
+                        svgNumber(row + 4), markup(modeName(series.path, series.assign))));
         row += 19;
     }
     return out;
@@ -104,4 +110,4 @@ std::string benchPlot(const Bench& bench, PlotPlace place) {
                        panels);
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

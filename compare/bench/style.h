@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace diptych {
+namespace diptych::bench {
 
 extern const char* const benchStyle;  // bench.css, embedded at build time
 
-}  // namespace diptych
+}  // namespace diptych::bench

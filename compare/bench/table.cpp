@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::bench {
 
 std::string benchTable(const Bench& bench, std::size_t first) {
     std::string out;
@@ -55,4 +55,4 @@ std::string benchEnd(const Bench& bench) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

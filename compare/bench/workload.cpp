@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::bench {
 
 KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapacity, std::uint32_t seed) {
     if (size.width % KernelWorkload::tile != 0 || size.height % KernelWorkload::tile != 0 ||
@@ -42,4 +42,4 @@ KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapa
     return workload;
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace diptych {
+namespace diptych::bench {
 
 // Tiles of 16 x 16 pixels, each with a list of its own, of lights in ascending order; the surface of a pixel
 // is benchSurface() of shaders/lib/bench_lights.glsl.
@@ -30,4 +30,4 @@ inline constexpr std::uint32_t mostKernelLights = 512;  // 16 KiB: the least tha
 // most `lights`.
 KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapacity, std::uint32_t seed);
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -7,16 +7,16 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::bench {
 
 std::string writeBench(const Bench& bench, const std::filesystem::path& path, bool force) {
     const auto earlier = [&] {
-        checkReplaceable({OutputKind::folder, path}, benchMark, force);
-        return markedIn(path, benchMark);
+        checkReplaceable({OutputKind::folder, path}, benchManifest, force);
+        return manifestFiles(path, benchManifest);
     };
     earlier();
     OutputFolder folder(path);
-    std::vector<std::string> files{benchMark, "index.html"};
+    std::vector<std::string> files{benchManifest, "index.html"};
     writeFile(folder / "index.html", benchHtml(bench));
     if (!bench.rows.empty()) {
         files.emplace_back("bench.svg");
@@ -24,9 +24,9 @@ std::string writeBench(const Bench& bench, const std::filesystem::path& path, bo
     }
     std::ranges::sort(files);
     std::string json = benchJson(bench, files);
-    writeFile(folder / benchMark, json);
+    writeFile(folder / benchManifest, json);
     folder.put(files, earlier);
     return json;
 }
 
-}  // namespace diptych
+}  // namespace diptych::bench

@@ -14,7 +14,7 @@
 namespace diptych {
 
 //  name              heading of the report
-#define MARK_FEATURES(X)                       \
+#define CHECK_FEATURES(X)                      \
     X(texture_transform, "texture transforms") \
     X(second_texcoord, "second UV set")        \
     X(sampler, "samplers")                     \
@@ -32,16 +32,16 @@ namespace diptych {
     X(orientation, "orientation")
 
 enum class CheckFeature {
-#define DIPTYCH_MARK_FEATURE(name, heading) name,
-    MARK_FEATURES(DIPTYCH_MARK_FEATURE)
-#undef DIPTYCH_MARK_FEATURE
+#define DIPTYCH_CHECK_FEATURE(name, heading) name,
+    CHECK_FEATURES(DIPTYCH_CHECK_FEATURE)
+#undef DIPTYCH_CHECK_FEATURE
 };
-inline constexpr const char* markHeadings[] = {
-#define DIPTYCH_MARK_FEATURE(name, heading) heading,
-    MARK_FEATURES(DIPTYCH_MARK_FEATURE)
-#undef DIPTYCH_MARK_FEATURE
+inline constexpr const char* checkHeadings[] = {
+#define DIPTYCH_CHECK_FEATURE(name, heading) heading,
+    CHECK_FEATURES(DIPTYCH_CHECK_FEATURE)
+#undef DIPTYCH_CHECK_FEATURE
 };
-inline constexpr std::size_t checkFeatureCount = std::size(markHeadings);
+inline constexpr std::size_t checkFeatureCount = std::size(checkHeadings);
 
 // Bit f: CheckFeature f.
 using CheckFeatures = std::uint32_t;

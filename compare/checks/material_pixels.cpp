@@ -90,10 +90,11 @@ void MaterialPixels::scan(int material, const PixelBox& box, const Bounds& reach
                 seen.add(1, {x, y, x + 1, y + 1});
 }
 
-MaterialPixels::Seen MaterialPixels::within(int material, const PixelBox& asked, const Bounds& reach) const {
+MaterialPixels::Seen MaterialPixels::within(int material, const PixelBox& allowed,
+                                            const Bounds& reach) const {
     Seen seen;
     if (material < 0 || static_cast<std::size_t>(material) >= extents_.size()) return seen;
-    const PixelBox box = common(asked, extents_[static_cast<std::size_t>(material)]);
+    const PixelBox box = common(allowed, extents_[static_cast<std::size_t>(material)]);
     if (box.empty()) return seen;
     for (int row = box.y0 / tile; row * tile < box.y1; ++row)
         for (int column = box.x0 / tile; column * tile < box.x1; ++column) {

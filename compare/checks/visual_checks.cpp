@@ -128,16 +128,16 @@ std::string nameOr(const std::string& name, const char* what, int index) {
 }
 
 // Materials and meshes have the numbers of the file; of its nodes the Scene keeps those that it draws.
-void name(const Scene& scene, const Instance& instance, VisualCheck& mark) {
+void name(const Scene& scene, const Instance& instance, VisualCheck& check) {
     const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     const int index = mesh.primitives[static_cast<std::size_t>(instance.primitive)].material;
     const Material& material = scene.materials[static_cast<std::size_t>(index)];
-    mark.where =
+    check.where =
         numbered("material", index, material.name) + ", " + numbered("mesh", instance.mesh, mesh.name);
-    if (!node.name.empty()) mark.where += ", node " + quoted(node.name);
-    mark.name = nameOr(node.name.empty() ? mesh.name : node.name, "mesh", instance.mesh);
-    if (mesh.primitives.size() > 1) mark.name += " \u00b7 " + nameOr(material.name, "material", index);
+    if (!node.name.empty()) check.where += ", node " + quoted(node.name);
+    check.name = nameOr(node.name.empty() ? mesh.name : node.name, "mesh", instance.mesh);
+    if (mesh.primitives.size() > 1) check.name += " \u00b7 " + nameOr(material.name, "material", index);
 }
 
 // ---- choosing ----------------------------------------------------------------------------------------
@@ -193,14 +193,14 @@ public:
             Chosen& chosen = chosen_[f];
             if (chosen.found == 0) continue;
             std::ranges::sort(chosen.best, std::less<>());
-            FeatureChecks& marks = result.emplace_back(FeatureChecks{markHeadings[f], chosen.found, {}});
+            FeatureChecks& checks = result.emplace_back(FeatureChecks{checkHeadings[f], chosen.found, {}});
             for (const Candidate& c : chosen.best) {
                 const Instance& instance = pose_.instances[c.instance];
-                VisualCheck& mark = marks.marks.emplace_back();
-                mark.what = sentences.of(instance, static_cast<CheckFeature>(f));
-                name(scene_, instance, mark);
-                mark.box = c.box;
-                mark.pixels = c.pixels;
+                VisualCheck& check = checks.checks.emplace_back();
+                check.what = sentences.of(instance, static_cast<CheckFeature>(f));
+                name(scene_, instance, check);
+                check.box = c.box;
+                check.pixels = c.pixels;
             }
         }
         return result;

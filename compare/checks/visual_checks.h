@@ -29,19 +29,19 @@ struct VisualCheck {
     std::uint64_t pixels = 0;
 };
 
-// The marks of one feature, largest first.
+// The checks of one feature, largest first.
 struct FeatureChecks {
     std::string_view feature;
     std::uint64_t found = 0;  // in view, of which at most `checksShown` are told
-    std::vector<VisualCheck> marks;
+    std::vector<VisualCheck> checks;
 };
 inline constexpr std::size_t checksShown = 24;
 
-// One mark for each feature of an instance that the view shows. The instance's bounds, cut off at the near
+// One check for each feature of an instance that the view shows. The instance's bounds, cut off at the near
 // and far planes, are projected; of that box the pixels count at which `materials`, the channel material_id,
 // has the instance's material and `positions`, the channel position, lies within its bounds: where there are
 // none it is hidden, off the picture or turned away. Without a channel (nullptr) its word is not asked.
-// Features without a mark are left out.
+// Features without a check are left out.
 std::vector<FeatureChecks> visualChecksOf(const Scene& scene, const Pose& pose, const View& view,
                                           const Image* materials, const Image* positions);
 

@@ -8,7 +8,10 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::cli {
+
+using namespace bench;
+
 namespace {
 
 // Frames of one kernel where --runs says less: its slope is that of the fastest two.
@@ -19,7 +22,7 @@ std::filesystem::path folderOf(const Options& options) {
     if (output.kind != OutputKind::folder)
         throw std::runtime_error(
             fmt::format("-o {}: a benchmark is a folder; give a name without ending", output.path.string()));
-    checkReplaceable(output, benchMark, options.force);
+    checkReplaceable(output, benchManifest, options.force);
     return output.path;
 }
 
@@ -38,7 +41,7 @@ BenchCases planOf(const Options& options, const BenchOptions& bench) {
     if (!bench.frames) return {};
     Settings given = options.settings;
     given.camera = options.cameras.front();
-    return planBench(options.scenes.front(), given, bench);
+    return makeBenchCases(options.scenes.front(), given, bench);
 }
 
 // --path X is --paths X where that says nothing.
@@ -99,4 +102,4 @@ int runBench(const Options& options) {
     return 0;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

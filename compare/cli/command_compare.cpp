@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace diptych {
+namespace diptych::cli {
 namespace {
 
 std::filesystem::path reportFolder(const Options& options) {
@@ -143,7 +143,7 @@ Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> basel
                                    std::move(drawn.marks), drawn.materials);
     if (!baseline)
         return makeReport(std::move(drawn.frames), drawn.needs, device, compare, std::move(drawn.marks));
-    baseline->asked = drawn.frames.front().asked;
+    baseline->requested = drawn.frames.front().requested;
     return makeBaselineReport(std::move(*baseline), std::move(drawn.frames), drawn.needs.front(), device,
                               compare, baselineMismatches(*baseline, drawn.frames.front(), device));
 }
@@ -191,4 +191,4 @@ int runCompare(const Options& options) {
     return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace diptych {
+namespace diptych::cli {
 namespace {
 
 nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices) {
@@ -58,4 +58,4 @@ int runDevices(const Options& options) {
     return 0;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

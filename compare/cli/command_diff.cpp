@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace diptych {
+namespace diptych::cli {
 
 // The share of reading and measuring; the rest is writing.
 constexpr double measuring = 0.9;
@@ -34,4 +34,4 @@ int runDiff(const Options& options) {
     return passed ? 0 : 1;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

@@ -16,7 +16,10 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace diptych {
+namespace diptych::cli {
+
+using namespace bench;
+
 namespace {
 
 // --heat is a flag, and a flag takes a value behind = only: so that "--heat off" says what it seems to.
@@ -207,4 +210,4 @@ Options parseCommandLine(const std::vector<std::string>& words) {
     return options;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

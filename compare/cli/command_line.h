@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::cli {
 
 // `words` as the shell gives them, without the program's name. Every option of the tool's contract parses;
 // throws std::runtime_error, one line, for a usage error and for what is not built yet.
 Options parseCommandLine(const std::vector<std::string>& words);
 
-}  // namespace diptych
+}  // namespace diptych::cli

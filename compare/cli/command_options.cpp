@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace diptych {
+namespace diptych::cli {
 namespace {
 
 const Command commands[] = {
@@ -272,4 +272,4 @@ void describe(CLI::App& app, const std::string& command, Options& options, Parse
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

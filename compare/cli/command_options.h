@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace diptych {
+namespace diptych::cli {
 
 // name, what it does, an example, and whether it can be run
 struct Command {
@@ -38,4 +38,4 @@ struct ParsedOptions {
 // Everything that `command` understands; the parser fills `options` and `said`.
 void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& said);
 
-}  // namespace diptych
+}  // namespace diptych::cli

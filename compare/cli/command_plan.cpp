@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-namespace diptych {
+namespace diptych::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -99,4 +99,4 @@ int runPlan(const Options& options) {
     return 0;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -33,7 +33,7 @@ std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t 
 // One Frame may replace several and the other way round. Whatever cannot be replaced is said before the
 // first Frame is drawn.
 void checkFolder(const Output& output, std::size_t count, bool force) {
-    const bool single = output.kind != OutputKind::folder || isOurMark(output.path / single_mark);
+    const bool single = output.kind != OutputKind::folder || isOurManifest(output.path / single_mark);
     checkReplaceable(output, single ? single_mark : several_mark, force);
     for (std::size_t i = 0; count > 1 && i < count; ++i)
         checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_mark, force);
@@ -41,11 +41,11 @@ void checkFolder(const Output& output, std::size_t count, bool force) {
 
 // What an earlier render left, one Frame or several.
 std::vector<std::string> earlierIn(const std::filesystem::path& folder) {
-    std::vector<std::string> names = markedIn(folder, single_mark);
-    if (!isOurMark(folder / several_mark)) return names;
+    std::vector<std::string> names = manifestFiles(folder, single_mark);
+    if (!isOurManifest(folder / several_mark)) return names;
     names.emplace_back(several_mark);
-    for (std::size_t i = 0; isOurMark(numbered(folder, i) / single_mark); ++i)
-        for (const std::string& name : markedIn(numbered(folder, i), single_mark))
+    for (std::size_t i = 0; isOurManifest(numbered(folder, i) / single_mark); ++i)
+        for (const std::string& name : manifestFiles(numbered(folder, i), single_mark))
             names.push_back(fmt::format("{}/{}", i + 1, name));
     return names;
 }
@@ -216,4 +216,4 @@ int runRender(const Options& options) {
     return 0;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

@@ -21,7 +21,10 @@
 #include <ranges>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::cli {
+
+using namespace tradeoff;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -36,7 +39,7 @@ std::filesystem::path folderOf(const Options& options) {
     if (output.kind != OutputKind::folder)
         throw std::runtime_error(
             fmt::format("-o {}: a tradeoff is a folder; give a name without ending", output.path.string()));
-    checkReplaceable(output, tradeoffMark, options.force);
+    checkReplaceable(output, tradeoffManifest, options.force);
     return output.path;
 }
 
@@ -213,7 +216,7 @@ private:
             if (row.cameras.front().visits.size() > 1) continue;
             render.progress = stage.part(from, done / all);
             const double before = row.drawing_ms;
-            diptych::timeAgain(renderer, row, truth, render);
+            tradeoff::timeAgain(renderer, row, truth, render);
             tradeoff_.cost.drawing += row.drawing_ms - before;
             state.renew(row);
         }
@@ -235,10 +238,10 @@ int runTradeoff(const Options& options) {
     checkOptions(options);
     const Settings& given = options.settings;
     const SweepRows plan =
-        planSweep(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
+        makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
     if (options.debug_given) note(options, "--debug is not used: errors are of lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are of lit");
     return Sweep(options, plan).run();
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace diptych {
+namespace diptych::cli {
 
 int runCommand(const Options& options) {
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
@@ -48,9 +48,9 @@ RenderOptions renderOptions(const Options& options) {
     render.channels = options.channels;
     if (render.channels.empty())
         for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
-    render.asked = render.channels;
+    render.requested = render.channels;
     render.runs = options.runs;
-    render.said = [&options](const std::string& step) { say(options, step); };
+    render.on_step = [&options](const std::string& step) { say(options, step); };
     return render;
 }
 
@@ -105,4 +105,4 @@ void noteLeftByOthers(const Options& options, const KeptReferences& kept) {
     if (const std::string line = kept.leftByOthers(); !line.empty()) note(options, line);
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

@@ -16,8 +16,10 @@
 #include <vector>
 
 namespace diptych {
-
 class KeptReferences;
+}
+
+namespace diptych::cli {
 
 int runCommand(const Options& options);
 
@@ -60,4 +62,4 @@ void say(const Options& options, const std::string& line);
 // The same on references that other commands with this output have left half done.
 void noteLeftByOthers(const Options& options, const KeptReferences& kept);
 
-}  // namespace diptych
+}  // namespace diptych::cli

@@ -30,8 +30,8 @@ int fail(std::string what) {
     diptych::dieOf(SIGPIPE);
 }
 
-int run(const diptych::Options& options) {
-    if (options.help.empty()) return diptych::runCommand(options);
+int run(const diptych::cli::Options& options) {
+    if (options.help.empty()) return diptych::cli::runCommand(options);
     fmt::print("{}", options.help);
     return 0;
 }
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
         std::signal(SIGPIPE, SIG_IGN);
         std::signal(SIGXFSZ, SIG_IGN);  // too large a file (ulimit -f) is an error of writing as any other
         diptych::watchInterruption();
-        const int code = run(diptych::parseCommandLine({argv + std::min(argc, 1), argv + argc}));
+        const int code = run(diptych::cli::parseCommandLine({argv + std::min(argc, 1), argv + argc}));
         errno = 0;
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
             throw std::system_error(errno, std::generic_category(), "stdout: cannot be written");

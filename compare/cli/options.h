@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::cli {
 
 struct Options {
     std::string help;     // what to print instead of doing anything: --help, --version
@@ -41,8 +41,8 @@ struct Options {
     bool update_baseline = false;
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
-    BenchOptions bench;
+    bench::BenchOptions bench;
     std::string grid;  // tradeoff: a file or JSON; empty: what is usual
 };
 
-}  // namespace diptych
+}  // namespace diptych::cli

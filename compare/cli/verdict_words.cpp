@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-namespace diptych {
+namespace diptych::cli {
 namespace {
 
 // "--option value" for what is not as usual; numbers with all their digits.
@@ -74,4 +74,4 @@ std::vector<std::string> wordsOfWhatCounts(const Options& options) {
     return words.words;
 }
 
-}  // namespace diptych
+}  // namespace diptych::cli

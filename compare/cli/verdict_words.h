@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::cli {
 
 struct Options;
 
 // The words of `options` beside scene, camera and Settings that decide a verdict: rules, pixels, metric.
 std::vector<std::string> wordsOfWhatCounts(const Options& options);
 
-}  // namespace diptych
+}  // namespace diptych::cli

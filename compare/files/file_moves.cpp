@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* begunName = ".diptych.put";  // the folder whose plan is being carried out
-constexpr const char* planName = ".plan.json";
+constexpr const char* listName = ".plan.json";
 constexpr const char* oldName = ".old";  // in it: what was replaced, until all is done
 
 bool isThere(const fs::path& path) {
@@ -29,7 +29,7 @@ bool isThere(const fs::path& path) {
 }
 
 // Moves files and remembers them, to move them back.
-class Moves {
+class UndoableMoves {
 public:
     void make(const fs::path& from, const fs::path& to) {
         makeFolder(to.parent_path());
@@ -75,16 +75,16 @@ private:
     std::vector<fs::path> folders_;
 };
 
-std::vector<std::string> removedBy(const FileMoves& plan) {
+std::vector<std::string> removedBy(const FileMoves& moves) {
     std::vector<std::string> names;
-    for (const std::string& name : plan.earlier)
-        if (std::ranges::count(plan.files, name) == 0) names.push_back(name);
+    for (const std::string& name : moves.earlier)
+        if (std::ranges::count(moves.files, name) == 0) names.push_back(name);
     return names;
 }
 
 // The folders "1" of removed "1/lit.png", where nothing is left in them.
-void removeEmptied(const fs::path& folder, const FileMoves& plan) {
-    for (const std::string& name : removedBy(plan))
+void removeEmptied(const fs::path& folder, const FileMoves& moves) {
+    for (const std::string& name : removedBy(moves))
         if (const fs::path inner = fs::path(name).parent_path(); !inner.empty())
             ::rmdir((folder / inner).c_str());
 }
@@ -115,36 +115,36 @@ void removeBegun(const fs::path& begun) {
          entry.increment(ignored))
         if (entry->is_directory(ignored)) folders.push_back(entry->path());
     for (const fs::path& folder : folders) fs::remove_all(folder, ignored);
-    fs::remove(begun / planName, ignored);
+    fs::remove(begun / listName, ignored);
     ::rmdir(begun.c_str());
 }
 
 }  // namespace
 
-void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& plan) {
-    writeFile(made.path() / planName,
-              nlohmann::json{{"files", plan.files}, {"earlier", plan.earlier}}.dump());
+void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) {
+    writeFile(made.path() / listName,
+              nlohmann::json{{"files", moves.files}, {"earlier", moves.earlier}}.dump());
     const fs::path begun = folder / begunName;
     const fs::path temporary = made.path();
     if (std::rename(temporary.c_str(), begun.c_str()) != 0)
         throw std::runtime_error(writingFailed(folder, errno));
-    Moves moves;
+    UndoableMoves done;
     try {
-        for (const std::string& name : plan.files) {
+        for (const std::string& name : moves.files) {
             if (isThere(folder / name))
-                moves.replace(begun / name, folder / name, begun / oldName / name);
+                done.replace(begun / name, folder / name, begun / oldName / name);
             else
-                moves.make(begun / name, folder / name);
+                done.make(begun / name, folder / name);
         }
-        for (const std::string& name : removedBy(plan))
+        for (const std::string& name : removedBy(moves))
             if (fs::is_regular_file(fs::symlink_status(folder / name)))
-                moves.make(folder / name, begun / oldName / name);
+                done.make(folder / name, begun / oldName / name);
     } catch (...) {
         // Where not even this can be done the plan stays: the next program carries it out.
-        if (moves.undo()) std::rename(begun.c_str(), temporary.c_str());
+        if (done.undo()) std::rename(begun.c_str(), temporary.c_str());
         throw;
     }
-    removeEmptied(folder, plan);
+    removeEmptied(folder, moves);
     removeBegun(begun);
 }
 
@@ -155,14 +155,14 @@ bool isMoveBegun(const fs::path& folder) {
 void finishMoves(const fs::path& folder) {
     const fs::path begun = folder / begunName;
     if (!isThere(begun) || ::rmdir(begun.c_str()) == 0) return;
-    const FileMoves plan = readMoves(begun / planName);
-    Moves moves;
-    for (const std::string& name : plan.files)
-        if (isThere(begun / name)) moves.make(begun / name, folder / name);
+    const FileMoves moves = readMoves(begun / listName);
+    UndoableMoves done;
+    for (const std::string& name : moves.files)
+        if (isThere(begun / name)) done.make(begun / name, folder / name);
     std::error_code error;
-    for (const std::string& name : removedBy(plan))
+    for (const std::string& name : removedBy(moves))
         if (fs::is_regular_file(fs::symlink_status(folder / name))) fs::remove(folder / name, error);
-    removeEmptied(folder, plan);
+    removeEmptied(folder, moves);
     removeBegun(begun);
 }
 

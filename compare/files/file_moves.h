@@ -17,7 +17,7 @@ struct FileMoves {
 
 // `made`, in `folder`, gets the plan written into it and is renamed to what finishMoves() looks for: from
 // then on the new files count. What fails after that is undone. Throws std::runtime_error naming the file.
-void moveFiles(const std::filesystem::path& folder, Temporary& made, const FileMoves& plan);
+void moveFiles(const std::filesystem::path& folder, Temporary& made, const FileMoves& moves);
 
 // A program was killed while it carried out its plan, or is at it now.
 bool isMoveBegun(const std::filesystem::path& folder);

@@ -65,7 +65,7 @@ void readUncertainty(PictureFile& file, Frame& frame) {
 void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device) {
     std::vector<ExrLayerView> layers;
     for (const auto& [mode, image] : frame.channels)
-        if (frame.isAsked(mode)) layers.push_back({exrChannels(debugMode(mode)), &image});
+        if (frame.isRequested(mode)) layers.push_back({exrChannels(debugMode(mode)), &image});
     std::vector<ExrAttribute> attributes{{"camera", jsonOf(frame.camera).dump()},
                                          {"commit", commitName()},
                                          {"device", device.name},
@@ -74,7 +74,7 @@ void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const 
                                          {"settings", toJson(frame.settings, -1)},
                                          {"software", softwareName}};
     constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
-    if (!frame.uncertainty.empty() && frame.channels.contains(lit) && frame.isAsked(lit)) {
+    if (!frame.uncertainty.empty() && frame.channels.contains(lit) && frame.isRequested(lit)) {
         layers.push_back({{uncertainty_channel}, &frame.uncertainty});
         attributes.push_back({"relative_uncertainty", fmt::format("{}", frame.relative_uncertainty)});
     }

@@ -245,8 +245,8 @@ void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std
     }
 }
 
-MatchedChannels match(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
-                      const std::vector<std::string>& wanted) {
+MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
+                              const std::vector<std::string>& wanted) {
     MatchedChannels matched;
     const auto isWanted = [&](const std::string& name) {
         return wanted.empty() || std::ranges::any_of(wanted, [&](const auto& w) { return matches(w, name); });

@@ -55,7 +55,7 @@ struct MatchedChannels {
 
 // `wanted`: patterns of names (* and ?), empty: all. Throws std::runtime_error where a pattern names nothing
 // that both have, where one name is of different widths, or where nothing is in both.
-MatchedChannels match(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
-                      const std::vector<std::string>& wanted);
+MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
+                              const std::vector<std::string>& wanted);
 
 }  // namespace diptych

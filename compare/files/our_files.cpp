@@ -47,12 +47,12 @@ bool isOurPicture(const fs::path& file) {
            says("\x89PNG\r\n\x1a\n"s, "\0\0\0\x10tEXtSoftware\0"s);
 }
 
-bool isOurMark(const fs::path& file) {
+bool isOurManifest(const fs::path& file) {
     return ourJson(file).is_object();
 }
 
-std::vector<std::string> listedIn(const fs::path& mark) {
-    const nlohmann::json json = ourJson(mark);
+std::vector<std::string> listedIn(const fs::path& manifest) {
+    const nlohmann::json json = ourJson(manifest);
     std::vector<std::string> names;
     if (json.contains("files") && json["files"].is_array())
         for (const auto& name : json["files"])
@@ -66,10 +66,10 @@ bool isOurName(const fs::path& name) {
            std::ranges::all_of(folder, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-std::vector<std::string> markedIn(const fs::path& folder, const std::string& mark) {
-    if (!isOurMark(folder / mark)) return {};
-    std::vector<std::string> names = listedIn(folder / mark);
-    if (std::ranges::count(names, mark) == 0) names.push_back(mark);
+std::vector<std::string> manifestFiles(const fs::path& folder, const std::string& manifest) {
+    if (!isOurManifest(folder / manifest)) return {};
+    std::vector<std::string> names = listedIn(folder / manifest);
+    if (std::ranges::count(names, manifest) == 0) names.push_back(manifest);
     return names;
 }
 

@@ -49,14 +49,15 @@ fs::path besideOutput(const fs::path& out, const std::string& what) {
     return out.is_absolute() ? path : path.lexically_proximate(fs::current_path());
 }
 
-void checkReplaceable(const Output& output, const std::string& mark, bool force) {
+void checkReplaceable(const Output& output, const std::string& manifest, bool force) {
     std::error_code error;
     if (output.kind == OutputKind::folder && fs::is_directory(output.path, error)) finishOutput(output.path);
     const fs::file_status there = fs::status(output.path, error);
     if (!fs::exists(there) || force) return;
-    const bool ours = output.kind == OutputKind::folder
-                          ? fs::is_directory(there) && (isEmpty(output.path) || isOurMark(output.path / mark))
-                          : fs::is_regular_file(there) && isOurPicture(output.path);
+    const bool ours =
+        output.kind == OutputKind::folder
+            ? fs::is_directory(there) && (isEmpty(output.path) || isOurManifest(output.path / manifest))
+            : fs::is_regular_file(there) && isOurPicture(output.path);
     if (!ours)
         throw std::runtime_error(fmt::format(
             "-o {}: is there and was not written by diptych; --force replaces it", output.path.string()));

@@ -22,10 +22,10 @@ Output outputOf(const std::filesystem::path& out);
 // ".NAME.what" beside an output: where what is done of it is kept until it is whole.
 std::filesystem::path besideOutput(const std::filesystem::path& out, const std::string& what);
 
-// An EXR or PNG that names diptych as its software, or a folder that is empty or holds `mark`, a JSON file of
-// ours, may be replaced; whatever else is there needs `force`. Throws std::runtime_error naming
-// -o. Files of others in such a folder are left alone. What a killed program left half done in a folder is
+// An EXR or PNG that names diptych as its software, or a folder that is empty or holds `manifest`, a JSON
+// file of ours, may be replaced; whatever else is there needs `force`. Throws std::runtime_error naming -o.
+// Files of others in such a folder are left alone. What a killed program left half done in a folder is
 // completed first.
-void checkReplaceable(const Output& output, const std::string& mark, bool force);
+void checkReplaceable(const Output& output, const std::string& manifest, bool force);
 
 }  // namespace diptych

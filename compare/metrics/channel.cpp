@@ -15,6 +15,9 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace metrics;
+
 namespace {
 
 // Luminance of a colour (Rec.709), magnitude of anything else.
@@ -51,7 +54,7 @@ void checkAlike(const Image& a, const Image& b, std::size_t covered) {
 }
 
 // The channel that tells the background, and its value there.
-std::optional<std::pair<int, float>> backgroundMark(const Frame& a, const Frame& b) {
+std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Frame& b) {
     for (const auto& [mode, value] : {std::pair{static_cast<int>(gpu::DEBUG_material_id), -1.0f},
                                       {static_cast<int>(gpu::DEBUG_depth), 0.0f}})
         if (a.channels.contains(mode) && b.channels.contains(mode)) return std::pair{mode, value};
@@ -71,9 +74,9 @@ Coverage coverage(const Frame& a, const Frame& b) {
                 throw std::runtime_error(fmt::format(
                     "{}: {} is {}x{} in a Frame of {}x{}", frame->name, debugMode(mode).name, image.width,
                     image.height, frame->settings.size.width, frame->settings.size.height));
-    const auto mark = backgroundMark(a, b);
-    if (!mark) return everyPixel(a.channels.empty() ? 0 : a.channels.begin()->second.pixels());
-    const auto [mode, value] = *mark;
+    const auto channel = backgroundChannel(a, b);
+    if (!channel) return everyPixel(a.channels.empty() ? 0 : a.channels.begin()->second.pixels());
+    const auto [mode, value] = *channel;
     const Image &p = a.channels.at(mode), &q = b.channels.at(mode);
     checkAlike(p, q, p.pixels());
     Coverage coverage{std::vector<std::uint8_t>(p.pixels()), 0, true};

@@ -35,7 +35,7 @@ bool within(const float* p, float least, float most) {
     return std::min({p[0], p[1], p[2]}) >= least && std::max({p[0], p[1], p[2]}) <= most;
 }
 
-void check(const Image& reference, const Image& test, const FlipOptions& options) {
+void checkPair(const Image& reference, const Image& test, const FlipOptions& options) {
     if (reference.components != 3 || test.components != 3 || reference.width != test.width ||
         reference.height != test.height || reference.empty())
         throw std::runtime_error(
@@ -98,7 +98,7 @@ void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResul
                 counted[i] = absent;
         errors = counted;
     }
-    const Order order(errors);
+    const metrics::Order order(errors);
     result.pixels = order.size();
     result.mean = order.mean();
     result.min = order.nearestRank(0);
@@ -147,13 +147,13 @@ ExposureRange exposureRange(const Image& reference, ToneMapper mapper) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 16), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) values[i] = luminance(reference.pixel(i));
     });
-    Order order(values);
+    metrics::Order order(values);
     const float most = order.nearestRank(1);
     if (!(most > 0)) return {};
     float median = order.nearestRank(0.5);
     if (!(median > 0)) {
         std::ranges::replace(values, 0.0f, absent);
-        median = Order(values).nearestRank(0.5);
+        median = metrics::Order(values).nearestRank(0.5);
     }
     const double bright = whereCurveReaches(mapper, 0.85);
     return {std::clamp(std::log2(bright / most), -mostStops, mostStops),
@@ -161,7 +161,7 @@ ExposureRange exposureRange(const Image& reference, ToneMapper mapper) {
 }
 
 FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions& options) {
-    check(reference, test, options);
+    checkPair(reference, test, options);
     FlipResult result;
     const FlipPair pair = inspect(reference, test, 0, 1, result);
     flipErrorMap(pair, FlipFilters(options.pixels_per_degree), {}, result.error, nullptr);
@@ -170,7 +170,7 @@ FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions&
 }
 
 HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options) {
-    check(reference, test, options);
+    checkPair(reference, test, options);
     HdrFlipResult result;
     chooseExposures(reference, options, result);
     const FlipPair pair = inspect(reference, test, 0, std::numeric_limits<float>::max(), result);

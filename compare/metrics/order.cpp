@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::metrics {
 namespace {
 
 constexpr std::size_t bins = (0x7f800000u >> 16) + 1;  // up to infinity
@@ -98,4 +98,4 @@ float Order::weightedQuantile(double share) const {
     return value;
 }
 
-}  // namespace diptych
+}  // namespace diptych::metrics

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace diptych {
+namespace diptych::metrics {
 
 // Of floats that are 0 or above, infinity too; a NaN or a negative value counts as not there. Their bits are
 // in their order, so that two counts of 2^15 and 2^16 bins find any rank; the values are read again for each
@@ -35,4 +35,4 @@ private:
     double sum_ = 0;
 };
 
-}  // namespace diptych
+}  // namespace diptych::metrics

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace diptych {
+namespace diptych::metrics {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -49,4 +49,4 @@ inline double angle(const float* a, const float* b) {
     return std::atan2(cross, ax * bx + ay * by + az * bz) * 180 / std::numbers::pi;
 }
 
-}  // namespace diptych
+}  // namespace diptych::metrics

@@ -15,6 +15,9 @@
 #include <vector>
 
 namespace diptych {
+
+using namespace metrics;
+
 namespace {
 
 constexpr float absent = -1;    // in a list of errors: not covered
@@ -135,7 +138,7 @@ void PlainPass::row(int y, BandSums& sums) {
         unevenRow(y, sums);
 }
 
-void check(const Image& reference, const Image& test, const Coverage& coverage) {
+void checkPair(const Image& reference, const Image& test, const Coverage& coverage) {
     if (reference.width != test.width || reference.height != test.height ||
         reference.components != test.components || reference.components < 1 || reference.components > 4 ||
         coverage.covered.size() != reference.pixels())
@@ -204,7 +207,7 @@ std::optional<double> ssimOf(const Image& reference, const Image& test, Range ra
 
 PlainMetrics plainMetrics(const Image& reference, const Image& test, ChannelKind kind, Range range,
                           const Coverage& coverage) {
-    check(reference, test, coverage);
+    checkPair(reference, test, coverage);
     PlainMetrics m;
     PlainPass pass(reference, test, kind, coverage);
     const BandSums sums = pass.run();

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace diptych {
+namespace diptych::metrics {
 namespace {
 
 bool finite(const float* p, int components) {
@@ -99,4 +99,4 @@ Image shifted(const Image& reference, const Image& test, int radius) {
     return result;
 }
 
-}  // namespace diptych
+}  // namespace diptych::metrics

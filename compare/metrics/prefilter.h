@@ -4,7 +4,7 @@
 
 #include "shared/image/image.h"
 
-namespace diptych {
+namespace diptych::metrics {
 
 // Blurred by a Gaussian of standard deviation `radius` pixels, cut at three times that; weights beyond the
 // picture and of pixels with a NaN or infinity are left out and made up for, and such pixels stay as they
@@ -16,4 +16,4 @@ Image blurred(const Image& image, double radius);
 // Both of one size.
 Image shifted(const Image& reference, const Image& test, int radius);
 
-}  // namespace diptych
+}  // namespace diptych::metrics

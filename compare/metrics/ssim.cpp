@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace diptych {
+namespace diptych::metrics {
 namespace {
 
 constexpr int radius = 5, bandHeight = 16;
@@ -149,4 +149,4 @@ std::optional<double> ssim(const Image& reference, const Image& test, std::span<
     return total.value / static_cast<double>(total.count);
 }
 
-}  // namespace diptych
+}  // namespace diptych::metrics

@@ -19,9 +19,9 @@ class Card {
     this.element = element;
     this.pair = element.querySelector('.pair');
     this.slider = element.querySelector('.pair input');
-    this.films = [...element.querySelectorAll('.film')];
+    this.panels = [...element.querySelectorAll('.panel')];
     this.readout = element.querySelector('.readout');
-    const image = element.querySelector('.film img');
+    const image = element.querySelector('.panel img');
     this.width = +image.getAttribute('width');
     this.height = +image.getAttribute('height');
     this.mode = 'wipe';
@@ -56,9 +56,9 @@ class Card {
     this.slider.value = at;
   }
 
-  // Zooms so that what was at (fromX, fromY) of the film comes to (fx, fy); a pixel grows to 48 of the screen's.
+  // Zooms so that what was at (fromX, fromY) of the panel comes to (fx, fy); a pixel grows to 48 of the screen's.
   zoomTo(zoom, fx = 0.5, fy = 0.5, fromX = fx, fromY = fy) {
-    const most = Math.max(1, 48 * this.width / Math.max(this.films[0].clientWidth, 1));
+    const most = Math.max(1, 48 * this.width / Math.max(this.panels[0].clientWidth, 1));
     const u = fromX / this.zoom - this.x, v = fromY / this.zoom - this.y;
     this.zoom = clamp(zoom, 1, most);
     this.moveTo(fx / this.zoom - u, fy / this.zoom - v);
@@ -69,26 +69,26 @@ class Card {
     for (const [name, value] of [['--z', this.zoom], ['--x', this.x], ['--y', this.y]])
       this.element.style.setProperty(name, value);
     this.element.classList.toggle('zoomed', this.zoom > 1);
-    this.films.forEach(film => this.sharpen(film));
+    this.panels.forEach(panel => this.sharpen(panel));
   }
   // Where a pixel is larger than one of the screen's it is shown as what it is.
-  sharpen(film) {
-    film.classList.toggle('enlarged', film.clientWidth * this.zoom > this.width);
+  sharpen(panel) {
+    panel.classList.toggle('enlarged', panel.clientWidth * this.zoom > this.width);
   }
-  // Part of a film, 0 to 1, and the pixel there.
-  place(film, event) {
-    const box = film.getBoundingClientRect();
+  // Part of a panel, 0 to 1, and the pixel there.
+  place(panel, event) {
+    const box = panel.getBoundingClientRect();
     return [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
   }
-  point(film, event) {
-    const [fx, fy] = this.place(film, event);
+  point(panel, event) {
+    const [fx, fy] = this.place(panel, event);
     this.pointAt(Math.floor((fx / this.zoom - this.x) * this.width), Math.floor((fy / this.zoom - this.y) * this.height));
   }
   pointAt(x, y) {
     this.pixel = [clamp(x, 0, this.width - 1), clamp(y, 0, this.height - 1)];
     if (!this.element.classList.contains('pointed')) {
       this.element.classList.add('pointed');
-      for (const film of this.films) film.append(Object.assign(document.createElement('i'), { className: 'ring cursor' }));
+      for (const panel of this.panels) panel.append(Object.assign(document.createElement('i'), { className: 'ring cursor' }));
     }
     this.element.style.setProperty('--u', (this.pixel[0] + 0.5) / this.width);
     this.element.style.setProperty('--v', (this.pixel[1] + 0.5) / this.height);
@@ -109,7 +109,7 @@ class Card {
   }
 
   // ---- The numbers under the cursor
-  say(...rows) {
+  showRows(...rows) {
     this.readout.replaceChildren(...rows.map(([name, text]) => {
       const row = document.createElement('span');
       row.append(Object.assign(document.createElement('b'), { textContent: name }), ' ' + text);
@@ -120,15 +120,15 @@ class Card {
     const name = this.readout && this.readout.dataset.values, there = `${this.pixel[0]}, ${this.pixel[1]}`;
     if (!name) return;
     const file = values.get(name);
-    if (file) return this.tell(file, there);
-    if (!window.DecompressionStream) return this.say([there, 'this browser cannot unpack the values']);
+    if (file) return this.showValues(file, there);
+    if (!window.DecompressionStream) return this.showRows([there, 'this browser cannot unpack the values']);
     if (values.has(name)) return;
     values.set(name, null);
     waiting.set(name, [() => this.read()]);
-    this.say([there, 'loading the values']);
-    addScript(name, () => this.say([there, `${name} is not beside this page`]));
+    this.showRows([there, 'loading the values']);
+    addScript(name, () => this.showRows([there, `${name} is not beside this page`]));
   }
-  tell(file, there) {
+  showValues(file, there) {
     const pixel = this.pixel[1] * this.width + this.pixel[0];
     const names = JSON.parse(this.readout.dataset.names);
     const rows = names.map((name, i) => [name, file.of(i, pixel).map(v => file.text(v)).join(' ')]);
@@ -136,6 +136,6 @@ class Card {
       const error = file.error(pixel);
       rows.push(['difference', error === 0 ? '0' : +error.toPrecision(4) + this.readout.dataset.unit]);
     }
-    this.say([there, file.file.exact ? 'exact' : 'quantised: float16, 11 bits'], ...rows);
+    this.showRows([there, file.file.exact ? 'exact' : 'quantised: float16, 11 bits'], ...rows);
   }
 }

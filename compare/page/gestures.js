@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // ---- Pointers: hover tells, drag wipes or pans, two fingers zoom.
 
-const filmOf = event => event.target.closest && event.target.closest('.card .film');
+const panelOf = event => event.target.closest && event.target.closest('.card .panel');
 const pointers = new Map();
-let drag = null;  // { card, film, kind, last }
+let drag = null;  // { card, panel, kind, last }
 
 function spread() {
   const [a, b] = [...pointers.values()];
@@ -12,34 +12,34 @@ function spread() {
 }
 
 addEventListener('pointerdown', event => {
-  const film = filmOf(event), card = cardOf(film);
+  const panel = panelOf(event), card = cardOf(panel);
   if (!card || event.button > 0) return;
   current = card;
   pointers.set(event.pointerId, event);
-  if (event.isTrusted) film.setPointerCapture(event.pointerId);  // a drag may leave the window
-  card.point(film, event);
-  (card.slider || film).focus({ preventScroll: true });
+  if (event.isTrusted) panel.setPointerCapture(event.pointerId);  // a drag may leave the window
+  card.point(panel, event);
+  (card.slider || panel).focus({ preventScroll: true });
   if (pointers.size === 2) {
-    drag = { card, film, kind: 'pinch', last: spread() };
+    drag = { card, panel, kind: 'pinch', last: spread() };
     return;
   }
-  const [fx] = card.place(film, event), width = film.clientWidth;
-  const wipes = card.pair && card.pair.contains(film) && card.mode !== 'side' &&
+  const [fx] = card.place(panel, event), width = panel.clientWidth;
+  const wipes = card.pair && card.pair.contains(panel) && card.mode !== 'side' &&
     (card.zoom === 1 || card.mode === 'wipe' && Math.abs(fx - card.at / 100) * width < 20);
-  drag = { card, film, kind: wipes ? 'wipe' : 'pan', last: event };
+  drag = { card, panel, kind: wipes ? 'wipe' : 'pan', last: event };
   if (wipes && event.pointerType !== 'touch') card.show('wipe', 100 * fx);
 });
 
 addEventListener('pointermove', event => {
   if (pointers.has(event.pointerId)) pointers.set(event.pointerId, event);
-  const film = filmOf(event);
-  if (film) (current = cardOf(film)).point(film, event);
+  const panel = panelOf(event);
+  if (panel) (current = cardOf(panel)).point(panel, event);
   if (!drag || !pointers.has(event.pointerId)) return;
   const { card, last } = drag, now = drag.kind === 'pinch' ? spread() : event;
-  const [fx, fy] = card.place(drag.film, now);
+  const [fx, fy] = card.place(drag.panel, now);
   if (drag.kind === 'wipe') card.show('wipe', 100 * fx);
   else {
-    const [lx, ly] = card.place(drag.film, last);
+    const [lx, ly] = card.place(drag.panel, last);
     card.zoomTo(card.zoom * (drag.kind === 'pinch' ? now.size / last.size : 1), fx, fy, lx, ly);
   }
   drag.last = now;
@@ -50,15 +50,15 @@ for (const end of ['pointerup', 'pointercancel'])
     if (!pointers.delete(event.pointerId) || !drag) return;
     drag = pointers.size === 1 ? { ...drag, kind: 'pan', last: [...pointers.values()][0] } : null;
   });
-addEventListener('dragstart', event => { if (filmOf(event)) event.preventDefault(); });
+addEventListener('dragstart', event => { if (panelOf(event)) event.preventDefault(); });
 
 // The wheel scrolls the page, unless the card has been clicked into or Ctrl is held.
 addEventListener('wheel', event => {
-  const film = filmOf(event), card = cardOf(film);
+  const panel = panelOf(event), card = cardOf(panel);
   if (!card || !(event.ctrlKey || card.element.contains(document.activeElement))) return;
   event.preventDefault();
   current = card;
-  card.zoomTo(card.zoom * 2 ** (-event.deltaY * (event.deltaMode ? 16 : 1) / 240), ...card.place(film, event));
+  card.zoomTo(card.zoom * 2 ** (-event.deltaY * (event.deltaMode ? 16 : 1) / 240), ...card.place(panel, event));
 }, { passive: false });
 
 addEventListener('input', event => {
@@ -67,7 +67,7 @@ addEventListener('input', event => {
 
 // ---- Buttons and keys: the page's legend names them.
 
-const deeds = {
+const actions = {
   in: card => card.zoomTo(card.zoom * 1.5),
   out: card => card.zoomTo(card.zoom / 1.5),
   fit: card => card.zoomTo(1),
@@ -101,7 +101,7 @@ addEventListener('click', event => {
   if (card) current = card;
   if (button.dataset.show) card.show(button.dataset.show, button.dataset.show === 'wipe' ? 50 : undefined);
   else if (button.dataset.do === 'copy') copy(button);
-  else if (button.dataset.do) deeds[button.dataset.do](card);
+  else if (button.dataset.do) actions[button.dataset.do](card);
 });
 
 // An animation that nobody clicked for is not started where the system asks for calm.
@@ -110,7 +110,7 @@ const keys = {
   1: card => card.show('left'), 2: card => card.show('right'), w: card => card.show('wipe'),
   s: card => card.show('side'), f: card => { if (!calm.matches) card.show('flicker'); },
   Escape: card => { if (card.mode === 'flicker') card.show('wipe'); },
-  '+': deeds.in, '=': deeds.in, '-': deeds.out, 0: deeds.fit, n: deeds.next, p: deeds.previous,
+  '+': actions.in, '=': actions.in, '-': actions.out, 0: actions.fit, n: actions.next, p: actions.previous,
 };
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
@@ -120,7 +120,7 @@ addEventListener('keydown', event => {
   if (!card || !card.element.open) return;
   if (keys[event.key]) {
     keys[event.key](card);
-  } else if (arrows[event.key] && focused && document.activeElement.matches('.film, .pair input')) {
+  } else if (arrows[event.key] && focused && document.activeElement.matches('.panel, .pair input')) {
     const [dx, dy] = arrows[event.key], step = event.shiftKey ? 0.25 : 0.05;
     if (card.zoom > 1) card.moveTo(card.x - dx * step / card.zoom, card.y - dy * step / card.zoom);
     else if (card.mode === 'wipe' && dx) card.show('wipe', card.at + dx * (event.shiftKey ? 10 : 1));
@@ -139,9 +139,9 @@ addEventListener('toggle', event => {
   if (card && card.mode === 'flicker') card.show('wipe');
 }, true);
 addEventListener('load', event => {
-  const film = event.target.closest && event.target.closest('.film');
-  if (film) cardOf(film).sharpen(film);
+  const panel = event.target.closest && event.target.closest('.panel');
+  if (panel) cardOf(panel).sharpen(panel);
 }, true);
 addEventListener('resize', () => {
-  for (const film of document.querySelectorAll('.card[open] .film')) cardOf(film).sharpen(film);
+  for (const panel of document.querySelectorAll('.card[open] .panel')) cardOf(panel).sharpen(panel);
 });

@@ -44,8 +44,8 @@ if (index) {
     const words = filter.value.toLowerCase().split(/\s+/);
     let count = 0;
     for (const line of lines) {
-      line.said ??= line.textContent.toLowerCase();
-      line.hidden = !words.every(word => line.said.includes(word));
+      line.search_text ??= line.textContent.toLowerCase();
+      line.hidden = !words.every(word => line.search_text.includes(word));
       count += !line.hidden;
     }
     shown.textContent = count === lines.length ? '' : `${count} of ${lines.length}`;

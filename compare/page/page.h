@@ -2,9 +2,9 @@
 // The style and the scripts beside this file, as they stand in every index.html; embedded at build time.
 #pragma once
 
-namespace diptych {
+namespace diptych::page {
 
-extern const char* const pageStyle;
-extern const char* const pageScript;
+extern const char* const style;
+extern const char* const script;
 
-}  // namespace diptych
+}  // namespace diptych::page

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace diptych {
+namespace diptych::page {
 namespace {
 
 // The code point that begins at text[at] and its length in bytes; U+FFFD and 1 where there is none.
@@ -79,4 +79,4 @@ std::string cameraTitle(const Frame& frame) {
     return frame.settings.camera.empty() ? "default view" : frame.settings.camera;
 }
 
-}  // namespace diptych
+}  // namespace diptych::page

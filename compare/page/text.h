@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace diptych {
+namespace diptych::page {
 
 // Text for HTML and XML, in elements and attributes: markup is escaped; what is no UTF-8, or no character
 // that XML 1.0 allows, becomes U+FFFD.
@@ -23,4 +23,4 @@ const char* unitOf(const DebugMode& mode);  // of its errors: a degree sign, or 
 // "default view", or the camera's name, or what was asked for.
 std::string cameraTitle(const Frame& frame);
 
-}  // namespace diptych
+}  // namespace diptych::page

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's own script, in the order values, card, hands, index. It works from file://: whatever it loads is a
+// The page's own script, in the order values, card, gestures, index. It works from file://: whatever it loads is a
 // picture, or a script beside the page.
 'use strict';
 

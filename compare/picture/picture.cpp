@@ -185,7 +185,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
     return {};
 }
 
-Image8 picture(const DebugMode& mode, const Frame& frame, const PictureScale& scale) {
+Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureScale& scale) {
     const Image& image = frame.channels.at(mode.number);
     const Coverage seen = coverage(frame, frame);
     const Rgb8 background =

@@ -44,7 +44,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
 
 // The picture of one channel that `frame` has. Background pixels of lit show frame.background, of others
 // nothing; a NaN or infinity is magenta.
-Image8 picture(const DebugMode& mode, const Frame& frame, const PictureScale& scale);
+Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureScale& scale);
 
 // One tone curve: Khronos PBR Neutral (Khronos Group 2024), which leaves what is below 0.8 nearly as it is.
 std::array<float, 3> pbrNeutral(std::array<float, 3> rgb);

@@ -7,18 +7,20 @@
 
 namespace diptych {
 
-std::string at(double length) {
+using page::markup;
+
+std::string svgNumber(double length) {
     return fmt::format("{:.1f}", length);
 }
 
 void Drawing::line(const char* kind, double x1, double y1, double x2, double y2) {
-    lines_ += fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", kind, at(x1),
-                          at(y1), at(x2), at(y2));
+    lines_ += fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>", kind, svgNumber(x1),
+                          svgNumber(y1), svgNumber(x2), svgNumber(y2));
 }
 
 void Drawing::text(const char* kind, double x, double y, const std::string& words) {
-    texts_ +=
-        fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>", kind, at(x), at(y), markup(words));
+    texts_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>", kind, svgNumber(x), svgNumber(y),
+                          markup(words));
 }
 
 void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x,
@@ -36,7 +38,7 @@ void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Pl
     line("axis", box.left, box.top, box.left, box.bottom);
     text("name middle", (box.left + box.right) / 2, box.bottom + 47, xName);
     texts_ += fmt::format("<text class=\"name middle\" transform=\"translate({} {}) rotate(-90)\">{}</text>",
-                          at(box.left - 56), at((box.top + box.bottom) / 2), markup(yName));
+                          svgNumber(box.left - 56), svgNumber((box.top + box.bottom) / 2), markup(yName));
 }
 
 std::string plotElement(double width, double height, const std::string& title, PlotPlace place,

@@ -38,7 +38,7 @@ private:
 };
 
 // A length with one digit behind the point.
-std::string at(double length);
+std::string svgNumber(double length);
 
 // The element around a plot's markup.
 std::string plotElement(double width, double height, const std::string& title, PlotPlace place,

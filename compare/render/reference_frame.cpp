@@ -73,7 +73,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
                           std::back_inserter(frame.notes));
     frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
     frame.channels = std::move(picture.channels);
-    frame.asked = options.asked;
+    frame.requested = options.requested;
     if (!picture.uncertainty.empty()) {
         frame.relative_uncertainty =
             uncertaintyOf(picture.uncertainty, frame.channels.at(lit), coverage(frame, frame));

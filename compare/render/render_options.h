@@ -18,12 +18,12 @@ class Checkpoint;
 struct RenderOptions {
     // Debug modes; a forward-only one is left out of a deferred Frame. Empty: it is timed, and nothing else.
     std::vector<int> channels;
-    std::vector<int> asked;        // of these, Frame::asked; empty: all
+    std::vector<int> requested;    // of these, Frame::requested; empty: all
     int runs = 5;                  // timed frames; 0: no times, no profile
     bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding
     bool twice = false;            // every channel once more, for Frame::noise
-    std::function<void(const std::string&)> said;  // called before each step with a word on it, for -v
-    Stage progress;                                // of renderAll()
+    std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
+    Stage progress;                                   // of renderAll()
     // Where a reference keeps what is done of it, as reference::Request::keep; asked once for each. Empty:
     // nowhere.
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};

@@ -35,39 +35,39 @@ public:
           scene_(views.scene()),
           settings_(settings),
           options_(options),
-          drawn_(device, shared, views.at(viewRequest(settings)), settings) {}
+          prepared_(device, shared, views.at(viewRequest(settings)), settings) {}
 
     Frame make() {
         const auto start = std::chrono::steady_clock::now();
-        frame_ = describedFrame(drawn_, shared_, scene_, settings_);
+        frame_ = describedFrame(prepared_, shared_, scene_, settings_);
         drawTimed();
-        lit_ = readLit(drawn_);
-        frame_.counters.overflowed_lists = drawn_.view.buffers.lists().overflowed();
+        lit_ = readLit(prepared_);
+        frame_.counters.overflowed_lists = prepared_.view.buffers.lists().overflowed();
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
         if (!options_.channels.empty()) capture();
-        frame_.asked = options_.asked;
+        frame_.requested = options_.requested;
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return std::move(frame_);
     }
 
 private:
-    void say(const std::string& step) const {
-        if (options_.said) options_.said(frame_.name + ": " + step);
+    void announce(const std::string& step) const {
+        if (options_.on_step) options_.on_step(frame_.name + ": " + step);
     }
     // Before something that takes about as long as `frames` timed frames do.
     void step(const std::string& what, double frames = 1) {
         options_.progress.at(framesDone_ / framesIn(options_), frame_.name + ": " + what);
         framesDone_ += frames;
     }
-    bool asked(int mode) const {
+    bool isRequested(int mode) const {
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
     // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
     void drawTimed() {
-        PassList& passes = drawn_.passes;
-        say("draw");
+        PassList& passes = prepared_.passes;
+        announce("draw");
         step("first frame");
         passes.run();
         std::vector<double> ms;
@@ -80,7 +80,7 @@ private:
         if (options_.runs > 0)
             for (const PassMs& pass : passes.profile(0, passes.size()))
                 frame_.passes.push_back({pass.name, pass.ms});
-        frame_.bytes = bytesOf(drawn_, shared_);
+        frame_.bytes = bytesOf(prepared_, shared_);
     }
 
     // lit, to be held against the timed one, and every channel asked for that this path can make.
@@ -93,18 +93,18 @@ private:
                 request.modes.push_back(mode);
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)
-                if (asked(mode)) request.through_gbuffer.push_back(mode);
+                if (isRequested(mode)) request.through_gbuffer.push_back(mode);
         return request;
     }
 
     // Every channel, over what the timed frame left; lit itself stays the timed pipeline's.
     void capture() {
-        PassList& passes = drawn_.passes;
-        say("capture");
+        PassList& passes = prepared_.passes;
+        announce("capture");
         step("capture channels", captureFrames);
         const std::size_t first = passes.size();
         const std::vector<CapturedImage> captured =
-            drawn_.path.capture(passes, drawn_.view.inputs, drawn_.images, captureRequest());
+            prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         std::vector<PassList::ReadBack> requests;
         for (const CapturedImage& c : captured) requests.push_back({c.image, debugMode(c.mode).width});
         const auto read = [&] {
@@ -119,17 +119,17 @@ private:
             unequalPixels(frame_.channels[lit], lit_, device_.info().isCpu() ? 0 : gpuUlps);
         frame_.channels[lit] = std::move(lit_);
         if (options_.twice) {
-            say("once more");
+            announce("once more");
             step("draw once more", 2);
             passes.run(0, first);
-            addNoise(lit, readLit(drawn_));
+            addNoise(lit, readLit(prepared_));
             step("capture once more", captureFrames);
             channels = read();
             for (std::size_t i = 0; i < captured.size(); ++i)
                 if (!captured[i].through_gbuffer && captured[i].mode != lit)
                     addNoise(captured[i].mode, channels[i]);
         }
-        if (!asked(lit)) frame_.channels.erase(lit);
+        if (!isRequested(lit)) frame_.channels.erase(lit);
     }
 
     // The second run of a channel against the first.
@@ -150,7 +150,7 @@ private:
     const Settings& settings_;
     const RenderOptions& options_;
     double framesDone_ = 0;
-    PreparedFrame drawn_;
+    PreparedFrame prepared_;
     Frame frame_;
     Image lit_;
 };
@@ -204,7 +204,7 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
     RenderOptions capture;
     capture.channels = reference::surfaceChannels();
     capture.runs = 0;
-    capture.said = options.said;
+    capture.on_step = options.on_step;
     const Frame surfaces =
         FrameMaker(state_->device, state_->shared, state_->views, surfaceSettings(settings), capture).make();
     return drawReferenceFrame(scene, view, settings, &surfaces, options);

@@ -26,7 +26,7 @@ void writePicture(const std::filesystem::path& file, const Frame& frame, const D
     const Exposure exposure =
         exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));
     const Frame* frames[] = {&frame};
-    writePng(file, picture(shown, frame, scaleFor(shown, exposure, frames)));
+    writePng(file, channelPicture(shown, frame, scaleFor(shown, exposure, frames)));
 }
 
 }  // namespace

@@ -13,6 +13,11 @@
 #include <set>
 
 namespace diptych {
+
+using page::cameraTitle;
+using page::markup;
+using page::number;
+
 namespace {
 
 std::string titleOf(const Report& report, const Comparison& comparison) {
@@ -68,7 +73,7 @@ std::string firstOf(const std::vector<std::string>& items, const char* elsewhere
     return out;
 }
 
-std::string saidFirst(const Report& report) {
+std::string firstNotes(const Report& report) {
     std::vector<std::string> items;
     for (const std::string& line : report.first_notes) items.push_back(markup(line));
     return listBox("notes", "Before anything else", firstOf(items, "report.json has all of them"));
@@ -117,7 +122,7 @@ std::string notes(const Report& report) {
 }
 
 // Where to look last: what passes may still be wrong in both paths.
-std::string marksLinks(const Report& report, const ReportLayout& layout) {
+std::string checksLinks(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
@@ -131,7 +136,7 @@ std::string marksLinks(const Report& report, const ReportLayout& layout) {
     return listBox("notes", "Both paths may be wrong alike", firstOf(items, "each comparison lists its own"));
 }
 
-// What the script understands: compare/report/page/hands.js.
+// What the script understands: compare/page/gestures.js.
 constexpr const char* legend =
     "<details class=\"keys box\"><summary>Keys and gestures</summary><dl>"
     "<dt><kbd>1</kbd> <kbd>2</kbd></dt><dd>left, right picture alone</dd>"
@@ -230,8 +235,8 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 }  // namespace
 
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
-    std::string body = header(report) + saidFirst(report) + failures(report, layout) +
-                       warnings(report, layout) + notes(report) + marksLinks(report, layout) +
+    std::string body = header(report) + firstNotes(report) + failures(report, layout) +
+                       warnings(report, layout) + notes(report) + checksLinks(report, layout) +
                        closerPathSection(report, layout) + indexTable(report, layout) + legend +
                        "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
@@ -241,7 +246,7 @@ std::string reportHtml(const Report& report, const ReportLayout& layout) {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: {}</title>\n<style>{}</style>"
         "</head>\n<body>\n{}{}<script>{}</script>\n</body></html>\n",
-        markup(verdictLine(report)), pageStyle, body, footer(report, layout), pageScript);
+        markup(verdictLine(report)), page::style, body, footer(report, layout), page::script);
 }
 
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index) {

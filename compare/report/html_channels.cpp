@@ -10,6 +10,11 @@
 #include <nlohmann/json.hpp>
 
 namespace diptych {
+
+using page::markup;
+using page::number;
+using page::unitOf;
+
 namespace {
 
 constexpr int loupeRadius = 8, loupeZoom = 8;  // 17 x 17 pixels, each 8 wide: .loupe of the style
@@ -53,15 +58,17 @@ public:
 
 private:
     // What moves and is zoomed; `over` lies on it and keeps its size.
-    std::string film(const std::string& picture, const std::string& alt, const std::string& over = "") const {
+    std::string panel(const std::string& picture, const std::string& alt,
+                      const std::string& over = "") const {
         return fmt::format(
-            "<div class=\"film\" tabindex=\"-1\"><img loading=\"lazy\" width=\"{}\" height=\"{}\" src=\"{}\" "
+            "<div class=\"panel\" tabindex=\"-1\"><img loading=\"lazy\" width=\"{}\" height=\"{}\" "
+            "src=\"{}\" "
             "alt=\"{}\">{}</div>",
             left_.settings.size.width, left_.settings.size.height, layout_.source(picture), markup(alt),
             over);
     }
 
-    std::string worstMark() const {
+    std::string worstRing() const {
         const ChannelStats& s = channel_.stats;
         if (s.worst_x < 0) return {};
         return fmt::format("<i class=\"ring\" style=\"--u:{:.5f};--v:{:.5f}\"></i>",
@@ -128,13 +135,13 @@ private:
         return fmt::format(
             "<p class=\"again\"><span class=\"soft\">again, from the same folder</span> <code>{}</code>"
             "<button data-do=\"copy\">copy</button></p>\n",
-            markup(shellLine(with(command_, "--channels", std::string(channel_.mode->name)))));
+            markup(shellLine(withOption(command_, "--channels", std::string(channel_.mode->name)))));
     }
 
     std::string pair() const {
         const auto stage = [&](const char* side, const Frame& frame, const std::string& picture) {
             return fmt::format("<div class=\"stage {}\">{}<span class=\"tag\">{}</span></div>", side,
-                               film(picture, fmt::format("{} of {}", channel_.mode->name, frame.name)),
+                               panel(picture, fmt::format("{} of {}", channel_.mode->name, frame.name)),
                                markup(frame.name));
         };
         return fmt::format(
@@ -171,7 +178,7 @@ private:
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{}</span><span>{} "
             "({})</span></div></div><span>black: equal</span>{}</figcaption></figure>\n",
-            film(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstMark()),
+            panel(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstRing()),
             stops, number(pictures_.error_top / 4), number(pictures_.error_top),
             channel_.shown_error ? markup(channel_.shown_error_name)
             : toTolerance        ? "tolerance"
@@ -236,7 +243,7 @@ private:
             "<div class=\"pictures one\"><figure><div "
             "class=\"stage\">{}</div><figcaption>{}<span>{}</span></figcaption>"
             "{}</figure></div><p class=\"because\">{}</p>\n",
-            film(picture, std::string(channel_.mode->name)), zoomButtons(), markup(pictures_.scale.words),
+            panel(picture, std::string(channel_.mode->name)), zoomButtons(), markup(pictures_.scale.words),
             readout(), markup(channel_.tolerance.because));
     }
 

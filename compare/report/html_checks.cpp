@@ -10,6 +10,9 @@
 #include <cmath>
 
 namespace diptych {
+
+using page::markup;
+
 namespace {
 
 // Part of the picture, in pixels.
@@ -46,15 +49,15 @@ public:
     }
 
     std::string html() const {
-        if (comparison_.marks.empty()) return {};
+        if (comparison_.visual_checks.empty()) return {};
         std::string views, rows;
         std::size_t number = first_;
-        for (const FeatureChecks& feature : comparison_.marks) {
+        for (const FeatureChecks& feature : comparison_.visual_checks) {
             rows += rowsOf(feature, number);
-            for (const VisualCheck& mark : feature.marks) views += view(feature, mark, number++);
+            for (const VisualCheck& check : feature.checks) views += view(feature, check, number++);
         }
         return fmt::format(
-            "<section class=\"marks\" id=\"eye-{}\"><h2>To check by eye</h2>\n"
+            "<section class=\"checks\" id=\"eye-{}\"><h2>To check by eye</h2>\n"
             "<p class=\"soft\">Here both paths can be wrong alike, and no comparison shows it. Each place "
             "leads to "
             "its picture.</p>\n{}<div class=\"views\">{}</div>\n"
@@ -67,7 +70,7 @@ public:
 private:
     static std::size_t countOf(const Comparison& comparison) {
         std::size_t count = 0;
-        for (const FeatureChecks& feature : comparison.marks) count += feature.marks.size();
+        for (const FeatureChecks& feature : comparison.visual_checks) count += feature.checks.size();
         return count;
     }
 
@@ -87,7 +90,7 @@ private:
     }
 
     // Where no light falls the base colour still shows what there is to see.
-    std::size_t channelFor(const VisualCheck& mark) const { return isDark(mark.box) ? dark_ : lit_; }
+    std::size_t channelFor(const VisualCheck& check) const { return isDark(check.box) ? dark_ : lit_; }
 
     // Whether under a tenth of the box reaches a hundredth of white in the picture of lit.
     bool isDark(const PixelBox& box) const {
@@ -124,19 +127,19 @@ private:
         return fmt::format("eye-{}-{}-{}", index_, comparison_.channels[channel].mode->name, side);
     }
 
-    std::string panel(std::size_t channel, char which, const Frame& frame, const VisualCheck& mark) const {
-        const Region r = regionAround(mark.box, frame.settings.size);
+    std::string panel(std::size_t channel, char which, const Frame& frame, const VisualCheck& check) const {
+        const Region r = regionAround(check.box, frame.settings.size);
         const auto edge = [&](const char* style) {
             return fmt::format("<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", style,
-                               mark.box.x0, mark.box.y0, mark.box.x1 - mark.box.x0,
-                               mark.box.y1 - mark.box.y0);
+                               check.box.x0, check.box.y0, check.box.x1 - check.box.x0,
+                               check.box.y1 - check.box.y0);
         };
         return fmt::format(
             "<div class=\"stage {}\"><svg viewBox=\"{:.7g} {:.7g} {:.7g} {:.7g}\" role=\"img\" "
             "aria-label=\"{}\">"
             "<use href=\"#{}\"/>{}{}</svg><span class=\"tag\">{}</span></div>",
             which == 'a' ? "left" : "right", r.x, r.y, r.width, r.height,
-            markup(frame.name + ": " + mark.name), idOf(channel, which), edge("under"), edge("edge"),
+            markup(frame.name + ": " + check.name), idOf(channel, which), edge("under"), edge("edge"),
             markup(channel == lit_
                        ? frame.name
                        : fmt::format("{} \u00b7 {}", frame.name, comparison_.channels[channel].mode->name)));
@@ -144,22 +147,22 @@ private:
 
     std::string step(std::size_t number, const char* word) const {
         const bool there = number >= first_ && number < first_ + countOf(comparison_);
-        return there ? fmt::format("<a href=\"#mark-{}\">{}</a>", number, word) : "";
+        return there ? fmt::format("<a href=\"#check-{}\">{}</a>", number, word) : "";
     }
 
-    std::string view(const FeatureChecks& feature, const VisualCheck& mark, std::size_t number) const {
+    std::string view(const FeatureChecks& feature, const VisualCheck& check, std::size_t number) const {
         if (lit_ == npos) return {};
-        const std::size_t channel = channelFor(mark);
+        const std::size_t channel = channelFor(check);
         // Enlarged over twice in a panel of half the page, a pixel is worth seeing as one.
-        const bool near = regionAround(mark.box, left_.settings.size).width < 320;
+        const bool near = regionAround(check.box, left_.settings.size).width < 320;
         return fmt::format(
-            "<figure class=\"box view{}\" id=\"mark-{}\"><div class=\"pair side\">{}{}</div>"
+            "<figure class=\"box view{}\" id=\"check-{}\"><div class=\"pair side\">{}{}</div>"
             "<figcaption><span><b>{}</b> {}</span><span class=\"walk\">{} {}</span>"
             "<span class=\"legend mono\">{} \u00b7 pixels {}, {} to {}, {}{}</span></figcaption></figure>\n",
-            near ? " near" : "", number, panel(channel, 'a', left_, mark), panel(channel, 'b', right_, mark),
-            feature.feature, markup(mark.what), number > 0 ? step(number - 1, "previous") : "",
-            step(number + 1, "next"), markup(mark.where), mark.box.x0, mark.box.y0, mark.box.x1 - 1,
-            mark.box.y1 - 1,
+            near ? " near" : "", number, panel(channel, 'a', left_, check),
+            panel(channel, 'b', right_, check), feature.feature, markup(check.what),
+            number > 0 ? step(number - 1, "previous") : "", step(number + 1, "next"), markup(check.where),
+            check.box.x0, check.box.y0, check.box.x1 - 1, check.box.y1 - 1,
             channel == lit_ ? "" : " \u00b7 no light falls there, so its base colour is shown");
     }
 
@@ -173,27 +176,27 @@ private:
         std::vector<Place> places;
     };
 
-    std::string link(const VisualCheck& mark, std::size_t number, const std::string& text) const {
-        return lit_ != npos ? fmt::format("<a href=\"#mark-{}\" title=\"{}\">{}</a>", number,
-                                          markup(mark.where), markup(text))
-                            : fmt::format("<span title=\"{}\">{}</span>", markup(mark.where), markup(text));
+    std::string link(const VisualCheck& check, std::size_t number, const std::string& text) const {
+        return lit_ != npos ? fmt::format("<a href=\"#check-{}\" title=\"{}\">{}</a>", number,
+                                          markup(check.where), markup(text))
+                            : fmt::format("<span title=\"{}\">{}</span>", markup(check.where), markup(text));
     }
 
-    // One row for all marks of a feature that are right alike.
+    // One row for all checks of a feature that are right alike.
     std::string rowsOf(const FeatureChecks& feature, std::size_t number) const {
         std::vector<Row> rows;
-        for (const VisualCheck& mark : feature.marks) {
-            auto row = std::ranges::find(rows, mark.what, &Row::what);
-            if (row == rows.end()) row = rows.insert(row, {mark.what, {}});
-            auto place = std::ranges::find(row->places, mark.name, &Place::name);
-            if (place == row->places.end()) place = row->places.insert(place, {mark.name, {}});
+        for (const VisualCheck& check : feature.checks) {
+            auto row = std::ranges::find(rows, check.what, &Row::what);
+            if (row == rows.end()) row = rows.insert(row, {check.what, {}});
+            auto place = std::ranges::find(row->places, check.name, &Place::name);
+            if (place == row->places.end()) place = row->places.insert(place, {check.name, {}});
             place->links +=
-                link(mark, number++, ++place->count == 1 ? mark.name : std::to_string(place->count));
+                link(check, number++, ++place->count == 1 ? check.name : std::to_string(place->count));
         }
         std::string head =
             fmt::format("<tr><td><b>{}</b><br><span class=\"soft\">{}</span></td>", feature.feature,
-                        feature.found > feature.marks.size()
-                            ? fmt::format("the {} largest of {}", feature.marks.size(), feature.found)
+                        feature.found > feature.checks.size()
+                            ? fmt::format("the {} largest of {}", feature.checks.size(), feature.found)
                             : fmt::format("{}", feature.found));
         std::string out;
         for (const Row& row : rows) {
@@ -212,7 +215,7 @@ private:
     const ReportLayout& layout_;
     const std::vector<ChannelPictures>& pictures_;  // per channel
     std::size_t index_, lit_, dark_;                // dark_: what is shown where lit is black
-    std::size_t first_ = 0;                         // the number of its first mark
+    std::size_t first_ = 0;                         // the number of its first check
     static constexpr std::size_t npos = ~std::size_t{0};
 };
 

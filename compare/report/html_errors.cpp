@@ -9,6 +9,11 @@
 #include <cmath>
 
 namespace diptych {
+
+using page::markup;
+using page::number;
+using page::unitOf;
+
 namespace {
 
 // The bars are stretched over the figure's width; words stand beside them, at percentages of it.

@@ -9,6 +9,11 @@
 #include <algorithm>
 
 namespace diptych {
+
+using page::bytes;
+using page::cameraTitle;
+using page::markup;
+
 namespace {
 
 std::string bar(double value, double top, char which) {

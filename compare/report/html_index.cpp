@@ -9,6 +9,11 @@
 #include <limits>
 
 namespace diptych {
+
+using page::cameraTitle;
+using page::markup;
+using page::number;
+
 namespace {
 
 // How much of its tolerance a channel uses: infinity where it has none and differs.

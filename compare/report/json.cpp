@@ -49,31 +49,31 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     return json;
 }
 
-Json jsonOf(const FeatureChecks& feature, const VisualCheck& mark) {
-    const PixelBox& box = mark.box;
+Json jsonOf(const FeatureChecks& feature, const VisualCheck& check) {
+    const PixelBox& box = check.box;
     return {{"feature", feature.feature},
-            {"what", mark.what},
-            {"where", mark.where},
+            {"what", check.what},
+            {"where", check.where},
             {"box", {box.x0, box.y0, box.x1, box.y1}},
-            {"pixels", mark.pixels}};
+            {"pixels", check.pixels}};
 }
 
-Json jsonOf(const PathError& standing) {
-    const ChannelStats& s = standing.stats;
+Json jsonOf(const PathError& error) {
+    const ChannelStats& s = error.stats;
     return {{"mean", finiteOrNull(s.mean)},
             {"max", finiteOrNull(s.max)},
             {"rmse", finiteOrNull(s.rmse)},
             {"p99", finiteOrNull(s.p99)},
             {"p999", finiteOrNull(s.p999)},
-            {"relative_rmse", finiteOrNull(standing.relative_rmse)},
-            {"flip", standing.flip ? finiteOrNull(*standing.flip) : Json(nullptr)}};
+            {"relative_rmse", finiteOrNull(error.relative_rmse)},
+            {"flip", error.flip ? finiteOrNull(*error.flip) : Json(nullptr)}};
 }
 
-Json jsonOf(const Report& report, const CloserPath& nearer) {
-    const Frame& truth = report.frames[nearer.truth];
-    const auto name = [&](std::size_t k) { return report.frames[nearer.paths[k]].name; };
+Json jsonOf(const Report& report, const CloserPath& closer) {
+    const Frame& reference = report.frames[closer.reference];
+    const auto name = [&](std::size_t k) { return report.frames[closer.paths[k]].name; };
     Json channels = Json::array();
-    for (const CloserPathChannel& channel : nearer.channels) {
+    for (const CloserPathChannel& channel : closer.channels) {
         Json materials = Json::array();
         for (const MaterialError& m : channel.materials)
             materials.push_back(
@@ -84,7 +84,7 @@ Json jsonOf(const Report& report, const CloserPath& nearer) {
         channels.push_back(
             {{"name", channel.mode->name},
              {"nearer",
-              channel.nearer < 0 ? Json(nullptr) : Json(name(static_cast<std::size_t>(channel.nearer)))},
+              channel.closer < 0 ? Json(nullptr) : Json(name(static_cast<std::size_t>(channel.closer)))},
              {"by", finiteOrNull(channel.by)},
              {"error", {{name(0), jsonOf(channel.paths[0])}, {name(1), jsonOf(channel.paths[1])}}},
              {"between", jsonOf(channel.between)},
@@ -94,7 +94,7 @@ Json jsonOf(const Report& report, const CloserPath& nearer) {
                {"even", channel.even_pixels}}},
              {"materials", materials}});
     }
-    return {{"scene", truth.scene}, {"camera", jsonOf(truth.camera)}, {"channels", channels}};
+    return {{"scene", reference.scene}, {"camera", jsonOf(reference.camera)}, {"channels", channels}};
 }
 
 Json jsonOf(const Report& report, const Comparison& comparison) {
@@ -102,10 +102,10 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
     Json channels = Json::array();
     for (const ChannelDiff& channel : comparison.channels)
         channels.push_back(jsonOf(report, comparison, channel));
-    Json marks = Json::array(), found = Json::object();
-    for (const FeatureChecks& feature : comparison.marks) {
+    Json checks = Json::array(), found = Json::object();
+    for (const FeatureChecks& feature : comparison.visual_checks) {
         found[std::string(feature.feature)] = feature.found;
-        for (const VisualCheck& mark : feature.marks) marks.push_back(jsonOf(feature, mark));
+        for (const VisualCheck& check : feature.checks) checks.push_back(jsonOf(feature, check));
     }
     return {{"scene", baseline.scene},
             {"camera", jsonOf(baseline.camera)},
@@ -116,7 +116,7 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
             {"failures", comparison.failures},
             {"notes", comparison.notes},
             {"channels", channels},
-            {"marks", marks},
+            {"marks", checks},
             {"marks_found", found}};
 }
 
@@ -129,8 +129,8 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
         if (layout) frames.back()["exr"] = layout->exr[i];
     }
     for (const Comparison& comparison : report.comparisons) comparisons.push_back(jsonOf(report, comparison));
-    Json nearer = Json::array();
-    for (const CloserPath& of : report.nearer) nearer.push_back(jsonOf(report, of));
+    Json closer = Json::array();
+    for (const CloserPath& of : report.closer_paths) closer.push_back(jsonOf(report, of));
     Json json{
         {"schema", 1},
         {"software", softwareName},
@@ -140,7 +140,7 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
         {"said_first", report.first_notes},
         {"frames", frames},
         {"comparisons", comparisons},
-        {"truth", nearer},
+        {"truth", closer},
         {"compare_ms", report.diff_ms}};
     if (layout) {
         json["encode_ms"] = layout->encode_ms;

@@ -10,6 +10,11 @@
 #include <algorithm>
 
 namespace diptych {
+
+using page::cameraTitle;
+using page::markup;
+using page::number;
+
 namespace {
 
 std::string failure(const std::string& type, const std::string& message, const std::string& text) {
@@ -102,8 +107,8 @@ private:
             if (!picture->empty())
                 lines += fmt::format("[[ATTACHMENT|{}]]\n", markup((folder_ / *picture).generic_string()));
         if (!comparison_.command.empty())
-            lines += markup("again: " + shellLine(with(comparison_.command, "--channels",
-                                                       std::string(channel.mode->name)))) +
+            lines += markup("again: " + shellLine(withOption(comparison_.command, "--channels",
+                                                             std::string(channel.mode->name)))) +
                      "\n";
         return "      <system-out>" + lines + "</system-out>\n";
     }

@@ -12,6 +12,9 @@
 #include <cmath>
 
 namespace diptych {
+
+using page::cameraTitle;
+
 namespace {
 
 // Letters, digits and single hyphens of `text`, lower case, at most 40.
@@ -78,7 +81,7 @@ std::vector<std::string> ReportLayout::files() const {
             for (const std::string* name :
                  {&channel.baseline, &channel.test, &channel.difference, &channel.values})
                 if (!name->empty()) all.push_back(*name);
-    for (const auto& channels : nearer) all.insert(all.end(), channels.begin(), channels.end());
+    for (const auto& channels : closer_paths) all.insert(all.end(), channels.begin(), channels.end());
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
@@ -110,7 +113,7 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool si
         for (const std::size_t frame : {comparison.baseline, comparison.test})
             if (report.frames[frame].origin.file.empty())
                 layout.exr[frame] =
-                    (report.nearer.size() == 1 ? "" : prefix) + report.frames[frame].name + ".exr";
+                    (report.closer_paths.size() == 1 ? "" : prefix) + report.frames[frame].name + ".exr";
         const auto lit = left.channels.find(gpu::DEBUG_lit);
         const Exposure exposure =
             exposureFor(choice, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);
@@ -121,10 +124,10 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool si
             for (ChannelPictures& channel : channels) channel.values.clear();
         if (!singleFile && places[i] >= comparisonsInPage) layout.sections[i] = prefix + "section.js";
     }
-    for (std::size_t i = 0; i < report.nearer.size(); ++i) {
-        auto& names = layout.nearer.emplace_back();
-        const std::string prefix = report.nearer.size() > 1 ? fmt::format("{}.", i + 1) : "";
-        for (const CloserPathChannel& channel : report.nearer[i].channels)
+    for (std::size_t i = 0; i < report.closer_paths.size(); ++i) {
+        auto& names = layout.closer_paths.emplace_back();
+        const std::string prefix = report.closer_paths.size() > 1 ? fmt::format("{}.", i + 1) : "";
+        for (const CloserPathChannel& channel : report.closer_paths[i].channels)
             names.push_back(fmt::format("{}{}.nearer.png", prefix, channel.mode->name));
     }
     return layout;

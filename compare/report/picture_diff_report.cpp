@@ -68,7 +68,7 @@ ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel
     row.flip = (*channel.measurement)({"flip", 0});
     row.tolerance = {boundOn(channel.rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
                      channel.rule.because};
-    row.rule = fmt::format("{}: {}", channel.rule.origin, wordsOf(channel.rule.fail));
+    row.rule = fmt::format("{}: {}", channel.rule.origin, conditionText(channel.rule.fail));
     (channel.decision.level == Level::warn ? row.warning : row.reason) = channel.decision.reason;
     if (DecidingErrors errors = decidingErrors(diff, channel); !errors.name.empty()) {
         row.shown_error = std::make_shared<Image>(std::move(errors.image));
@@ -90,7 +90,7 @@ void writeFolder(PictureDiff& diff, const Output& output, const ReportOptions& o
     comparison.test = 1;
     comparison.coverage = *diff.coverage;
     comparison.notes = diff.notes;
-    comparison.command = with({"diff", diff.reference, diff.test}, words);
+    comparison.command = withWords({"diff", diff.reference, diff.test}, words);
     for (std::size_t i = 0; i < modes.size(); ++i)
         comparison.channels.push_back(channelOf(diff, *diff.channels[i], modes[i]));
     for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, modes, test));

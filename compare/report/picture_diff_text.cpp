@@ -13,6 +13,9 @@
 #include <cmath>
 
 namespace diptych {
+
+using page::number;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -102,7 +105,7 @@ Json channelJson(const PictureChannelDiff& channel) {
     json["worst_pixel"] = channel.worst_x >= 0 ? Json{channel.worst_x, channel.worst_y} : Json(nullptr);
     const Condition* bound = singleBound(channel);
     json["tolerance"] = bound ? numberOrWord(bound->limit) : Json(nullptr);
-    json["rule"] = fmt::format("{}: {}", channel.rule.origin, wordsOf(channel.rule.fail));
+    json["rule"] = fmt::format("{}: {}", channel.rule.origin, conditionText(channel.rule.fail));
     json["because"] = channel.rule.because;
     json["verdict"] = channel.decision.level == Level::fail ? "fail" : "pass";
     if (channel.decision.level == Level::warn) json["warning"] = channel.decision.reason;
@@ -145,7 +148,7 @@ std::string pictureDiffTable(const PictureDiff& diff) {
     for (const PictureChannelDiff* channel : failuresFirst(diff))
         if (channel->decision.level == Level::pass && !channel->rule.origin.starts_with("command"))
             out += fmt::format("  {}: {}: {}\n", channel->pair.name, channel->rule.origin,
-                               wordsOf(channel->rule.fail));
+                               conditionText(channel->rule.fail));
     for (const std::string& note : diff.notes) out += "  note: " + note + "\n";
     if (!failed.empty()) return out + "FAIL: " + failed + "\n";
     return out + fmt::format("pass: {} channel{} within tolerance\n", diff.channels.size(),

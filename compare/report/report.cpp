@@ -43,11 +43,11 @@ public:
             for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)
                 addPictures(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
                             layout_.pictures[i][k]);
-        for (std::size_t i = 0; i < report_.nearer.size(); ++i)
-            for (std::size_t k = 0; k < report_.nearer[i].channels.size(); ++k)
+        for (std::size_t i = 0; i < report_.closer_paths.size(); ++i)
+            for (std::size_t k = 0; k < report_.closer_paths[i].channels.size(); ++k)
                 tasks.push_back([this, i, k] {
-                    const Image& apart = report_.nearer[i].channels[k].apart;
-                    write(layout_.nearer[i][k], closerPathPicture(apart, closerPathTop(apart)));
+                    const Image& apart = report_.closer_paths[i].channels[k].apart;
+                    write(layout_.closer_paths[i][k], closerPathPicture(apart, closerPathTop(apart)));
                 });
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
@@ -62,7 +62,8 @@ private:
         const DebugMode& mode = *channel.mode;
         const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
         const auto add = [&](const Frame& frame, const std::string& name) {
-            if (!name.empty()) tasks.push_back([&] { write(name, picture(mode, frame, pictures.scale)); });
+            if (!name.empty())
+                tasks.push_back([&] { write(name, channelPicture(mode, frame, pictures.scale)); });
         };
         add(left, pictures.baseline);
         add(right, pictures.test);
@@ -115,10 +116,10 @@ private:
 
 std::string writeReport(const Report& report, const std::filesystem::path& path,
                         const ReportOptions& options) {
-    constexpr const char* mark = "report.json";
+    constexpr const char* manifest = "report.json";
     const auto earlier = [&] {
-        checkReplaceable({OutputKind::folder, path}, mark, options.force);
-        return markedIn(path, mark);
+        checkReplaceable({OutputKind::folder, path}, manifest, options.force);
+        return manifestFiles(path, manifest);
     };
     earlier();
     OutputFolder folder(path);
@@ -129,7 +130,7 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
     std::string json = reportJson(report, &layout);
-    writeFile(folder / mark, json);
+    writeFile(folder / manifest, json);
     writeFile(folder / "junit.xml", reportJunit(report, layout, path));
     for (std::size_t i = 0; i < layout.sections.size(); ++i)
         if (!layout.sections[i].empty())

@@ -11,6 +11,10 @@
 #include <set>
 
 namespace diptych {
+
+using page::cameraTitle;
+using page::number;
+
 namespace {
 
 using Row = std::array<std::string, 7>;
@@ -49,7 +53,7 @@ std::string frameLine(const Frame& frame) {
 std::string reportTable(const Report& report) {
     std::string out;
     for (const std::string& line : report.first_notes) out += line + "\n";
-    std::set<std::string> said;  // several comparisons of one scene share their notes
+    std::set<std::string> printed;  // several comparisons of one scene share their notes
     for (const Comparison& comparison : report.comparisons) {
         const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
         out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, cameraTitle(baseline),
@@ -83,16 +87,16 @@ std::string reportTable(const Report& report) {
             if (!channel.warning.empty())
                 out +=
                     fmt::format("  warning {}: {} ({})\n", channel.mode->name, channel.warning, channel.rule);
-        if (const std::string marks = checksLine(comparison); !marks.empty()) out += "  " + marks + "\n";
+        if (const std::string checks = checksLine(comparison); !checks.empty()) out += "  " + checks + "\n";
         for (const std::string& note : notesOf(report, comparison))
-            if (said.insert(note).second) out += "  note: " + note + "\n";
+            if (printed.insert(note).second) out += "  note: " + note + "\n";
     }
-    for (const CloserPath& nearer : report.nearer) {
-        if (report.nearer.size() > 1)
-            out += fmt::format("{}, {}:\n", report.frames[nearer.truth].scene,
-                               cameraTitle(report.frames[nearer.truth]));
-        for (const CloserPathChannel& channel : nearer.channels)
-            out += closerPathLine(nearer, channel, report.frames) + "\n";
+    for (const CloserPath& closer : report.closer_paths) {
+        if (report.closer_paths.size() > 1)
+            out += fmt::format("{}, {}:\n", report.frames[closer.reference].scene,
+                               cameraTitle(report.frames[closer.reference]));
+        for (const CloserPathChannel& channel : closer.channels)
+            out += closerPathLine(closer, channel, report.frames) + "\n";
     }
     return out + verdictLine(report) + "\n";
 }

@@ -9,7 +9,7 @@
 
 namespace diptych {
 bool hasSeveralPairs(const Report& report) {
-    return !report.nearer.empty() ||
+    return !report.closer_paths.empty() ||
            std::ranges::any_of(report.frames, [](const Frame& f) { return !f.origin.file.empty(); });
 }
 
@@ -46,7 +46,7 @@ std::vector<std::string> notesOf(const Report& report, const Comparison& compari
 std::string checksLine(const Comparison& comparison) {
     std::uint64_t count = 0;
     std::vector<std::string> features;
-    for (const FeatureChecks& feature : comparison.marks) {
+    for (const FeatureChecks& feature : comparison.visual_checks) {
         count += feature.found;
         features.push_back(fmt::format("{} {}", feature.feature, feature.found));
     }

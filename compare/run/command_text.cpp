@@ -26,8 +26,8 @@ std::string shellWord(const std::string& word) {
 
 }  // namespace
 
-std::vector<std::string> wordsOf(const std::string& command, const std::string& scene,
-                                 const Settings& settings) {
+std::vector<std::string> commandWords(const std::string& command, const std::string& scene,
+                                      const Settings& settings) {
     std::vector<std::string> words{command};
     const Settings usual;
     for (const Field& field : settingFields()) {
@@ -45,14 +45,14 @@ std::vector<std::string> wordsOf(const std::string& command, const std::string& 
     return words;
 }
 
-std::vector<std::string> with(std::vector<std::string> words, const std::string& option,
-                              const std::string& value) {
+std::vector<std::string> withOption(std::vector<std::string> words, const std::string& option,
+                                    const std::string& value) {
     words.insert(words.begin() + 1,
                  {option, value});  // before the scene, after which "--" may have ended options
     return words;
 }
 
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+std::vector<std::string> withWords(std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.begin() + 1, more.begin(), more.end());
     return words;
 }
@@ -64,7 +64,7 @@ std::string shellLine(const std::vector<std::string>& words) {
 }
 
 std::string commandOf(const std::string& command, const std::string& scene, const Settings& settings) {
-    return shellLine(wordsOf(command, scene, settings));
+    return shellLine(commandWords(command, scene, settings));
 }
 
 }  // namespace diptych

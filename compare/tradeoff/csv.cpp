@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 // In quotes where a comma, a quote or a line's end stands in it (RFC 4180).
@@ -96,4 +96,4 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -14,7 +14,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -124,4 +124,4 @@ std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

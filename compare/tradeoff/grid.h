@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // What --grid says, a file or the JSON itself (it begins with { or [): { "settings": { "gbuffer": ["compact",
 // "full"], "size": ["1/2", "320x180"] } } is every combination of these, a list of such one after the other.
@@ -14,4 +14,4 @@ namespace diptych {
 // is wrong.
 std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given);
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

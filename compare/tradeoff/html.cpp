@@ -12,7 +12,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::tradeoff {
+
+using page::bytes;
+using page::markup;
+using page::number;
+
 namespace {
 
 std::string hiddenUnless(bool shown) {
@@ -200,8 +205,8 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, {}</title>\n"
         "<style>{}{}{}</style></head>\n<body>\n{}{}{}{}{}{}<script>{}</script>\n</body></html>\n",
-        markup(tradeoff.scene), pageStyle, plotStyle, tradeoffStyle, header(tradeoff), switches(),
+        markup(tradeoff.scene), page::style, plotStyle, tradeoffStyle, header(tradeoff), switches(),
         plots(tradeoff), table(tradeoff), skips(tradeoff), how(tradeoff), tradeoffScript);
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -5,9 +5,9 @@
 
 #include <string>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // index.html of a sweep: one page without external resources, readable from file://.
 std::string tradeoffHtml(const Tradeoff& tradeoff);
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

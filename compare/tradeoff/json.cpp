@@ -3,7 +3,7 @@
 #include "compare/run/version.h"
 #include "compare/tradeoff/tradeoff.h"
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -87,4 +87,4 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

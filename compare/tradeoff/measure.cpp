@@ -12,7 +12,10 @@
 #include <cmath>
 #include <limits>
 
-namespace diptych {
+namespace diptych::tradeoff {
+
+using page::cameraTitle;
+
 namespace {
 
 constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
@@ -26,7 +29,7 @@ double knownOrInfinite(double value) {
 // lit and what tells the background of it.
 RenderOptions drawingOptions(const RenderOptions& options) {
     RenderOptions drawing = options;
-    drawing.channels = drawing.asked = {lit, ids};
+    drawing.channels = drawing.requested = {lit, ids};
     drawing.twice = drawing.through_gbuffer = false;
     return drawing;
 }
@@ -52,17 +55,17 @@ ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
                                     const RenderOptions& options) {
     RenderOptions drawing = drawingOptions(options);
     drawing.runs = 0;
-    ReferenceFrames truth;
+    ReferenceFrames references;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const double from = static_cast<double>(i), all = static_cast<double>(cameras.size());
         drawing.progress = options.progress.part(from / all, (from + 1) / all);
         Settings settings = referenceSettings(given);
         settings.camera = cameras[i];
-        truth.frames.push_back(renderer.draw(settings, drawing));
+        references.frames.push_back(renderer.draw(settings, drawing));
     }
-    const Frame& first = truth.frames.front();
-    truth.exposure = exposureFor(choice, &first.channels.at(lit), coverage(first, first));
-    return truth;
+    const Frame& first = references.frames.front();
+    references.exposure = exposureFor(choice, &first.channels.at(lit), coverage(first, first));
+    return references;
 }
 
 RelativeErrors relativeErrors(std::vector<double> errors) {
@@ -76,9 +79,9 @@ RelativeErrors relativeErrors(std::vector<double> errors) {
     return {knownOrInfinite(std::sqrt(squares / count)), knownOrInfinite(*nth)};
 }
 
-FrameErrors errorsOf(const Frame& truth, const Frame& frame) {
-    const Image &reference = truth.channels.at(lit), &test = frame.channels.at(lit);
-    const Coverage covered = coverage(truth, truth);  // the same pixels for every row
+FrameErrors errorsOf(const Frame& referenceFrame, const Frame& frame) {
+    const Image &reference = referenceFrame.channels.at(lit), &test = frame.channels.at(lit);
+    const Coverage covered = coverage(referenceFrame, referenceFrame);  // the same pixels for every row
     const DebugMode& mode = debugMode(lit);
     FrameErrors result;
     const PixelError error(mode.metric, mode.kind, reference, covered);
@@ -96,21 +99,21 @@ FrameErrors errorsOf(const Frame& truth, const Frame& frame) {
 
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};
-    return small(picture(debugMode(lit), frame, scaleFor(debugMode(lit), exposure, frames)));
+    return small(channelPicture(debugMode(lit), frame, scaleFor(debugMode(lit), exposure, frames)));
 }
 
-MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& truth,
+MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,
                        const RenderOptions& options) {
     RenderOptions drawing = drawingOptions(options);
     MeasuredRow measured;
     TradeoffRow& row = measured.row;
     row.settings = settings;
-    row.settings.camera = truth.frames.front().settings.camera;
+    row.settings.camera = references.frames.front().settings.camera;
     std::vector<double> pixels;
     double flipSum = 0, flipPixels = 0;
-    for (std::size_t i = 0; i < truth.frames.size(); ++i) {
-        const Frame& reference = truth.frames[i];
-        const double from = static_cast<double>(i), all = static_cast<double>(truth.frames.size());
+    for (std::size_t i = 0; i < references.frames.size(); ++i) {
+        const Frame& reference = references.frames[i];
+        const double from = static_cast<double>(i), all = static_cast<double>(references.frames.size());
         drawing.progress = options.progress.part(from / all, (from + 1) / all);
         Settings seen = settings;
         seen.camera = reference.settings.camera;
@@ -127,29 +130,29 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
         flipSum += errors.flip_sum;
         flipPixels += static_cast<double>(errors.flip_pixels);
         if (i > 0) continue;
-        measured.picture = thumbnail(frame, truth.exposure);
+        measured.picture = thumbnail(frame, references.exposure);
         measured.errors = small(errorPicture(errors.flip, 1));
     }
     const RelativeErrors relative = relativeErrors(std::move(pixels));
     row.errors = {flipPixels > 0 ? knownOrInfinite(flipSum / flipPixels) : 0, relative.rmse, relative.p99};
-    if (truth.frames.size() == 1) row.errors = row.cameras.front().errors;
+    if (references.frames.size() == 1) row.errors = row.cameras.front().errors;
     return measured;
 }
 
-void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& truth,
+void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& references,
                const RenderOptions& options) {
     RenderOptions timing = options;
     timing.channels.clear();
-    timing.asked.clear();
-    for (std::size_t i = 0; i < truth.frames.size(); ++i) {
-        const double from = static_cast<double>(i), all = static_cast<double>(truth.frames.size());
+    timing.requested.clear();
+    for (std::size_t i = 0; i < references.frames.size(); ++i) {
+        const double from = static_cast<double>(i), all = static_cast<double>(references.frames.size());
         timing.progress = options.progress.part(from / all, (from + 1) / all);
         Settings seen = row.settings;
-        seen.camera = truth.frames[i].settings.camera;
+        seen.camera = references.frames[i].settings.camera;
         const Frame frame = renderer.draw(seen, timing);
         row.drawing_ms += frame.made_in_ms;
         row.cameras[i].visits.push_back(frame.time);
     }
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

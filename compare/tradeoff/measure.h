@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // What all rows of a sweep are measured against.
 struct ReferenceFrames {
@@ -27,7 +27,7 @@ struct RelativeErrors {
 };
 RelativeErrors relativeErrors(std::vector<double> errors);
 
-// Errors of a Frame that is as large as its truth; `pixels` gets each covered pixel's relative error.
+// Errors of a Frame that is as large as its reference; `pixels` gets each covered pixel's relative error.
 struct FrameErrors {
     Errors errors{};
     std::vector<double> pixels;
@@ -35,22 +35,22 @@ struct FrameErrors {
     double flip_sum = 0;
     std::uint64_t flip_pixels = 0;
 };
-FrameErrors errorsOf(const Frame& truth, const Frame& frame);
+FrameErrors errorsOf(const Frame& reference, const Frame& frame);
 
 struct MeasuredRow {
     TradeoffRow row;
     Image8 picture, errors;  // of the first camera
 };
-// Draws and times the Settings from every camera of the truth: a first visit. `options`: runs, said,
-// progress.
-MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& truth,
+// Draws and times the Settings from every camera of the reference frames: a first visit. `options`: runs,
+// on_step, progress.
+MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,
                        const RenderOptions& options);
 
 // One visit more, of `options.runs` frames.
-void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& truth,
+void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& references,
                const RenderOptions& options);
 
 // lit as the pages show it, not wider than a card.
 Image8 thumbnail(const Frame& frame, const Exposure& exposure);
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

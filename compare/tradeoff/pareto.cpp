@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points) {
     std::vector<std::size_t> order;
@@ -25,4 +25,4 @@ std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points) {
     return front;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

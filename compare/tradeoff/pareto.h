@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 struct TimeError {
     double time = 0, error = 0;
@@ -14,4 +14,4 @@ struct TimeError {
 // that a tie is seen; a NaN or infinity is never on the front and beats nothing. By time, then by number.
 std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points);
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -10,7 +10,11 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
+namespace diptych::tradeoff {
+
+using page::markup;
+using page::number;
+
 namespace {
 
 // Of the drawing, in its own units.
@@ -98,10 +102,10 @@ private:
         for (const std::size_t row : front_) {
             const double px = x(timeOf(tradeoff_.rows[row]).value),
                          py = y(tradeoff_.rows[row].errors[figure_]);
-            line += line.empty() ? fmt::format("M{} {}V{}", at(px), at(top), at(py))
-                                 : fmt::format("H{}V{}", at(px), at(py));
+            line += line.empty() ? fmt::format("M{} {}V{}", svgNumber(px), svgNumber(top), svgNumber(py))
+                                 : fmt::format("H{}V{}", svgNumber(px), svgNumber(py));
         }
-        return fmt::format("<path class=\"front\" d=\"{}H{}\"/>", line, at(width - right));
+        return fmt::format("<path class=\"front\" d=\"{}H{}\"/>", line, svgNumber(width - right));
     }
 
     std::string point(std::size_t index, bool front, bool file) const {
@@ -116,20 +120,23 @@ private:
             index + 1,
             file ? "" : fmt::format(" tabindex=\"0\" role=\"button\" aria-label=\"{}\"", markup(words)));
         if (file) out += "<title>" + markup(words) + "</title>";
-        out += fmt::format("<path class=\"bar\" d=\"M{} {}H{}", at(x(time.low)), at(py), at(x(time.high)));
+        out += fmt::format("<path class=\"bar\" d=\"M{} {}H{}", svgNumber(x(time.low)), svgNumber(py),
+                           svgNumber(x(time.high)));
         if (error.low < error.value || error.high > error.value)
-            out += fmt::format("M{} {}V{}", at(px), at(y(error.low)), at(y(error.high)));
+            out += fmt::format("M{} {}V{}", svgNumber(px), svgNumber(y(error.low)), svgNumber(y(error.high)));
         return out + "\"/>" + mark(row.settings.path, px, py, front ? 6 : 4.5) +
-               fmt::format("<circle class=\"hit\" cx=\"{}\" cy=\"{}\" r=\"11\"/></g>", at(px), at(py));
+               fmt::format("<circle class=\"hit\" cx=\"{}\" cy=\"{}\" r=\"11\"/></g>", svgNumber(px),
+                           svgNumber(py));
     }
 
     // Told by shape as well as by colour.
     static std::string mark(Path path, double px, double py, double r) {
         if (path == Path::deferred)
-            return fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", at(px), at(py),
-                               at(r));
+            return fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(px),
+                               svgNumber(py), svgNumber(r));
         return fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
-                           at(px - 0.9 * r), at(py - 0.9 * r), at(1.8 * r), at(1.8 * r));
+                           svgNumber(px - 0.9 * r), svgNumber(py - 0.9 * r), svgNumber(1.8 * r),
+                           svgNumber(1.8 * r));
     }
 
     std::string legend() const {
@@ -139,7 +146,8 @@ private:
             const std::string name(nameOf(path));
             px -= 10.0 * static_cast<double>(name.size()) + 22;
             out += fmt::format("<g class=\"point {}\">{}<text class=\"tick\" x=\"{}\" y=\"{}\">{}</text></g>",
-                               name, mark(path, px, top - 17, 4.5), at(px + 9), at(top - 12), name);
+                               name, mark(path, px, top - 17, 4.5), svgNumber(px + 9), svgNumber(top - 12),
+                               name);
         }
         return out;
     }
@@ -163,4 +171,4 @@ std::string plotName(std::size_t figure, std::optional<Path> path) {
     return fmt::format("{}{}.svg", errorFigures[figure].name, path ? "." + std::string(nameOf(*path)) : "");
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

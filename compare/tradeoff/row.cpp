@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -160,4 +160,4 @@ TradeoffRow tradeoffRowFrom(const Json& json) {
     return row;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // Of lit against the reference, over the pixels that show a surface there: the same for every row.
 struct ErrorFigure {
@@ -65,4 +65,4 @@ nlohmann::ordered_json jsonOf(const TradeoffRow& row);
 // The way back; throws std::runtime_error or nlohmann's exception where it is none.
 TradeoffRow tradeoffRowFrom(const nlohmann::ordered_json& json);
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

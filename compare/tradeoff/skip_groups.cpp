@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 // A reason that names a value tried, and what to use instead, without both: the same for all values.
@@ -53,4 +53,4 @@ std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips) {
     return groups;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 constexpr std::string_view each = "*";
@@ -134,7 +134,7 @@ std::vector<Grid> usualGrids(const Settings& given) {
     return grids;
 }
 
-SweepRows planSweep(const Settings& given, const std::vector<Grid>& grids) {
+SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
     double combinations = 0;
     for (const Grid& grid : grids) {
         double product = 1;
@@ -174,4 +174,4 @@ std::string inWords(const std::vector<Choice>& choices) {
     return words;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

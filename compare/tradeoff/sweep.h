@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // A Setting by its option, and a value in words for Settings::set().
 using Choice = std::pair<std::string, std::string>;
@@ -33,7 +33,7 @@ std::vector<Grid> usualGrids(const Settings& given);
 // Combinations without meaning, or that cannot be drawn, are skips; a value that its path ignores is
 // one, too, and the row is drawn without it. Throws std::runtime_error where nothing is left to draw, or more
 // than mostCombinations are asked for.
-SweepRows planSweep(const Settings& given, const std::vector<Grid>& grids);
+SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
 inline constexpr std::size_t mostCombinations = 10'000;
 
 // Skips of one reason: which values of which Settings, or which combinations, in words.
@@ -47,4 +47,4 @@ std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 std::vector<Choice> choicesOf(const Settings& row, const Settings& given);
 std::string inWords(const std::vector<Choice>& choices);  // "deferred, gbuffer compact"
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,9 +53,9 @@ std::string fingerprint(std::string_view bytes) {
     return fmt::format("{:016x}", key.value());
 }
 
-std::string fingerprint(const ReferenceFrames& truth) {
+std::string fingerprint(const ReferenceFrames& references) {
     reference::Key key;
-    for (const Frame& frame : truth.frames)
+    for (const Frame& frame : references.frames)
         for (const auto& [mode, image] : frame.channels) key.addAll(image.data);
     return fmt::format("{:016x}", key.value());
 }
@@ -80,7 +80,7 @@ SweepState::SweepState(const fs::path& out, const Json& key) : folder_(folderOf(
     const bool holdsOthers =
         std::any_of(fs::directory_iterator(folder_), fs::directory_iterator(),
                     [](const auto& e) { return !isTemporaryOf(keyFile, e.path().filename().string()); });
-    if (holdsOthers && !isOurMark(folder_ / keyFile))
+    if (holdsOthers && !isOurManifest(folder_ / keyFile))
         throw std::runtime_error(folder_.string() +
                                  ": is there and was not written by diptych; move it away");
     renewed_ = holdsOthers;
@@ -134,4 +134,4 @@ void SweepState::remove() {
     ::rmdir(folder_.c_str());
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

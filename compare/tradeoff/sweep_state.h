@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // What a sweep has measured so far, in ".NAME.sweep" beside the folder NAME that it will leave: each row by
 // itself, its record last, so that whatever ends the program the next one goes on from there. Held by one
@@ -43,6 +43,6 @@ private:
 // 64 bits, FNV-1a (Fowler, Noll and Vo 1991), as 16 hexadecimal digits.
 std::string fingerprint(std::string_view bytes);
 // Of every bit of lit and material_id.
-std::string fingerprint(const ReferenceFrames& truth);
+std::string fingerprint(const ReferenceFrames& references);
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -8,7 +8,11 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::tradeoff {
+
+using page::bytes;
+using page::number;
+
 TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows) {
     for (const Settings& row : rows)
         words_ = std::max(words_, inWords(choicesOf(row, tradeoff.given)).size());
@@ -71,4 +75,4 @@ std::string tradeoffEnd(const Tradeoff& tradeoff) {
     return out;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 // Every camera of the sweep, where it is not the default alone.
@@ -18,10 +18,11 @@ std::vector<std::string> withCameras(std::vector<std::string> words, const Trade
     for (const std::string& camera : tradeoff.cameras) {
         cameras.emplace_back("--camera=" + camera);
     }
-    return with(std::move(words), cameras);
+    return withWords(std::move(words), cameras);
 }
 
-// What a command is given so that its truth is the sweep's: what of the row that would change is in the grid.
+// What a command is given so that its reference is the sweep's: what of the row that would change is in the
+// grid.
 struct AgainstReference {
     Settings settings;
     std::string grid;
@@ -90,9 +91,9 @@ std::vector<Path> pathsOf(const Tradeoff& tradeoff) {
 
 std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     const AgainstReference against = againstReference(tradeoff, row);
-    std::vector<std::string> words = wordsOf("tradeoff", tradeoff.scene, against.settings);
-    words = with(withCameras(std::move(words), tradeoff), "--grid", against.grid);
-    if (tradeoff.runs != 5) words = with(std::move(words), "--runs", fmt::format("{}", tradeoff.runs));
+    std::vector<std::string> words = commandWords("tradeoff", tradeoff.scene, against.settings);
+    words = withOption(withCameras(std::move(words), tradeoff), "--grid", against.grid);
+    if (tradeoff.runs != 5) words = withOption(std::move(words), "--runs", fmt::format("{}", tradeoff.runs));
     return shellLine(words);
 }
 
@@ -105,14 +106,15 @@ std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
         other.path = path;
         if (other.problem()) return {};
     }
-    return shellLine(with(withCameras(wordsOf("compare", tradeoff.scene, against.settings), tradeoff),
-                          "--baseline", "reference"));
+    return shellLine(
+        withOption(withCameras(commandWords("compare", tradeoff.scene, against.settings), tradeoff),
+                   "--baseline", "reference"));
 }
 
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     Settings settings = row.settings;
     if (tradeoff.cameras.size() > 1) settings.camera.clear();
-    return shellLine(withCameras(wordsOf("render", tradeoff.scene, settings), tradeoff));
+    return shellLine(withCameras(commandWords("render", tradeoff.scene, settings), tradeoff));
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

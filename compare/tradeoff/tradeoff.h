@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // Wall clock of this run of the command, ms; rows kept from an earlier one cost it nothing.
 struct SweepCost {
@@ -75,6 +75,6 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
 // Writes the folder; pictures are read from `kept`. Returns tradeoff.json.
 std::string writeTradeoff(const Tradeoff& tradeoff, const std::filesystem::path& folder,
                           const std::filesystem::path& kept, const Image8& reference, bool force);
-inline constexpr const char* tradeoffMark = "tradeoff.json";
+inline constexpr const char* tradeoffManifest = "tradeoff.json";
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

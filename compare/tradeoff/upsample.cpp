@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 constexpr float background = -1;  // material_id
@@ -87,4 +87,4 @@ Frame upsampled(Frame frame, const Size& size) {
     return frame;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -3,7 +3,7 @@
 
 #include "shared/frame/frame.h"
 
-namespace diptych {
+namespace diptych::tradeoff {
 
 // The Frame's lit and material_id as a viewer of another size sees them, between pixel centres: lit
 // bilinearly from the nearest 2x2 pixels that show a surface, background where the nearest pixel is
@@ -12,4 +12,4 @@ namespace diptych {
 // channels is missing.
 Frame upsampled(Frame frame, const Size& size);
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace diptych {
+namespace diptych::tradeoff {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,13 +30,13 @@ void copyPicture(const fs::path& from, const fs::path& to) {
 std::string writeTradeoff(const Tradeoff& measured, const fs::path& path, const fs::path& kept,
                           const Image8& reference, bool force) {
     const auto earlier = [&] {
-        checkReplaceable({OutputKind::folder, path}, tradeoffMark, force);
-        return markedIn(path, tradeoffMark);
+        checkReplaceable({OutputKind::folder, path}, tradeoffManifest, force);
+        return manifestFiles(path, tradeoffManifest);
     };
     earlier();
     OutputFolder folder(path);
     Tradeoff tradeoff = measured;
-    std::vector<std::string> files{"index.html", "tradeoff.csv", tradeoffMark};
+    std::vector<std::string> files{"index.html", "tradeoff.csv", tradeoffManifest};
     const auto text = [&](const std::string& name, const std::string& contents) {
         writeFile(folder / name, contents);
         if (std::ranges::count(files, name) == 0) files.push_back(name);
@@ -61,9 +61,9 @@ std::string writeTradeoff(const Tradeoff& measured, const fs::path& path, const 
     text("index.html", tradeoffHtml(tradeoff));
     std::ranges::sort(files);
     std::string json = tradeoffJson(tradeoff, files);
-    writeFile(folder / tradeoffMark, json);
+    writeFile(folder / tradeoffManifest, json);
     folder.put(files, earlier);
     return json;
 }
 
-}  // namespace diptych
+}  // namespace diptych::tradeoff

@@ -14,17 +14,16 @@
 namespace diptych {
 namespace {
 
-PathError standingOf(const DebugMode& mode, const Image& reference, const Image& test,
-                     const Coverage& covered) {
-    PathError standing;
-    standing.stats = channelStats(mode.metric, mode.kind, reference, test, covered);
-    standing.relative_rmse = mode.metric == Metric::relative
-                                 ? standing.stats.rmse
-                                 : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
-    const Measurement measurement(
-        {mode.metric, mode.kind, false, &reference, &test, &covered, &standing.stats});
-    standing.flip = measurement({"flip", 0});
-    return standing;
+PathError pathErrorOf(const DebugMode& mode, const Image& reference, const Image& test,
+                      const Coverage& covered) {
+    PathError error;
+    error.stats = channelStats(mode.metric, mode.kind, reference, test, covered);
+    error.relative_rmse = mode.metric == Metric::relative
+                              ? error.stats.rmse
+                              : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
+    const Measurement measurement({mode.metric, mode.kind, false, &reference, &test, &covered, &error.stats});
+    error.flip = measurement({"flip", 0});
+    return error;
 }
 
 std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image, 2>& errors,
@@ -55,35 +54,35 @@ std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image,
     return materials;
 }
 
-// What the truth is known to, relative to it, over the pixels that count.
-double meanUncertainty(const Frame& truth, const Image& reference, const Coverage& covered) {
-    if (truth.uncertainty.empty() || covered.count == 0) return 0;
+// What the reference is known to, relative to it, over the pixels that count.
+double meanUncertainty(const Frame& referenceFrame, const Image& reference, const Coverage& covered) {
+    if (referenceFrame.uncertainty.empty() || covered.count == 0) return 0;
     const PixelError error(Metric::relative, ChannelKind::color, reference, covered);
     double sum = 0;
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         if (!covered.covered[i]) continue;
         const float* p = reference.pixel(i);
         const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-        sum += double{truth.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
+        sum += double{referenceFrame.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
     }
     // Errors of pixels are independent: their mean is known better by the root of their number.
     return sum / static_cast<double>(covered.count) / std::sqrt(static_cast<double>(covered.count));
 }
 
-CloserPathChannel channelOf(const DebugMode& mode, const Frame& truth,
+CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
                             const std::array<const Frame*, 2>& paths, const Coverage& covered,
                             const std::vector<std::string>& names) {
-    const Image& reference = truth.channels.at(mode.number);
+    const Image& reference = referenceFrame.channels.at(mode.number);
     CloserPathChannel channel;
     channel.mode = &mode;
     std::array<Image, 2> errors;
     for (std::size_t k = 0; k < 2; ++k) {
         const Image& image = paths[k]->channels.at(mode.number);
-        channel.paths[k] = standingOf(mode, reference, image, covered);
+        channel.paths[k] = pathErrorOf(mode, reference, image, covered);
         errors[k] = errorImage(mode.metric, mode.kind, reference, image, covered);
     }
     channel.between =
-        standingOf(mode, paths[0]->channels.at(mode.number), paths[1]->channels.at(mode.number), covered);
+        pathErrorOf(mode, paths[0]->channels.at(mode.number), paths[1]->channels.at(mode.number), covered);
     channel.apart = Image(reference.width, reference.height, 1);
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         if (!covered.covered[i]) continue;
@@ -94,40 +93,43 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& truth,
         if (first != second) channel.apart.data[i] = first - second;
     }
     const double first = channel.paths[0].stats.mean, second = channel.paths[1].stats.mean;
-    // Two means that share most of their error are told apart by no less than the truth's own.
-    const double known = std::max(1e-3 * std::min(first, second), meanUncertainty(truth, reference, covered));
+    // Two means that share most of their error are told apart by no less than the reference's own.
+    const double known =
+        std::max(1e-3 * std::min(first, second), meanUncertainty(referenceFrame, reference, covered));
     if (std::abs(first - second) > known || std::isinf(first) != std::isinf(second)) {
-        channel.nearer = first < second ? 0 : 1;
+        channel.closer = first < second ? 0 : 1;
         const double least = std::min(first, second);
         channel.by = least > 0 ? std::max(first, second) / least : std::numeric_limits<double>::infinity();
     }
-    const auto ids = truth.channels.find(static_cast<int>(gpu::DEBUG_material_id));
-    if (ids != truth.channels.end()) channel.materials = materialsOf(ids->second, errors, covered, names);
+    const auto ids = referenceFrame.channels.find(static_cast<int>(gpu::DEBUG_material_id));
+    if (ids != referenceFrame.channels.end())
+        channel.materials = materialsOf(ids->second, errors, covered, names);
     return channel;
 }
 
 }  // namespace
 
-CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t truth, std::array<std::size_t, 2> paths,
-                        const Coverage& coverage, const std::vector<std::string>& names) {
-    CloserPath nearer{truth, paths, {}};
-    const std::array<const Frame*, 3> all{&frames[truth], &frames[paths[0]], &frames[paths[1]]};
+CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
+                        std::array<std::size_t, 2> paths, const Coverage& coverage,
+                        const std::vector<std::string>& names) {
+    CloserPath closer{reference, paths, {}};
+    const std::array<const Frame*, 3> all{&frames[reference], &frames[paths[0]], &frames[paths[1]]};
     for (const int mode : litModes) {
         if (std::ranges::all_of(
-                all, [&](const Frame* f) { return f->channels.contains(mode) && f->isAsked(mode); }))
-            nearer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));
+                all, [&](const Frame* f) { return f->channels.contains(mode) && f->isRequested(mode); }))
+            closer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));
     }
-    return nearer;
+    return closer;
 }
 
-std::string closerPathLine(const CloserPath& nearer, const CloserPathChannel& channel,
+std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& channel,
                            const std::vector<Frame>& frames) {
-    const std::string& truth = frames[nearer.truth].name;
-    if (channel.nearer < 0)
-        return fmt::format("{}: both paths are equally near to the {}, mean errors {:.4g} and {:.4g}",
-                           channel.mode->name, truth, channel.paths[0].stats.mean,
+    const std::string& reference = frames[closer.reference].name;
+    if (channel.closer < 0)
+        return fmt::format("{}: both paths are equally close to the {}, mean errors {:.4g} and {:.4g}",
+                           channel.mode->name, reference, channel.paths[0].stats.mean,
                            channel.paths[1].stats.mean);
-    const auto near = static_cast<std::size_t>(channel.nearer), far = 1 - near;
+    const auto near = static_cast<std::size_t>(channel.closer), far = 1 - near;
     const auto pixels =
         static_cast<double>(channel.closer_pixels[0] + channel.closer_pixels[1] + channel.even_pixels);
     const auto percent = [&](std::uint64_t count) {
@@ -137,11 +139,11 @@ std::string closerPathLine(const CloserPath& nearer, const CloserPathChannel& ch
                               : channel.paths[near].stats.mean == 0 ? "none at all"
                                                                     : "which is infinite";
     return fmt::format(
-        "{}: {} is nearer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
+        "{}: {} is closer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
         "pixels ({} at {:.1f} %, even at {:.1f} %)",
-        channel.mode->name, frames[nearer.paths[near]].name, truth, channel.paths[near].stats.mean,
-        channel.paths[far].stats.mean, frames[nearer.paths[far]].name, times,
-        percent(channel.closer_pixels[near]), frames[nearer.paths[far]].name,
+        channel.mode->name, frames[closer.paths[near]].name, reference, channel.paths[near].stats.mean,
+        channel.paths[far].stats.mean, frames[closer.paths[far]].name, times,
+        percent(channel.closer_pixels[near]), frames[closer.paths[far]].name,
         percent(channel.closer_pixels[far]), percent(channel.even_pixels));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two paths and the truth: which is nearer to it, where, and by how much.
+// Two paths and the reference: which is closer to it, where, and by how much.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -17,7 +17,7 @@
 
 namespace diptych {
 
-// One path's error against the truth, or one path's against the other.
+// One path's error against the reference, or one path's against the other.
 struct PathError {
     ChannelStats stats;
     double relative_rmse = 0;  // of |t - r| / max(|r|, 1e-3 mean luminance)
@@ -34,35 +34,36 @@ struct MaterialError {
 
 struct CloserPathChannel {
     const DebugMode* mode = nullptr;
-    std::array<PathError, 2> paths;  // against the truth
+    std::array<PathError, 2> paths;  // against the reference
     PathError between;               // the second against the first
     std::array<std::uint64_t, 2> closer_pixels{};
     std::uint64_t even_pixels = 0;  // errors that are the same
-    int nearer =
-        -1;         // 0 or 1, by mean error; -1: neither, by less than the truth is known to or a thousandth
-    double by = 1;  // the farther one's mean error over the nearer one's; infinite where that is 0
+    int closer =
+        -1;  // 0 or 1, by mean error; -1: neither, by less than the reference is known to or a thousandth
+    double by = 1;  // the farther one's mean error over the closer one's; infinite where that is 0
     std::vector<MaterialError> materials;  // those where the two are furthest apart first, at most eight
-    // Pixel by pixel, the first's error less the second's: below 0 the first is nearer.
+    // Pixel by pixel, the first's error less the second's: below 0 the first is closer.
     Image apart;
 };
 
 struct CloserPath {
-    std::size_t truth = 0;
+    std::size_t reference = 0;
     std::array<std::size_t, 2> paths{};  // into Report::frames
     std::vector<CloserPathChannel>
         channels;  // lit, lit_diffuse, lit_specular and lit_ambient, where all three have them
 };
 
 // `names` of materials by id, may be short.
-CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t truth, std::array<std::size_t, 2> paths,
-                        const Coverage& coverage, const std::vector<std::string>& names);
+CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
+                        std::array<std::size_t, 2> paths, const Coverage& coverage,
+                        const std::vector<std::string>& names);
 
-// "forward_plus is nearer to the reference: mean error 1.2e-06 against 0.0012 (1000 times less), at 87 % of
+// "forward_plus is closer to the reference: mean error 1.2e-06 against 0.0012 (1000 times less), at 87 % of
 // the pixels (deferred at 3 %)"
-std::string closerPathLine(const CloserPath& nearer, const CloserPathChannel& channel,
+std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& channel,
                            const std::vector<Frame>& frames);
 
-// Blue where the first is nearer, orange where the second is, as bright as they are apart; `top` ends it.
+// Blue where the first is closer, orange where the second is, as bright as they are apart; `top` ends it.
 Image8 closerPathPicture(const Image& apart, double top);
 double closerPathTop(const Image& apart);  // the 99th percentile of what is not 0
 

@@ -54,7 +54,7 @@ double noiseOf(const FramePair& pair, int mode) {
 // The derived tolerance decides.
 void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
-    channel.tolerance = tolerance(mode, pair);
+    channel.tolerance = derivedTolerance(mode, pair);
     if (const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0; noise > 0) {
         channel.tolerance.max += noise;
         channel.tolerance.because += fmt::format("; and {:.3g} that two runs of one path differ by", noise);
@@ -69,7 +69,7 @@ void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measuremen
     const Decision decision = decide(rule, measurement);
     channel.tolerance = {boundOn(rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
                          rule.because};
-    channel.rule = fmt::format("{}: {}", rule.origin, wordsOf(rule.fail));
+    channel.rule = fmt::format("{}: {}", rule.origin, conditionText(rule.fail));
     (decision.level == Level::warn ? channel.warning : channel.reason) = decision.reason;
 }
 
@@ -194,14 +194,14 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     });
     const bool cpu = report.device.type == "cpu" && here;
     comparison.coverage = coverage(left, right);
-    select(comparison.coverage, left.settings.size.width, left.settings.size.height, options.selection,
-           objectsOf(left, right), comparison.notes);
+    applySelection(comparison.coverage, left.settings.size.width, left.settings.size.height,
+                   options.selection, objectsOf(left, right), comparison.notes);
     const FramePair pair{left, right, needs, comparison.coverage, cpu, explaining(report, left, right)};
 
     bool shared = false;
     for (const DebugMode& mode : debugModes()) {
-        const bool onLeft = left.channels.contains(mode.number) && left.isAsked(mode.number),
-                   onRight = right.channels.contains(mode.number) && right.isAsked(mode.number);
+        const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
+                   onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
         const bool paths = mode.maker == MadeBy::paths_only;
         if (paths && onLeft && onRight && left.settings.assign != right.settings.assign) {
             comparison.notes.push_back(
@@ -253,7 +253,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
 }
 
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
-                  const CompareOptions& options, std::vector<std::vector<FeatureChecks>> marks) {
+                  const CompareOptions& options, std::vector<std::vector<FeatureChecks>> checks) {
     const auto start = std::chrono::steady_clock::now();
     Report report;
     report.device = std::move(device);
@@ -265,11 +265,12 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
         here.progress = options.progress.part(done / all, (done + 2) / all).about(report.frames[i].scene);
         report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), here));
         const Frame& left = report.baseline(report.comparisons.back());
-        std::vector<std::string> command = with(wordsOf("compare", left.scene, left.settings), options.words);
+        std::vector<std::string> command =
+            withWords(commandWords("compare", left.scene, left.settings), options.words);
         if (options.baseline != Path::deferred)
-            command = with(command, "--baseline", std::string(nameOf(options.baseline)));
+            command = withOption(command, "--baseline", std::string(nameOf(options.baseline)));
         report.comparisons.back().command = std::move(command);
-        if (!marks.empty()) report.comparisons.back().marks = std::move(marks.at(i / 2));
+        if (!checks.empty()) report.comparisons.back().visual_checks = std::move(checks.at(i / 2));
     }
     report.diff_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -278,7 +279,7 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
 
 Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
                            ReportDevice device, const CompareOptions& options,
-                           std::vector<std::vector<FeatureChecks>> marks,
+                           std::vector<std::vector<FeatureChecks>> checks,
                            const std::vector<std::vector<std::string>>& materials) {
     const auto start = std::chrono::steady_clock::now();
     Report report;
@@ -292,14 +293,15 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
             const double done = static_cast<double>(i) + pairs++;
             here.progress = options.progress.part(done / all, (done + 1) / all).about(report.frames[i].scene);
             report.comparisons.push_back(compareFrames(report, left, right, needs.at(i), here));
-            const Frame& truth = report.frames[i];
-            const Settings settings = withReferenceOf(report.frames[right].settings, truth.settings);
-            report.comparisons.back().command = with(
-                with(wordsOf("compare", truth.scene, settings), options.words), "--baseline", "reference");
+            const Frame& reference = report.frames[i];
+            const Settings settings = withReferenceOf(report.frames[right].settings, reference.settings);
+            report.comparisons.back().command =
+                withOption(withWords(commandWords("compare", reference.scene, settings), options.words),
+                           "--baseline", "reference");
         }
         Comparison& between = report.comparisons.back();
-        if (!marks.empty()) between.marks = std::move(marks.at(i / 3));
-        report.nearer.push_back(
+        if (!checks.empty()) between.visual_checks = std::move(checks.at(i / 3));
+        report.closer_paths.push_back(
             closerPathOf(report.frames, i, {i + 1, i + 2}, between.coverage, materials.at(i / 3)));
     }
     report.diff_ms =
@@ -342,7 +344,7 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
         report.comparisons.push_back(compareFrames(report, left, right, needs, here));
         const Frame& drawn = report.test(report.comparisons.back());
         report.comparisons.back().command =
-            with(wordsOf("compare", drawn.scene, drawn.settings), options.words);
+            withWords(commandWords("compare", drawn.scene, drawn.settings), options.words);
     }
     report.first_notes = mismatches;
     report.diff_ms =

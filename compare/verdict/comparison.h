@@ -52,7 +52,7 @@ struct Comparison {
     std::vector<std::string> failures;  // beside the channels', e.g. a capture that is not the timed frame
     std::vector<std::string> notes;     // what a reader must know and what is no failure
     std::vector<std::string> command;   // the words that make this comparison again; --channels may be added
-    std::vector<FeatureChecks> marks;   // what no comparison shows and a person must look at
+    std::vector<FeatureChecks> visual_checks;  // what no comparison shows and a person must look at
 
     bool passed() const;
 };
@@ -62,7 +62,7 @@ struct Report {
     std::vector<Frame> frames;
     std::vector<Comparison> comparisons;
     std::vector<std::string> first_notes;  // what must be known before any number is read
-    std::vector<CloserPath> nearer;        // with --baseline reference: one per scene and camera
+    std::vector<CloserPath> closer_paths;  // with --baseline reference: one per scene and camera
     double diff_ms = 0;                    // the comparing alone
 
     bool passed() const;
@@ -87,17 +87,17 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                          const Requirements& needs, const CompareOptions& options = {});
 
 // The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
-// drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `marks`: one per pair, or
-// none.
+// drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `checks`: one per pair,
+// or none.
 Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
-                  const CompareOptions& options = {}, std::vector<std::vector<FeatureChecks>> marks = {});
+                  const CompareOptions& options = {}, std::vector<std::vector<FeatureChecks>> checks = {});
 
-// The truth as the left panel: frames come three by three, the reference and both paths of one scene and
-// camera; both paths against it, then against each other. `needs`: one entry per frame; `marks` and
+// The reference as the left panel: frames come three by three, the reference and both paths of one scene and
+// camera; both paths against it, then against each other. `needs`: one entry per frame; `checks` and
 // `materials`, the names of these by id: one per scene and camera.
 Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
                            ReportDevice device, const CompareOptions& options,
-                           std::vector<std::vector<FeatureChecks>> marks,
+                           std::vector<std::vector<FeatureChecks>> checks,
                            const std::vector<std::vector<std::string>>& materials);
 
 // A Frame of earlier as the left panel: both paths against it, then against each other. `mismatches` are said

@@ -100,7 +100,7 @@ std::optional<double> Measurement::operator()(const Quantity& quantity) const {
     return row == rows.end() ? Value() : row->value(*this);
 }
 
-Measured Measurement::asked() const {
+Measured Measurement::asMeasured() const {
     return [this](const Quantity& quantity) { return (*this)(quantity); };
 }
 
@@ -170,9 +170,9 @@ double Measurement::failingShare(double above) const {
 }
 
 Decision decide(const Rule& rule, const Measurement& measurement) {
-    Decision decision = decide(rule, measurement.asked());
+    Decision decision = decide(rule, measurement.asMeasured());
     const std::uint64_t different = measurement.plain().nonfinite_different;
-    if (decision.level != Level::fail && different > 0 && !bounds(rule.fail, failing))
+    if (decision.level != Level::fail && different > 0 && !boundsFigure(rule.fail, failing))
         decision = {Level::fail, &rule,
                     fmt::format("{} pixel(s) are NaN or infinite against something else", different)};
     return decision;

@@ -34,7 +34,7 @@ public:
 
     // Nothing where a figure is not defined: flip and ssim of what is no colour, angles of what is no vector.
     std::optional<double> operator()(const Quantity& quantity) const;
-    Measured asked() const;  // of this, which must outlive it
+    Measured asMeasured() const;  // of this, which must outlive it
 
     // All that are defined, in the table's order.
     std::vector<std::pair<std::string, double>> all() const;

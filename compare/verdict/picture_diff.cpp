@@ -139,7 +139,7 @@ DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff&
     const MatchedChannel& pair = channel.pair;
     const auto decides = [&](const char* figure) {
         return std::ranges::any_of(figures(), [&](const Figure& f) {
-            return f.name.starts_with(figure) && bounds(channel.rule.fail, f.name);
+            return f.name.starts_with(figure) && boundsFigure(channel.rule.fail, f.name);
         });
     };
     if (decides("flip") && channel.measurement->flip())
@@ -184,8 +184,9 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
                                 right = channelsOf(std::move(b), options.names);
     diff.coverage = std::make_unique<Coverage>(
         everyPixel(static_cast<std::size_t>(diff.width) * static_cast<std::size_t>(diff.height)));
-    select(*diff.coverage, diff.width, diff.height, options.selection, objectsOf(left, right), diff.notes);
-    MatchedChannels matched = match(std::move(left), std::move(right), options.channels);
+    applySelection(*diff.coverage, diff.width, diff.height, options.selection, objectsOf(left, right),
+                   diff.notes);
+    MatchedChannels matched = matchChannels(std::move(left), std::move(right), options.channels);
     diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
     for (MatchedChannel& pair : matched.channels) {
         auto channel = std::make_unique<PictureChannelDiff>();
@@ -193,10 +194,10 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
         MatchedChannel& p = channel->pair;
         if (p.kind != ChannelKind::id) {
             if (options.blur > 0) {
-                p.reference = blurred(p.reference, options.blur);
-                p.test = blurred(p.test, options.blur);
+                p.reference = metrics::blurred(p.reference, options.blur);
+                p.test = metrics::blurred(p.test, options.blur);
             }
-            if (options.shift > 0) p.test = shifted(p.reference, p.test, options.shift);
+            if (options.shift > 0) p.test = metrics::shifted(p.reference, p.test, options.shift);
         }
         channel->display = diff.display && p.kind == ChannelKind::color;
         channel->measurement =

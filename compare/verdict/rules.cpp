@@ -150,14 +150,14 @@ std::string shown(double value, double other) {
     return fmt::format("{:.17g}", value);
 }
 
-std::string wordsOf(const Quantity& quantity) {
+std::string quantityText(const Quantity& quantity) {
     return quantity.figure == failing ? fmt::format("share of pixels above {:g}", quantity.above)
                                       : quantity.figure;
 }
 
 std::optional<std::string> boundViolation(const Condition& c, const Measured& measured) {
     const std::optional<double> value = measured(c.quantity);
-    const std::string what = wordsOf(c.quantity);
+    const std::string what = quantityText(c.quantity);
     if (!value) return fmt::format("{} is not defined for this channel", what);
     const Figure* figure = findFigure(c.quantity.figure);
     if (figure && figure->more_is_better) {
@@ -173,7 +173,7 @@ std::string joined(const Condition& condition, const char* word) {
     for (const Condition& part : condition.parts) {
         const bool inner = part.kind != Condition::Kind::bound;
         text += fmt::format("{}{}", text.empty() ? "" : word,
-                            inner ? fmt::format("({})", wordsOf(part)) : wordsOf(part));
+                            inner ? fmt::format("({})", conditionText(part)) : conditionText(part));
     }
     return text;
 }
@@ -196,10 +196,11 @@ std::optional<std::string> violation(const Condition& condition, const Measured&
     return reasons;
 }
 
-bool bounds(const Condition& condition, std::string_view figure) {
+bool boundsFigure(const Condition& condition, std::string_view figure) {
     return condition.kind == Condition::Kind::bound
                ? condition.quantity.figure == figure
-               : std::ranges::any_of(condition.parts, [&](const auto& part) { return bounds(part, figure); });
+               : std::ranges::any_of(condition.parts,
+                                     [&](const auto& part) { return boundsFigure(part, figure); });
 }
 
 std::optional<double> boundOn(const Condition& condition, std::string_view figure) {
@@ -212,11 +213,11 @@ std::optional<double> boundOn(const Condition& condition, std::string_view figur
     return least;
 }
 
-std::string wordsOf(const Condition& condition) {
+std::string conditionText(const Condition& condition) {
     if (condition.kind == Condition::Kind::all) return joined(condition, " and ");
     if (condition.kind == Condition::Kind::any) return joined(condition, " or ");
     const Figure* figure = findFigure(condition.quantity.figure);
-    return fmt::format("{} {} {:g}", wordsOf(condition.quantity),
+    return fmt::format("{} {} {:g}", quantityText(condition.quantity),
                        figure && figure->more_is_better ? ">=" : "<=", condition.limit);
 }
 

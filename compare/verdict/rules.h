@@ -44,12 +44,12 @@ struct Condition {
 std::optional<std::string> violation(const Condition& condition, const Measured& measured);
 
 // Whether it puts a bound on a figure in any case.
-bool bounds(const Condition& condition, std::string_view figure);
+bool boundsFigure(const Condition& condition, std::string_view figure);
 // The least upper bound that it puts on a figure in every case; nothing: none.
 std::optional<double> boundOn(const Condition& condition, std::string_view figure);
 
 // "max <= 0.0037 and (flip <= 0.02 or psnr >= 40)"
-std::string wordsOf(const Condition& condition);
+std::string conditionText(const Condition& condition);
 
 struct Rule {
     std::string channel = "*";      // a name, or with * and ? several

@@ -135,8 +135,8 @@ Crop cropOf(const std::string& words) {
     return crop;
 }
 
-void select(Coverage& coverage, int width, int height, const SelectionOptions& options,
-            const ObjectPlanes& objects, std::vector<std::string>& notes) {
+void applySelection(Coverage& coverage, int width, int height, const SelectionOptions& options,
+                    const ObjectPlanes& objects, std::vector<std::string>& notes) {
     if (!options.any()) return;
     const std::size_t before = countOf(coverage.covered);
     if (!options.mask.empty()) applyMask(coverage, width, height, options.mask);

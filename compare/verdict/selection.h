@@ -38,7 +38,7 @@ struct ObjectPlanes {
 // Takes out of `coverage`, of a picture of width x height, what `options` leave out, and says so in `notes`,
 // a line each. Throws std::runtime_error where the mask cannot be read or is of another size, the crop is not
 // inside the picture, or what tells objects apart is needed and missing.
-void select(Coverage& coverage, int width, int height, const SelectionOptions& options,
-            const ObjectPlanes& objects, std::vector<std::string>& notes);
+void applySelection(Coverage& coverage, int width, int height, const SelectionOptions& options,
+                    const ObjectPlanes& objects, std::vector<std::string>& notes);
 
 }  // namespace diptych

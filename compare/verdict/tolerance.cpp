@@ -197,13 +197,13 @@ double encodingEffect(const DebugMode& mode, const FramePair& pair) {
     return channelStats(mode.metric, mode.kind, own->second, through->second, pair.coverage).p999;
 }
 
-// The path that is held against the truth loses what its encoding loses, and what its arithmetic does.
+// The path that is held against the reference loses what its encoding loses, and what its arithmetic does.
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
-    const Frame& truth = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     const bool packed =
         path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
-    const bool own = truth.settings.reference_mode == ReferenceMode::scene;
+    const bool own = reference.settings.reference_mode == ReferenceMode::scene;
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
@@ -215,7 +215,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
                 "back, {:.3g}",
                 nameOf(path.settings.gbuffer), effect);
         }
-        if (!truth.uncertainty.empty())
+        if (!reference.uncertainty.empty())
             result.because +=
                 "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
     } else {
@@ -255,7 +255,7 @@ double octahedralBound(unsigned bits) {
     return degrees * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + 10 * 0x1p-24);
 }
 
-Tolerance tolerance(const DebugMode& mode, const FramePair& pair) {
+Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame* deferred = pair.of(Path::deferred);
     Tolerance result{0, "one path twice: the same function of the same numbers"};
     if (deferred && pair.of(Path::forward_plus))
@@ -273,8 +273,8 @@ Tolerance tolerance(const DebugMode& mode, const FramePair& pair) {
 
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
-    const Frame& truth = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    if (truth.uncertainty.empty()) return {};
+    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    if (reference.uncertainty.empty()) return {};
     // Student's t of 7 degrees of freedom, 99.9 % against the 95 % that is stated: 5.41 / 2.36.
     constexpr double surer = 2.29;
     const Image& baseline = pair.baseline.channels.at(mode.number);
@@ -285,7 +285,8 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
         const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-        const double open = surer * double{truth.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
+        const double open =
+            surer * double{reference.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
         const double e = error(test.pixel(i), p);
         errors.push_back(e > open ? e - open : std::isnan(e) ? std::numeric_limits<double>::infinity() : 0);
     }

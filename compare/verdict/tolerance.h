@@ -37,7 +37,7 @@ struct FramePair {
 double octahedralBound(unsigned bits);
 
 // The tolerance of `mode`, a channel of both Frames.
-Tolerance tolerance(const DebugMode& mode, const FramePair& pair);
+Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair);
 
 // Against a reference that sampled: the error at 99.9 % of the pixels beyond what the reference is known to
 // at each. Nothing where it is known, or no lit channel.

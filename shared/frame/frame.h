@@ -75,8 +75,8 @@ struct Frame {
     std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
     // Of `channels`, those that were requested, which are compared and written; the others are helpers
     // (exposure, background). Empty: all.
-    std::vector<int> asked;
-    bool isAsked(int mode) const { return asked.empty() || std::ranges::count(asked, mode) > 0; }
+    std::vector<int> requested;
+    bool isRequested(int mode) const { return requested.empty() || std::ranges::count(requested, mode) > 0; }
     // Forward+ only: lit, lit_diffuse, lit_specular and lit_ambient, shaded from surfaces that were encoded
     // as in settings.gbuffer and decoded again, as the deferred path shades them. Used to explain a
     // difference of lit.

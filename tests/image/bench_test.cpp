@@ -7,6 +7,9 @@
 #include <limits>
 
 namespace diptych::tests {
+
+using namespace bench;
+
 namespace {
 
 Settings mode(Path path, Assignment assign) {

@@ -14,9 +14,9 @@ Report several(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         std::vector<Frame> pair = bothFrames(fmt::format("scenes/{}.glb", i));
         for (Frame& frame : pair) {
-            frame.asked = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals)};
+            frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals)};
             std::erase_if(frame.channels, [&](const auto& channel) {
-                return !frame.isAsked(channel.first) && channel.first != gpu::DEBUG_material_id;
+                return !frame.isRequested(channel.first) && channel.first != gpu::DEBUG_material_id;
             });
         }
         if (i % 10 == 7) pair[1].channels.at(gpu::DEBUG_normals).at(1, 2, 0) = -0.5f;

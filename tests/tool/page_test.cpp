@@ -12,11 +12,11 @@ TEST(Page, SliderKeysAndButtonsWork) {
     const Folder folder;
     const Visit seen = visit(folder, written(folder, reportOf(rampFrames())), R"(
       const card = $('#c0-roughness'), pair = card.querySelector('.pair'), slider = pair.querySelector('input');
-      const film = pair.querySelector('.film');
+      const panel = pair.querySelector('.panel');
       const state = () => [pair.dataset.mode, pair.style.getPropertyValue('--w'), card.querySelector('[data-show].on').dataset.show];
       const told = { open: card.open, first: state() };
       slider.value = 30; slider.dispatchEvent(new Event('input', { bubbles: true })); told.slid = state();
-      pointer('pointerdown', film, .25, .5, { button: 0 }); pointer('pointermove', film, .75, .5); pointer('pointerup', film, .75, .5);
+      pointer('pointerdown', panel, .25, .5, { button: 0 }); pointer('pointermove', panel, .75, .5); pointer('pointerup', panel, .75, .5);
       told.dragged = state(); told.focused = document.activeElement === slider;
       key('ArrowLeft'); told.arrow = state();
       key('1'); told.left = state(); key('2'); told.right = state(); key('s'); told.side = state();
@@ -55,33 +55,33 @@ TEST(Page, SliderKeysAndButtonsWork) {
     is("ctrl", "wipe", "74%", "wipe");
 }
 
-// Every film of a card shows the same part of its picture.
+// Every panel of a card shows the same part of its picture.
 TEST(Page, ZoomAndPanMoveAllPicturesOfACard) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const Visit seen = visit(folder, written(folder, reportOf(rampFrames())), R"(
-      const card = $('#c0-roughness'), films = [...card.querySelectorAll('.film')], pair = card.querySelector('.pair');
-      await until(() => films.every(film => film.querySelector('img').complete));
-      // Which part of the picture a film shows: left, top, width in parts of it, measured on the screen.
-      const part = film => { const f = film.getBoundingClientRect(), i = film.querySelector('img').getBoundingClientRect();
+      const card = $('#c0-roughness'), panels = [...card.querySelectorAll('.panel')], pair = card.querySelector('.pair');
+      await until(() => panels.every(panel => panel.querySelector('img').complete));
+      // Which part of the picture a panel shows: left, top, width in parts of it, measured on the screen.
+      const part = panel => { const f = panel.getBoundingClientRect(), i = panel.querySelector('img').getBoundingClientRect();
         return [(f.left - i.left) / i.width, (f.top - i.top) / i.height, f.width / i.width].map(v => +v.toFixed(3)); };
-      const parts = () => films.map(part);
-      const told = { films: films.length, first: parts() };
+      const parts = () => panels.map(part);
+      const told = { panels: panels.length, first: parts() };
       // Not clicked into: the wheel is the page's.
-      const wheel = (film, x, y, more) => film.dispatchEvent(new WheelEvent('wheel', { bubbles: true, cancelable: true, deltaY: -240, ...at(film, x, y), ...more }));
-      told.scrolls = wheel(films[0], .5, .5, {}); told.unzoomed = parts();
-      told.taken = !wheel(films[0], .25, .5, { ctrlKey: true }); told.wheel = parts();
+      const wheel = (panel, x, y, more) => panel.dispatchEvent(new WheelEvent('wheel', { bubbles: true, cancelable: true, deltaY: -240, ...at(panel, x, y), ...more }));
+      told.scrolls = wheel(panels[0], .5, .5, {}); told.unzoomed = parts();
+      told.taken = !wheel(panels[0], .25, .5, { ctrlKey: true }); told.wheel = parts();
       key('0'); told.fit = parts();
-      pointer('pointermove', films[0], .5, .5); for (let i = 0; i < 4; ++i) key('+'); told.keys = parts();
-      told.pixelated = films.map(film => getComputedStyle(film.querySelector('img')).imageRendering);
+      pointer('pointermove', panels[0], .5, .5); for (let i = 0; i < 4; ++i) key('+'); told.keys = parts();
+      told.pixelated = panels.map(panel => getComputedStyle(panel.querySelector('img')).imageRendering);
       // A drag away from the divider pans by what it moved; the arrows do, too.
-      pointer('pointerdown', films[0], .8, .5, { button: 0 }); pointer('pointermove', films[0], .6, .5); pointer('pointerup', films[0], .6, .5);
+      pointer('pointerdown', panels[0], .8, .5, { button: 0 }); pointer('pointermove', panels[0], .6, .5); pointer('pointerup', panels[0], .6, .5);
       told.panned = parts(); told.wipe = pair.style.getPropertyValue('--w');
       key('ArrowRight'); told.arrow = parts();
       for (let i = 0; i < 99; ++i) key('ArrowRight'); told.end = parts();
       key('0');
       // Two fingers, twice as far apart.
-      const finger = (type, id, x) => pointer(type, films[0], x, .5, { pointerId: id, pointerType: 'touch', button: 0 });
+      const finger = (type, id, x) => pointer(type, panels[0], x, .5, { pointerId: id, pointerType: 'touch', button: 0 });
       finger('pointerdown', 7, .4); finger('pointerdown', 8, .6); finger('pointermove', 7, .3); finger('pointermove', 8, .7);
       finger('pointerup', 7, .3); finger('pointerup', 8, .7); told.pinch = parts();
       tell(told);)");
@@ -94,7 +94,7 @@ TEST(Page, ZoomAndPanMoveAllPicturesOfACard) {
             EXPECT_NEAR(part[2].get<double>(), width, 2e-3) << what << part;
         }
     };
-    EXPECT_EQ(seen.told["films"], 3);
+    EXPECT_EQ(seen.told["panels"], 3);
     together("first", 0, 0, 1);
     EXPECT_EQ(seen.told["scrolls"], true);
     together("unzoomed", 0, 0, 1);
@@ -115,14 +115,14 @@ TEST(Page, WorstPixelsLeadIntoThePicture) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const std::string script = R"(
-      const card = $('#c0-roughness'), film = card.querySelector('.film');
+      const card = $('#c0-roughness'), panel = card.querySelector('.panel');
       await until(() => card.querySelector('.readout').children.length > 1);
-      // The pixel at the middle of the film, and how many stand side by side in it.
-      const where = () => { const f = film.getBoundingClientRect(), i = film.querySelector('img').getBoundingClientRect();
+      // The pixel at the middle of the panel, and how many stand side by side in it.
+      const where = () => { const f = panel.getBoundingClientRect(), i = panel.querySelector('img').getBoundingClientRect();
         return [Math.floor((f.left + f.width / 2 - i.left) / i.width * 96), Math.floor((f.top + f.height / 2 - i.top) / i.height * 54), Math.round(f.width / i.width * 96)]; };
       const first = where(), says = () => card.querySelector('.readout').firstChild.textContent;
       const told = { links: [...card.querySelectorAll('[data-pixel]')].map(link => link.dataset.pixel), first, says: says() };
-      pointer('pointermove', film, .5, .5);
+      pointer('pointermove', panel, .5, .5);
       card.querySelectorAll('[data-pixel]')[1].click(); told.second = where(); told.hash = location.hash;
       key('n'); told.next = where(); key('p'); told.previous = where();
       tell(told);)";
@@ -145,7 +145,7 @@ TEST(Page, FlickerNeedsAClickWhereMotionIsUnwelcome) {
     const Folder folder;
     const Visit seen = visit(folder, written(folder, reportOf(rampFrames())), R"(
       const card = $('#c0-roughness'), pair = card.querySelector('.pair');
-      pointer('pointermove', card.querySelector('.film'), .5, .5);
+      pointer('pointermove', card.querySelector('.panel'), .5, .5);
       key('f'); const byKey = pair.dataset.mode;
       card.querySelector('[data-show=flicker]').click(); const byClick = pair.dataset.mode;
       card.open = false; await wait(50);
@@ -162,7 +162,7 @@ TEST(Page, NothingIsWiderThanAPhone) {
     const fs::path page = written(folder, reportOf(rampFrames()));
     const Visit seen = visit(folder, page, R"(
       $$('details').forEach(d => d.open = true); document.documentElement.style.width = '390px'; await wait(100);
-      const wide = () => $$('body *').filter(e => !e.closest('.scroll, .loupe, .film, svg, .axis') && e.getBoundingClientRect().right > 391 && getComputedStyle(e).display !== 'none');
+      const wide = () => $$('body *').filter(e => !e.closest('.scroll, .loupe, .panel, svg, .axis') && e.getBoundingClientRect().right > 391 && getComputedStyle(e).display !== 'none');
       const cut = () => $$('.buttons, .readout, .again, dl').filter(e => e.scrollWidth > e.clientWidth + 1);
       const found = () => [...wide(), ...cut()].map(e => e.tagName + '.' + e.className).slice(0, 5), clean = found();
       // and what is too wide would be found

@@ -17,8 +17,8 @@ TEST(PageValues, TheValuesUnderTheCursorAreThoseOfTheFrames) {
     const Visit seen = visit(folder, written(folder, reportOf(frames)), R"(
       const read = async (id, x, y, width = 96, height = 54) => {
         const card = $(id); card.open = true;
-        const film = card.querySelector('.film'), out = card.querySelector('.readout');
-        pointer('pointermove', film, (x + .5) / width, (y + .5) / height);
+        const panel = card.querySelector('.panel'), out = card.querySelector('.readout');
+        pointer('pointermove', panel, (x + .5) / width, (y + .5) / height);
         await until(() => out.children.length > 1);
         return [...out.children].map(row => row.textContent);
       };

@@ -12,6 +12,10 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace bench;
+using namespace cli;
+
 namespace {
 
 using Json = nlohmann::json;
@@ -65,13 +69,13 @@ TEST(BenchCases, EveryModeOfACountIsTimedInTurn) {
     options.assign = {Assignment::every};
     options.sizes = {{32, 24}, {16, 12}};
     options.light_counts = {16, 64};
-    const BenchCases plan = planBench("builtin:spheres?lights=7", Settings(), options);
-    ASSERT_EQ(plan.groups.size(), 2u);
-    EXPECT_EQ(plan.groups[1].scene, "builtin:spheres?lights=64");
-    EXPECT_EQ(plan.groups[1].lights, 64u);
-    EXPECT_EQ(plan.groups[0].settings.size(), 4u) << "2 paths, 2 sizes";
-    EXPECT_EQ(plan.groups[0].settings[3].path, Path::forward_plus);
-    EXPECT_EQ(plan.groups[0].settings[3].size, (Size{16, 12}));
+    const BenchCases cases = makeBenchCases("builtin:spheres?lights=7", Settings(), options);
+    ASSERT_EQ(cases.groups.size(), 2u);
+    EXPECT_EQ(cases.groups[1].scene, "builtin:spheres?lights=64");
+    EXPECT_EQ(cases.groups[1].lights, 64u);
+    EXPECT_EQ(cases.groups[0].settings.size(), 4u) << "2 paths, 2 sizes";
+    EXPECT_EQ(cases.groups[0].settings[3].path, Path::forward_plus);
+    EXPECT_EQ(cases.groups[0].settings[3].size, (Size{16, 12}));
 }
 
 TEST(BenchCases, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
@@ -83,14 +87,14 @@ TEST(BenchCases, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
     perObject.path = Path::deferred;
     perObject.assign = Assignment::per_object;
     ASSERT_TRUE(perObject.problem());
-    const BenchCases plan = planBench("builtin:spheres", Settings(), options);
-    ASSERT_EQ(plan.skips.size(), 1u);
-    EXPECT_EQ(plan.skips[0].reason, *perObject.problem());
-    EXPECT_EQ(skipName(plan.skips[0]), "deferred, per_object");
-    EXPECT_EQ(plan.groups.size(), 3u);
+    const BenchCases cases = makeBenchCases("builtin:spheres", Settings(), options);
+    ASSERT_EQ(cases.skips.size(), 1u);
+    EXPECT_EQ(cases.skips[0].reason, *perObject.problem());
+    EXPECT_EQ(skipName(cases.skips[0]), "deferred, per_object");
+    EXPECT_EQ(cases.groups.size(), 3u);
     options.assign = {Assignment::per_object};
     EXPECT_EQ(thrownBy([&] {
-                  planBench("builtin:spheres", Settings(), options);
+                  makeBenchCases("builtin:spheres", Settings(), options);
               }).find("nothing to time: deferred, per_object: "),
               0u);
 }
@@ -98,22 +102,24 @@ TEST(BenchCases, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
 TEST(BenchCases, LightsComeFromTheSceneAFileOrARig) {
     BenchOptions options;
     options.light_counts = {0, 64};
-    EXPECT_EQ(planBench("a.glb", Settings(), options).groups[0].settings[0].lights, "");
-    EXPECT_EQ(planBench("a.glb", Settings(), options).groups[1].settings[0].lights, "point:64");
-    EXPECT_EQ(planBench("a.glb", Settings(), options).groups[1].scene, "a.glb");
-    EXPECT_EQ(planBench("builtin:triangle", Settings(), options).groups[1].settings[0].lights, "point:64")
+    EXPECT_EQ(makeBenchCases("a.glb", Settings(), options).groups[0].settings[0].lights, "");
+    EXPECT_EQ(makeBenchCases("a.glb", Settings(), options).groups[1].settings[0].lights, "point:64");
+    EXPECT_EQ(makeBenchCases("a.glb", Settings(), options).groups[1].scene, "a.glb");
+    EXPECT_EQ(makeBenchCases("builtin:triangle", Settings(), options).groups[1].settings[0].lights,
+              "point:64")
         << "it takes no ?lights=N";
     Settings files;
     files.lights = "rigs/{}.lights.json";
-    EXPECT_EQ(planBench("builtin:spheres", files, options).groups[1].settings[0].lights,
+    EXPECT_EQ(makeBenchCases("builtin:spheres", files, options).groups[1].settings[0].lights,
               "rigs/64.lights.json");
-    EXPECT_EQ(planBench("builtin:spheres", files, options).groups[1].scene, "builtin:spheres");
+    EXPECT_EQ(makeBenchCases("builtin:spheres", files, options).groups[1].scene, "builtin:spheres");
     files.lights = "spot:4";
-    EXPECT_EQ(thrownBy([&] { planBench("a.glb", files, options); }).find("--lights spot:4: --light-counts"),
-              0u);
+    EXPECT_EQ(
+        thrownBy([&] { makeBenchCases("a.glb", files, options); }).find("--lights spot:4: --light-counts"),
+        0u);
     options.light_counts.clear();
-    EXPECT_EQ(planBench("a.glb", files, options).groups[0].settings[0].lights, "spot:4");
-    EXPECT_FALSE(planBench("a.glb", files, options).groups[0].lights);
+    EXPECT_EQ(makeBenchCases("a.glb", files, options).groups[0].settings[0].lights, "spot:4");
+    EXPECT_FALSE(makeBenchCases("a.glb", files, options).groups[0].lights);
 }
 
 TEST(BenchCases, PredictsAlongTheLastTwo) {
@@ -132,7 +138,7 @@ BenchRow row(const char* path, const char* assign, const char* size, std::uint32
     made.settings.set("assign", assign);
     made.settings.set("size", size);
     made.scene = "builtin:spheres";
-    made.asked = lights;
+    made.requested_lights = lights;
     made.counters.lights = lights + 1;
     made.time = {ms, 0.5 * ms, 2 * ms, 3};
     made.ms = {ms, 0.5 * ms, 2 * ms};
@@ -215,7 +221,7 @@ TEST(BenchOutput, JsonReadsBack) {
     EXPECT_TRUE(json["kernels"]["rows"][0]["ratio"].is_null());
     Bench plain = bench;
     plain.kernels.reset();
-    plain.rows[0].asked.reset();
+    plain.rows[0].requested_lights.reset();
     const Json without = Json::parse(benchJson(plain, {}));
     EXPECT_TRUE(without["kernels"].is_null());
     EXPECT_TRUE(without["frames"][0]["light_count"].is_null());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scenes whose marks are known by hand, and what is asked of them.
+// Small scenes whose checks are known by hand, and what is asked of them.
 #pragma once
 
 #include "compare/checks/visual_checks.h"
@@ -75,19 +75,19 @@ inline std::vector<PixelBox> boxesOf(const std::vector<FeatureChecks>& features)
     EXPECT_LE(features.size(), 1u);
     std::vector<PixelBox> boxes;
     for (const FeatureChecks& feature : features)
-        for (const VisualCheck& mark : feature.marks) boxes.push_back(mark.box);
+        for (const VisualCheck& check : feature.checks) boxes.push_back(check.box);
     return boxes;
 }
 using Boxes = std::vector<PixelBox>;
 
 inline std::string what(const Scene& scene, const std::string& feature) {
-    for (const FeatureChecks& marks : checksIn(scene, viewOf()))
-        if (marks.feature == feature) return marks.marks.at(0).what;
+    for (const FeatureChecks& checks : checksIn(scene, viewOf()))
+        if (checks.feature == feature) return checks.checks.at(0).what;
     return "";
 }
 inline std::set<std::string> featuresIn(const Scene& scene) {
     std::set<std::string> names;
-    for (const FeatureChecks& marks : checksIn(scene, viewOf())) names.emplace(marks.feature);
+    for (const FeatureChecks& checks : checksIn(scene, viewOf())) names.emplace(checks.feature);
     return names;
 }
 

@@ -8,6 +8,9 @@
 #include <sstream>
 
 namespace diptych {
+
+using namespace cli;
+
 namespace {
 
 // Every line that calls compare, from its first word on.

@@ -35,16 +35,16 @@ std::vector<Frame> threeFrames(const std::vector<float>& truth, const std::vecto
 }
 
 CloserPathChannel litOf(const std::vector<Frame>& frames) {
-    const CloserPath nearer =
+    const CloserPath closer =
         closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {"stone", "", "gold"});
-    EXPECT_EQ(nearer.channels.size(), 1u);
-    return nearer.channels.at(0);
+    EXPECT_EQ(closer.channels.size(), 1u);
+    return closer.channels.at(0);
 }
 
 TEST(CloserPath, SaysWhichWhereAndByHowMuch) {
     const auto frames = threeFrames({1, 1, 2, 4}, {1.1f, 1, 2.4f, 4}, {1, 1, 2.1f, 4.4f});
     const CloserPathChannel channel = litOf(frames);
-    EXPECT_EQ(channel.nearer, 1);
+    EXPECT_EQ(channel.closer, 1);
     EXPECT_NEAR(channel.paths[0].stats.mean, (0.1 + 0 + 0.2 + 0) / 4, 1e-6);
     EXPECT_NEAR(channel.paths[1].stats.mean, (0 + 0 + 0.05 + 0.1) / 4, 1e-6);
     EXPECT_NEAR(channel.by, 2, 1e-5);
@@ -60,31 +60,31 @@ TEST(CloserPath, SaysWhichWhereAndByHowMuch) {
     EXPECT_EQ(channel.materials[0].name, "stone") << "the two are 0.25 apart there, 0.1 in gold";
     EXPECT_EQ(channel.materials[0].pixels, 3u);
     EXPECT_NEAR(channel.materials[1].mean[1], 0.1, 1e-6);
-    const CloserPath nearer = closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
+    const CloserPath closer = closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
     EXPECT_EQ(
-        closerPathLine(nearer, nearer.channels[0], frames),
-        "lit: forward_plus is nearer to the reference: mean error 0.0375 against 0.075 of deferred (2 times "
+        closerPathLine(closer, closer.channels[0], frames),
+        "lit: forward_plus is closer to the reference: mean error 0.0375 against 0.075 of deferred (2 times "
         "less), at 50.0 % of the pixels (deferred at 25.0 %, even at 25.0 %)");
 }
 
 TEST(CloserPath, WhatCannotBeToldApartIsEven) {
-    EXPECT_EQ(litOf(threeFrames({1, 1}, {1.1f, 1}, {1.1f, 1})).nearer, -1);
-    EXPECT_EQ(litOf(threeFrames({1, 1}, {1.50001f, 1}, {1.5f, 1})).nearer, -1) << "a thousandth of the error";
-    EXPECT_EQ(litOf(threeFrames({1, 1}, {1.52f, 1}, {1.5f, 1})).nearer, 1);
+    EXPECT_EQ(litOf(threeFrames({1, 1}, {1.1f, 1}, {1.1f, 1})).closer, -1);
+    EXPECT_EQ(litOf(threeFrames({1, 1}, {1.50001f, 1}, {1.5f, 1})).closer, -1) << "a thousandth of the error";
+    EXPECT_EQ(litOf(threeFrames({1, 1}, {1.52f, 1}, {1.5f, 1})).closer, 1);
     auto unsure = threeFrames({1, 1}, {1.52f, 1}, {1.5f, 1});
     unsure[0].uncertainty = Image(2, 1, 1, 0.1f);
-    EXPECT_EQ(litOf(unsure).nearer, -1) << "the truth is known to less than they are apart";
+    EXPECT_EQ(litOf(unsure).closer, -1) << "the reference is known to less than they are apart";
 }
 
 TEST(CloserPath, WhatIsExactIsInfinitelyNearer) {
     const auto frames = threeFrames({1, 1}, {1, 1}, {1.5f, 1});
     const CloserPathChannel channel = litOf(frames);
-    EXPECT_EQ(channel.nearer, 0);
+    EXPECT_EQ(channel.closer, 0);
     EXPECT_TRUE(std::isinf(channel.by));
-    const CloserPath nearer = closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
-    EXPECT_NE(closerPathLine(nearer, nearer.channels[0], frames).find("none at all"), std::string::npos);
+    const CloserPath closer = closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
+    EXPECT_NE(closerPathLine(closer, closer.channels[0], frames).find("none at all"), std::string::npos);
     const auto broken = threeFrames({1, 1}, {std::numeric_limits<float>::quiet_NaN(), 1}, {1.5f, 1});
-    EXPECT_EQ(litOf(broken).nearer, 1);
+    EXPECT_EQ(litOf(broken).closer, 1);
 }
 
 TEST(CloserPath, ThePictureHasEachPathsColour) {

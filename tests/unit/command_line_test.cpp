@@ -9,6 +9,9 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace cli;
+
 namespace {
 
 std::string whatIsThrown(const std::vector<std::string>& words) {

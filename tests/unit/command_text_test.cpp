@@ -10,6 +10,9 @@
 #include <vector>
 
 namespace diptych {
+
+using namespace cli;
+
 namespace {
 
 // The words that a shell makes of a line.
@@ -91,7 +94,7 @@ TEST(CommandWords, OnlyWhatIsNotTheDefaultIsSaid) {
 TEST(CommandWords, AnOptionCanBeAddedWhateverTheSceneIsCalled) {
     for (const std::string scene : {"a.glb", "--help"}) {
         const Options again =
-            parsedAgain(shellLine(with(wordsOf("compare", scene, {}), "--channels", "normals")));
+            parsedAgain(shellLine(withOption(commandWords("compare", scene, {}), "--channels", "normals")));
         EXPECT_EQ(again.channels, std::vector<int>{2});
         EXPECT_EQ(again.scenes, std::vector<std::string>{scene});
     }

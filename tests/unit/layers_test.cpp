@@ -13,6 +13,9 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace metrics;
+
 namespace {
 
 // A layer of a 2 x 1 picture whose component c of pixel i is 10 c + i.
@@ -90,8 +93,9 @@ TEST(Layers, OurUncertaintyIsNoChannel) {
 }
 
 TEST(Layers, WhatOnlyOneHasIsSaid) {
-    const auto matched = match(channelsOf(file({layer("a", {"a.Y"}), layer("b", {"b.Y"})}), {}),
-                               channelsOf(file({layer("b", {"b.Y"}, "half"), layer("c", {"c.Y"})}), {}), {});
+    const auto matched =
+        matchChannels(channelsOf(file({layer("a", {"a.Y"}), layer("b", {"b.Y"})}), {}),
+                      channelsOf(file({layer("b", {"b.Y"}, "half"), layer("c", {"c.Y"})}), {}), {});
     ASSERT_EQ(matched.channels.size(), 1u);
     EXPECT_EQ(matched.channels[0].name, "b");
     EXPECT_EQ(matched.notes, (std::vector<std::string>{"a is in the reference alone and was not compared",
@@ -106,7 +110,8 @@ TEST(Layers, GreyIsAColour) {
     EXPECT_EQ(grey[0].kind, ChannelKind::color);
     ASSERT_EQ(grey[0].image.components, 3);
     for (const int c : {0, 1, 2}) EXPECT_EQ(grey[0].image.at(1, 0, c), 1);
-    EXPECT_EQ(match(grey, channelsOf(file({layer("", {"R", "G", "B"})}), {}), {}).channels.size(), 1u);
+    EXPECT_EQ(matchChannels(grey, channelsOf(file({layer("", {"R", "G", "B"})}), {}), {}).channels.size(),
+              1u);
 }
 
 TEST(Layers, NamesThatNeitherFileHasAreAnError) {
@@ -120,11 +125,11 @@ TEST(Layers, WhatIsNotInBothIsAnError) {
     const auto a = [] { return channelsOf(file({layer("", {"R", "G", "B"})}), {}); };
     const auto b = [] { return channelsOf(file({layer("lit", {"lit.Y"})}), {}); };
     const auto c = [] { return channelsOf(file({layer("ao", {"ao.Y"})}), {}); };
-    EXPECT_EQ(thrown([&] { match(a(), b(), {}); }),
+    EXPECT_EQ(thrown([&] { matchChannels(a(), b(), {}); }),
               "lit: R,G,B in the reference and lit.Y in the test; --map says what belongs together");
-    EXPECT_EQ(thrown([&] { match(a(), c(), {}); }),
+    EXPECT_EQ(thrown([&] { matchChannels(a(), c(), {}); }),
               "no layer is in both: the reference has lit, the test ao; --map gives them one name");
-    EXPECT_EQ(thrown([&] { match(a(), a(), {"normals"}); }),
+    EXPECT_EQ(thrown([&] { matchChannels(a(), a(), {"normals"}); }),
               "--channels normals: not in both; the reference has lit, the test lit");
 }
 
@@ -135,10 +140,10 @@ TEST(Layers, WholeNumbersBeyondFloat32AreToldApart) {
         l.exact = {{16777216u, value}};
         return channelsOf(file({std::move(l)}), {});
     };
-    auto matched = match(ids(16777217u), ids(16777216u), {});
+    auto matched = matchChannels(ids(16777217u), ids(16777216u), {});
     EXPECT_EQ(matched.channels[0].reference.data[0], matched.channels[0].test.data[0]);
     EXPECT_NE(matched.channels[0].reference.data[1], matched.channels[0].test.data[1]);
-    matched = match(ids(16777217u), ids(16777217u), {});
+    matched = matchChannels(ids(16777217u), ids(16777217u), {});
     EXPECT_EQ(matched.channels[0].reference.data[1], matched.channels[0].test.data[1]);
 }
 
@@ -158,7 +163,7 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
         Coverage all = everyPixel(12);
         SelectionOptions options;
         options.ignore_edges = edge;
-        select(all, 6, 2, options, {{&ids, &ids}, {}}, notes);
+        applySelection(all, 6, 2, options, {{&ids, &ids}, {}}, notes);
         return picked(all);
     };
     EXPECT_EQ(without(1), "xxxx..xxxx..") << "both sides of the edge";
@@ -168,12 +173,12 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
     Coverage all = everyPixel(12);
     SelectionOptions options;
     options.ignore_edges = 1;
-    EXPECT_EQ(thrown([&] { select(all, 6, 2, options, {}, notes); }),
+    EXPECT_EQ(thrown([&] { applySelection(all, 6, 2, options, {}, notes); }),
               "--ignore-edges: neither material_id nor Z is in both pictures, and they tell objects apart");
     Image depth(6, 2, 1, 10.0f);  // 5 % further is another object
     depth.at(0, 0) = 10.6f;
     depth.at(5, 1) = 10.4f;
-    select(all, 6, 2, options, {{}, {&depth, &depth}}, notes);
+    applySelection(all, 6, 2, options, {{}, {&depth, &depth}}, notes);
     EXPECT_EQ(picked(all), "..xxxx.xxxxx");
 }
 
@@ -188,7 +193,7 @@ TEST(Selection, MaskIdsAndCrop) {
     std::vector<std::string> notes;
     const auto by = [&](const SelectionOptions& options) {
         Coverage all = everyPixel(6);
-        select(all, 3, 2, options, {{&ids, &ids}, {}}, notes);
+        applySelection(all, 3, 2, options, {{&ids, &ids}, {}}, notes);
         EXPECT_EQ(all.count, static_cast<std::size_t>(std::ranges::count(all.covered, 1)));
         return picked(all);
     };
@@ -206,7 +211,7 @@ TEST(Selection, MaskIdsAndCrop) {
     Coverage four = everyPixel(4);
     options = {};
     options.mask = (files / "mask.png").string();
-    EXPECT_EQ(thrown([&] { select(four, 2, 2, options, {}, notes); }),
+    EXPECT_EQ(thrown([&] { applySelection(four, 2, 2, options, {}, notes); }),
               "--mask " + options.mask + ": is 3x2, the pictures are 2x2");
 }
 

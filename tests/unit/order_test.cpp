@@ -11,6 +11,9 @@
 #include <random>
 
 namespace diptych {
+
+using namespace metrics;
+
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();

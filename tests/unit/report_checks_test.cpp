@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the report makes of the marks that a person must look at.
+// What the report makes of the checks that a person must look at.
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "tests/unit/files.h"
@@ -54,9 +54,9 @@ void expectLinksLead(const std::string& page) {
     for (const std::string& target : quotedAfter(page, "href=\"#"))
         EXPECT_TRUE(unique.contains(target)) << target;
 }
-// Of the figure of mark `number`.
+// Of the figure of check `number`.
 std::string figureOf(const std::string& page, int number) {
-    const std::size_t start = page.find("id=\"mark-" + std::to_string(number) + "\"");
+    const std::size_t start = page.find("id=\"check-" + std::to_string(number) + "\"");
     return start == std::string::npos ? "" : page.substr(start, page.find("</figure>", start) - start);
 }
 
@@ -78,7 +78,7 @@ TEST(ReportChecks, EveryMarkHasALinkAndAFigure) {
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     expectLinksLead(page);
     for (int i = 0; i < 3; ++i) {
-        EXPECT_NE(page.find("href=\"#mark-" + std::to_string(i) + "\" title="), std::string::npos) << i;
+        EXPECT_NE(page.find("href=\"#check-" + std::to_string(i) + "\" title="), std::string::npos) << i;
         EXPECT_EQ(countOf(figureOf(page, i), "<svg "), 2u) << "both paths";
     }
     EXPECT_EQ(figureOf(page, 3), "");
@@ -106,7 +106,7 @@ TEST(ReportChecks, WhereNoLightFallsTheBaseColourIsShown) {
 
 TEST(ReportChecks, WithoutLitAnotherChannelIsShown) {
     std::vector<Frame> frames = bothFrames();
-    for (Frame& frame : frames) frame.asked = {static_cast<int>(gpu::DEBUG_normals)};
+    for (Frame& frame : frames) frame.requested = {static_cast<int>(gpu::DEBUG_normals)};
     const std::string page = pageOf(reportOf(std::move(frames), {someChecks()}));
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     expectLinksLead(page);
@@ -144,10 +144,10 @@ TEST(ReportChecks, SeveralComparisonsNumberThemThrough) {
 }
 
 TEST(ReportChecks, NamesOfFilesAreEscaped) {
-    std::vector<FeatureChecks> marks = someChecks();
-    VisualCheck& mark = marks[0].marks[0];
-    mark.name = mark.where = mark.what = "\"><script>alert(1)</script>&'\x01\xff";
-    const Report report = reportOf(bothFrames(), {marks});
+    std::vector<FeatureChecks> checks = someChecks();
+    VisualCheck& check = checks[0].checks[0];
+    check.name = check.where = check.what = "\"><script>alert(1)</script>&'\x01\xff";
+    const Report report = reportOf(bothFrames(), {checks});
     const fs::path out = folder() / "escaped";
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
@@ -166,7 +166,7 @@ TEST(ReportChecks, OneLineOnATerminal) {
               "1 place to check by eye: skins 1");
 }
 
-// The marks of a pair stay with it, whichever path is the left panel.
+// The checks of a pair stay with it, whichever path is the left panel.
 TEST(ReportChecks, TheyStandWithTheirPair) {
     const std::vector<Requirements> needs(4);
     std::vector<Frame> frames = bothFrames("one.glb");
@@ -174,8 +174,8 @@ TEST(ReportChecks, TheyStandWithTheirPair) {
     const Report report = makeReport(
         std::move(frames), needs, {},
         {.baseline = Path::forward_plus, .rules = {}, .selection = {}, .words = {}}, {{}, someChecks()});
-    EXPECT_TRUE(report.comparisons[0].marks.empty());
-    ASSERT_EQ(report.comparisons[1].marks.size(), 2u);
+    EXPECT_TRUE(report.comparisons[0].visual_checks.empty());
+    ASSERT_EQ(report.comparisons[1].visual_checks.size(), 2u);
     EXPECT_EQ(report.baseline(report.comparisons[1]).name, "forward_plus");
 }
 

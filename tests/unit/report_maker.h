@@ -65,9 +65,9 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
     return frames;
 }
 
-inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureChecks>> marks = {}) {
+inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureChecks>> checks = {}) {
     const std::vector<Requirements> needs(frames.size());
-    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, std::move(marks));
+    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, std::move(checks));
 }
 // Elements that HTML closes by itself.
 inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br"};

@@ -24,6 +24,9 @@
 #include <set>
 
 namespace diptych {
+
+using page::markup;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -329,7 +332,7 @@ TEST(Report, ExplainedChannelsCountWhatIsLeftOver) {
 
 TEST(Report, HelpersAreNeitherComparedNorWritten) {
     std::vector<Frame> frames = bothFrames();
-    for (Frame& frame : frames) frame.asked = {static_cast<int>(gpu::DEBUG_normals)};
+    for (Frame& frame : frames) frame.requested = {static_cast<int>(gpu::DEBUG_normals)};
     const fs::path out = folder() / "report";
     const Report report = reportOf(std::move(frames));
     writeReport(report, out, {});
@@ -353,7 +356,7 @@ TEST(Report, OneFrameAsFileOrFolder) {
     fs::create_directory(here / "a");
     const std::vector<std::string> files = writeFrameFolder(frame, {}, here / "a", lit, {});
     EXPECT_EQ(namesIn(here / "a"), (std::vector<std::string>{"forward_plus.exr", "frame.json", "lit.png"}));
-    EXPECT_EQ(markedIn(here / "a", "frame.json"), files) << "frame.json lists what is there, itself too";
+    EXPECT_EQ(manifestFiles(here / "a", "frame.json"), files) << "frame.json lists what is there, itself too";
     // What it wrote itself it may replace, without force.
     for (const auto& [kind, name] :
          {std::pair{OutputKind::exr, "a.exr"}, {OutputKind::png, "a.png"}, {OutputKind::folder, "a"}})

@@ -82,7 +82,7 @@ TEST(Rules, OneOfAnySuffices) {
     EXPECT_EQ(decide(rule, of({{"flip", 0.05}, {"psnr", 40}})).level, Level::pass);
     const Decision d = decide(rule, of({{"flip", 0.05}, {"psnr", 39}}));
     EXPECT_EQ(d.reason, "flip 0.05 exceeds 0.01, and psnr 39 is below 40") << "more decibels are better";
-    EXPECT_EQ(wordsOf(rule.fail), "flip <= 0.01 or (flip <= 0.05 and psnr >= 40)");
+    EXPECT_EQ(conditionText(rule.fail), "flip <= 0.01 or (flip <= 0.05 and psnr >= 40)");
 }
 
 TEST(Rules, AWarningIsNoFailure) {

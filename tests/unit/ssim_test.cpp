@@ -11,6 +11,9 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace metrics;
+
 namespace {
 
 constexpr double c1 = 1e-4, c2 = 9e-4;  // (0.01 L)^2, (0.03 L)^2

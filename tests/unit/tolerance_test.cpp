@@ -41,7 +41,7 @@ struct Pair {
         return *this;
     }
     FramePair pair() const { return {deferred, forward, needs, covered, cpu}; }
-    Tolerance of(gpu::uint mode) const { return tolerance(debugMode(static_cast<int>(mode)), pair()); }
+    Tolerance of(gpu::uint mode) const { return derivedTolerance(debugMode(static_cast<int>(mode)), pair()); }
 };
 
 double quantised(double x, unsigned bits) {
@@ -195,14 +195,14 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
     for (const DebugMode& mode : debugModes()) {
         if (mode.maker == MadeBy::forward_only) continue;
         p.cpu = true;
-        EXPECT_EQ(tolerance(mode, p.pair()).max, 0) << mode.name;
+        EXPECT_EQ(derivedTolerance(mode, p.pair()).max, 0) << mode.name;
         p.cpu = false;
         const double share = 16 * 0x1p-23, expected = mode.metric == Metric::relative   ? share
                                                       : mode.metric == Metric::absolute ? 0.5 * share
                                                       : mode.metric == Metric::angular
                                                           ? std::sqrt(3.0) * share * 180 / std::numbers::pi
                                                           : 0;
-        EXPECT_DOUBLE_EQ(tolerance(mode, p.pair()).max, expected) << mode.name;
+        EXPECT_DOUBLE_EQ(derivedTolerance(mode, p.pair()).max, expected) << mode.name;
     }
 }
 
@@ -215,7 +215,7 @@ TEST(Tolerance, EveryChannelSaysWhy) {
                 Pair p;
                 p.cpu = cpu;
                 p.encoding(e);
-                const std::string because = tolerance(mode, p.pair()).because;
+                const std::string because = derivedTolerance(mode, p.pair()).because;
                 EXPECT_FALSE(because.empty()) << mode.name;
                 EXPECT_EQ(because.find("nothing is known"), std::string::npos)
                     << mode.name << " has no row of its own in tolerance.cpp";
@@ -235,7 +235,7 @@ TEST(Tolerance, LitIsGrantedTheEncodingsMeasuredEffect) {
     EXPECT_EQ(p.of(gpu::DEBUG_lit).max, 0.2) << "0.25 / 1.25, deferred being the baseline";
     EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("0.2"), std::string::npos);
     const FramePair turned{p.forward, p.deferred, p.needs, p.covered, true};
-    EXPECT_EQ(tolerance(debugMode(gpu::DEBUG_lit), turned).max, 0.25) << "forward+ being the baseline";
+    EXPECT_EQ(derivedTolerance(debugMode(gpu::DEBUG_lit), turned).max, 0.25) << "forward+ being the baseline";
     EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 0u);
 }
 

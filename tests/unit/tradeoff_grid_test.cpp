@@ -8,6 +8,9 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace tradeoff;
+
 namespace {
 
 std::string faultOf(const std::string& text) {
@@ -86,7 +89,7 @@ TEST(TradeoffGrid, WhateverItHoldsIsPlannedOrRefused) {
                 below(text.size()), below(4),
                 below(2) ? pieces[below(std::size(pieces))] : std::string(1, static_cast<char>(below(256))));
         try {
-            planSweep({}, readGrids("[" + text.substr(1), {}));
+            makeSweepRows({}, readGrids("[" + text.substr(1), {}));
             ++planned;
         } catch (const std::runtime_error& error) {
             const std::string what = error.what();

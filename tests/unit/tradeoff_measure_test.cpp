@@ -11,6 +11,9 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace tradeoff;
+
 namespace {
 
 constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);

@@ -12,6 +12,10 @@
 #include <limits>
 
 namespace diptych {
+
+using namespace cli;
+using namespace tradeoff;
+
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();

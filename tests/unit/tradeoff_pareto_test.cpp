@@ -9,6 +9,9 @@
 #include <random>
 
 namespace diptych {
+
+using namespace tradeoff;
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(),

@@ -9,15 +9,18 @@
 #include <stdexcept>
 
 namespace diptych {
+
+using namespace tradeoff;
+
 namespace {
 
-SweepRows usualPlan(const Settings& given = {}) {
-    return planSweep(given, usualGrids(given));
+SweepRows usualSweep(const Settings& given = {}) {
+    return makeSweepRows(given, usualGrids(given));
 }
 
-std::vector<std::string> wordsOfRows(const SweepRows& plan, const Settings& given = {}) {
+std::vector<std::string> wordsOfRows(const SweepRows& sweep, const Settings& given = {}) {
     std::vector<std::string> words;
-    for (const Settings& row : plan.rows) words.push_back(inWords(choicesOf(row, given)));
+    for (const Settings& row : sweep.rows) words.push_back(inWords(choicesOf(row, given)));
     return words;
 }
 
@@ -25,29 +28,29 @@ bool holds(const std::vector<std::string>& all, const std::string& one) {
     return std::ranges::count(all, one) > 0;
 }
 
-std::vector<std::string> reasonsOf(const SweepRows& plan, const std::string& option) {
+std::vector<std::string> reasonsOf(const SweepRows& sweep, const std::string& option) {
     std::vector<std::string> reasons;
-    for (const SweepSkip& skip : plan.skips)
+    for (const SweepSkip& skip : sweep.skips)
         for (const Choice& choice : skip.tried)
             if (choice.first == option) reasons.push_back(skip.reason);
     return reasons;
 }
 
 TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
-    const SweepRows plan = usualPlan();
-    ASSERT_FALSE(plan.rows.empty());
-    EXPECT_EQ(plan.rows.front(), Settings());
-    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
-        EXPECT_EQ(std::ranges::count(plan.rows, plan.rows[i]), 1) << i;
-        EXPECT_EQ(plan.rows[i].problem(), std::nullopt) << i;
-        EXPECT_EQ(effectiveSettings(plan.rows[i]), plan.rows[i]) << i;
+    const SweepRows sweep = usualSweep();
+    ASSERT_FALSE(sweep.rows.empty());
+    EXPECT_EQ(sweep.rows.front(), Settings());
+    for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
+        EXPECT_EQ(std::ranges::count(sweep.rows, sweep.rows[i]), 1) << i;
+        EXPECT_EQ(sweep.rows[i].problem(), std::nullopt) << i;
+        EXPECT_EQ(effectiveSettings(sweep.rows[i]), sweep.rows[i]) << i;
     }
 }
 
 // Whatever Settings there are: each swept value of each is a row of each path, or a skip with a reason.
 TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
     const Settings given;
-    const SweepRows plan = usualPlan(given);
+    const SweepRows sweep = usualSweep(given);
     std::size_t tried = 0;
     Settings::fields(given, [&](const Field& field, const auto&) {
         for (const std::string& value : sweptValues(given, field.option)) {
@@ -61,8 +64,8 @@ TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
                     return !skip.reason.empty() && std::ranges::count(skip.tried, choice) == 1 &&
                            std::ranges::count(skip.tried, Choice{"path", std::string(nameOf(path))}) == 1;
                 };
-                const bool drawn = std::ranges::count(plan.rows, asked) == 1;
-                EXPECT_NE(drawn, std::ranges::any_of(plan.skips, skipped))
+                const bool drawn = std::ranges::count(sweep.rows, asked) == 1;
+                EXPECT_NE(drawn, std::ranges::any_of(sweep.skips, skipped))
                     << nameOf(path) << " " << field.option << " " << value;
                 ++tried;
             }
@@ -72,7 +75,7 @@ TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
 }
 
 TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
-    const std::vector<std::string> rows = wordsOfRows(usualPlan());
+    const std::vector<std::string> rows = wordsOfRows(usualSweep());
     for (const char* row :
          {"forward_plus", "deferred", "deferred, gbuffer full", "forward_plus, size 320x180",
           "deferred, gbuffer full, size 320x180", "forward_plus, prepass off"})
@@ -81,25 +84,26 @@ TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
 }
 
 TEST(TradeoffSweep, WhatAPathIgnoresIsSaidOnce) {
-    const SweepRows plan = usualPlan();
-    const std::vector<std::string> gbuffer = reasonsOf(plan, "gbuffer"), prepass = reasonsOf(plan, "prepass");
+    const SweepRows sweep = usualSweep();
+    const std::vector<std::string> gbuffer = reasonsOf(sweep, "gbuffer"),
+                                   prepass = reasonsOf(sweep, "prepass");
     EXPECT_EQ(gbuffer, (std::vector<std::string>(2, "forward_plus has no G-buffer"))) << "compact and full";
     EXPECT_EQ(prepass, (std::vector<std::string>(2, "deferred has no depth pre-pass"))) << "on and off";
-    const std::vector<std::string> rows = wordsOfRows(plan);
+    const std::vector<std::string> rows = wordsOfRows(sweep);
     EXPECT_FALSE(holds(rows, "forward_plus, gbuffer full"));
 }
 
 TEST(TradeoffSweep, TheReferenceIsNoRow) {
-    const SweepRows plan = usualPlan();
-    EXPECT_EQ(reasonsOf(plan, "path").front(), "is what the others are measured against");
-    for (const Settings& row : plan.rows) EXPECT_NE(row.path, Path::reference);
+    const SweepRows sweep = usualSweep();
+    EXPECT_EQ(reasonsOf(sweep, "path").front(), "is what the others are measured against");
+    for (const Settings& row : sweep.rows) EXPECT_NE(row.path, Path::reference);
 }
 
 TEST(TradeoffSweep, ReferenceSamplesReachNoRow) {
     Settings given;
     given.spp = 64;
     given.reference_mode = ReferenceMode::scene;
-    for (const Settings& row : usualPlan(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
+    for (const Settings& row : usualSweep(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
 }
 
 TEST(TradeoffSweep, SizesArePartsOfTheGivenOne) {
@@ -116,24 +120,24 @@ TEST(TradeoffSweep, SizesArePartsOfTheGivenOne) {
 
 TEST(TradeoffSweep, AGridIsItsProduct) {
     const Settings given;
-    const SweepRows plan =
-        planSweep(given, {{{"path", {"deferred", "forward_plus"}}, {"size", {"64x36", "32x18"}}}, {}});
+    const SweepRows sweep =
+        makeSweepRows(given, {{{"path", {"deferred", "forward_plus"}}, {"size", {"64x36", "32x18"}}}, {}});
     const std::vector<std::string> expected{"deferred, size 64x36", "deferred, size 32x18",
                                             "forward_plus, size 64x36", "forward_plus, size 32x18",
                                             "forward_plus"};
-    EXPECT_EQ(wordsOfRows(plan), expected) << "an empty grid is the given Settings";
-    EXPECT_TRUE(plan.skips.empty());
+    EXPECT_EQ(wordsOfRows(sweep), expected) << "an empty grid is the given Settings";
+    EXPECT_TRUE(sweep.skips.empty());
 }
 
 TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
-    const SweepRows plan = planSweep({}, {{{"gbuffer", {"compact", "full"}}}});
-    EXPECT_EQ(wordsOfRows(plan), std::vector<std::string>{"forward_plus"});
-    EXPECT_EQ(plan.skips.size(), 2u);
+    const SweepRows sweep = makeSweepRows({}, {{{"gbuffer", {"compact", "full"}}}});
+    EXPECT_EQ(wordsOfRows(sweep), std::vector<std::string>{"forward_plus"});
+    EXPECT_EQ(sweep.skips.size(), 2u);
 }
 
 TEST(TradeoffSweep, NothingToDrawIsAnError) {
     try {
-        planSweep({}, {{{"shadows", {"pcf"}}}});
+        makeSweepRows({}, {{{"shadows", {"pcf"}}}});
         FAIL();
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("--shadows pcf"), std::string::npos) << error.what();
@@ -143,7 +147,7 @@ TEST(TradeoffSweep, NothingToDrawIsAnError) {
 TEST(TradeoffSweep, TooManyCombinationsAreRefusedBeforeTheyAreMade) {
     Grid grid;
     for (int i = 0; i < 12; ++i) grid.push_back({"size", std::vector<std::string>(10, "8x8")});
-    EXPECT_THROW(planSweep({}, {grid}), std::runtime_error);
+    EXPECT_THROW(makeSweepRows({}, {grid}), std::runtime_error);
 }
 
 TEST(TradeoffSweep, SkipsOfOneReasonAreOneLine) {

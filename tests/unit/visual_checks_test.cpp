@@ -65,7 +65,7 @@ TEST(Marks, TransformsThatAreNoNumbersMarkNothing) {
         Pose pose = poseAt(scene, 0);
         pose.instances[0].world_from_object[3] = glm::dvec4(glm::dvec3(bad), 1);
         for (const FeatureChecks& feature : visualChecksOf(scene, pose, viewOf(), nullptr, nullptr))
-            for (const VisualCheck& mark : feature.marks) EXPECT_FALSE(mark.box.empty());
+            for (const VisualCheck& check : feature.checks) EXPECT_FALSE(check.box.empty());
     }
 }
 
@@ -80,7 +80,7 @@ TEST(Marks, WhatNoPixelShowsIsHidden) {
     ids.at(80, 30) = ids.at(90, 70) = 0;
     const std::vector<FeatureChecks> seen = checksIn(scene, viewOf(), &ids);
     EXPECT_EQ(boxesOf(seen), (Boxes{{80, 30, 91, 71}}));
-    EXPECT_EQ(seen[0].marks[0].pixels, 2u);
+    EXPECT_EQ(seen[0].checks[0].pixels, 2u);
 }
 
 // One behind the other, of one material; the picture shows the nearer one alone.
@@ -97,9 +97,9 @@ TEST(Marks, PositionsTellInstancesOfOneMaterialApart) {
             positions.at(x, y, 2) = -2;
         }
     EXPECT_EQ(checksIn(scene, viewOf(), &ids).at(0).found, 2u);
-    const std::vector<FeatureChecks> marks = checksIn(scene, viewOf(), &ids, &positions);
-    ASSERT_EQ(boxesOf(marks), (Boxes{{75, 25, 125, 75}}));
-    EXPECT_EQ(marks[0].marks[0].pixels, 2500u);
+    const std::vector<FeatureChecks> checks = checksIn(scene, viewOf(), &ids, &positions);
+    ASSERT_EQ(boxesOf(checks), (Boxes{{75, 25, 125, 75}}));
+    EXPECT_EQ(checks[0].checks[0].pixels, 2500u);
 }
 
 // Against counting pixel by pixel, over sizes that tiles do not divide.
@@ -147,11 +147,11 @@ TEST(Marks, TheLargestComeFirstAndAllAreCounted) {
     const std::vector<FeatureChecks> features = checksIn(scene, viewOf());
     ASSERT_EQ(features.size(), 1u);
     EXPECT_EQ(features[0].found, 30u);
-    ASSERT_EQ(features[0].marks.size(), checksShown);
-    EXPECT_EQ(features[0].marks[0].name, "node 10");
-    EXPECT_EQ(features[0].marks[1].name, "node 9");
-    EXPECT_EQ(features[0].marks[2].name, "node 11");
-    EXPECT_TRUE(std::ranges::is_sorted(features[0].marks, std::greater<>(), &VisualCheck::pixels));
+    ASSERT_EQ(features[0].checks.size(), checksShown);
+    EXPECT_EQ(features[0].checks[0].name, "node 10");
+    EXPECT_EQ(features[0].checks[1].name, "node 9");
+    EXPECT_EQ(features[0].checks[2].name, "node 11");
+    EXPECT_TRUE(std::ranges::is_sorted(features[0].checks, std::greater<>(), &VisualCheck::pixels));
 }
 
 TEST(Marks, ManyInstancesLeaveFewMarks) {
@@ -161,24 +161,24 @@ TEST(Marks, ManyInstancesLeaveFewMarks) {
     const Image ids(200, 100, 1, 0);
     const std::vector<FeatureChecks> features = visualChecksOf(scene, pose, viewOf(), &ids, nullptr);
     EXPECT_EQ(features.at(0).found, 100'000u);
-    EXPECT_EQ(features.at(0).marks.size(), checksShown);
+    EXPECT_EQ(features.at(0).checks.size(), checksShown);
 }
 
 // ---- names -------------------------------------------------------------------------------------------
 
 TEST(Marks, PlacesAreNamedByWhatTheFileNames) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
-    const auto mark = [&] { return checksIn(scene, viewOf()).at(0).marks.at(0); };
+    const auto check = [&] { return checksIn(scene, viewOf()).at(0).checks.at(0); };
     scene.meshes[0].name.clear();
-    EXPECT_EQ(mark().name, "mesh 0");
-    EXPECT_EQ(mark().where, "material 0, mesh 0");
+    EXPECT_EQ(check().name, "mesh 0");
+    EXPECT_EQ(check().where, "material 0, mesh 0");
     scene.materials[0].name = "leaf";
     scene.meshes[0].name = "plane";
     scene.nodes[0].name = "tree";
-    EXPECT_EQ(mark().name, "tree");
-    EXPECT_EQ(mark().where, "material 0 \"leaf\", mesh 0 \"plane\", node \"tree\"");
+    EXPECT_EQ(check().name, "tree");
+    EXPECT_EQ(check().where, "material 0 \"leaf\", mesh 0 \"plane\", node \"tree\"");
     scene.meshes[0].primitives.push_back(scene.meshes[0].primitives[0]);
-    EXPECT_EQ(mark().name, "tree \u00b7 leaf");
+    EXPECT_EQ(check().name, "tree \u00b7 leaf");
 }
 
 TEST(Marks, LongNamesAreCutBetweenCharacters) {
@@ -186,7 +186,7 @@ TEST(Marks, LongNamesAreCutBetweenCharacters) {
     scene.nodes[0].name = "x";
     for (int i = 0; i < 1000; ++i)
         scene.nodes[0].name += "\u00e9";  // of two bytes; the 60th byte is its second
-    const std::string name = checksIn(scene, viewOf()).at(0).marks.at(0).name;
+    const std::string name = checksIn(scene, viewOf()).at(0).checks.at(0).name;
     std::string expected = "x";
     for (int i = 0; i < 29; ++i) expected += "\u00e9";
     EXPECT_EQ(name, expected + "...");
