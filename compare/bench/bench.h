@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A whole benchmark, and what is made of it.
+// A whole benchmark, and the files and texts made of it.
 #pragma once
 
 #include "compare/bench/cases.h"
@@ -15,7 +15,7 @@
 
 namespace diptych::bench {
 
-// What is measured of one Settings.
+// The measurements of one Settings.
 struct BenchRow {
     Settings settings;
     std::string scene;  // with its number of lights
@@ -26,12 +26,12 @@ struct BenchRow {
     std::vector<PassTime> passes;  // medians of the profiled frames
     FrameBytes bytes;
     FrameCounters counters;
-    std::vector<std::string> notes;  // what a reader must know of this frame
+    std::vector<std::string> notes;  // what a reader must know about this frame
 };
 
-// What makes light lists: its passes' names begin so.
+// The names of passes that make light lists begin with this.
 inline constexpr std::string_view assignPasses = "assign";
-// Of the profiled passes, ms: those that make light lists; and their share of all, 0 to 1.
+// The time of the profiled passes that make light lists, ms; and their share of all passes, 0 to 1.
 double assignMs(const BenchRow& row);
 double assignShare(const BenchRow& row);
 
@@ -46,13 +46,13 @@ struct Bench {
     std::optional<KernelReport> kernels;
 };
 
-// The rows of one group: one frame each to warm up, which also tells those that take over options.max_ms,
-// then `runs` rounds of one frame each, then as many profiled ones, three at least. What is left out goes
-// into bench.skips; earlier rows of `bench` predict what need not be tried.
+// Measures the rows of one group: first a frame each to warm up, which also finds rows that take over
+// options.max_ms; then `runs` rounds of one frame each; then as many profiled rounds, at least three. Rows
+// left out go into bench.skips; earlier rows of `bench` predict which need not be tried.
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress);
 
-// What is to be known of every row alike: their notes are only those of single rows beside.
+// The notes that every row has; they are shown once instead of for each row.
 std::vector<std::string> commonNotes(const Bench& bench);
 
 // "1024", "36.4", "0.0123": four digits, or all before the point.

@@ -30,7 +30,7 @@ std::string head(std::initializer_list<std::pair<const char*, bool>> columns) {
     return out + "</tr></thead>\n<tbody>";
 }
 
-// Those of a row that not every row has.
+// The notes of a row that not every row has.
 std::vector<std::string> ownNotes(const BenchRow& row, const std::vector<std::string>& common) {
     std::vector<std::string> own;
     for (const std::string& note : row.notes)

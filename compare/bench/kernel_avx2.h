@@ -6,8 +6,8 @@
 
 namespace diptych::bench {
 
-// One tile of 16 x 16 pixels. This and what it is made with are compiled for AVX2 and FMA: only plain types
-// here, so that no template or inline function shared with other files is.
+// One tile of 16 x 16 pixels. kernel_avx2.cpp is compiled for AVX2 and FMA. It includes only plain types, so
+// that no template or inline function shared with other files is compiled that way.
 struct KernelTile {
     const float* lights;           // 8 floats each: gpu::Light
     const std::uint32_t* indices;  // the tile's list

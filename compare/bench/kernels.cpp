@@ -42,8 +42,8 @@ void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture
 
 namespace {
 
-// CPU time of this program during `work`, over the threads that share it: on a calm machine what the clock
-// says, and beside other programs nearly the same.
+// CPU time of this program during `work`, divided by the threads that share it. On an idle machine this
+// equals wall-clock time, and it changes little when other programs run.
 double cpuMs(int threads, const std::function<void()>& work) {
     const std::clock_t used = std::clock();
     work();
@@ -58,7 +58,7 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     const KernelWorkload workload = makeWorkload(report.size, mostKernelLights, report.long_list, 1);
 
-    // A list's length in, milliseconds out.
+    // Each function takes a list length and returns milliseconds.
     std::vector<std::pair<KernelRow, std::function<double(int)>>> kernels;
     Image picture{report.size.width, report.size.height, 3, {}};
     picture.data.resize(picture.pixels() * 3);

@@ -32,8 +32,9 @@ struct KernelReport {
     std::vector<std::string> notes;
 };
 
-// `runs` draws of either length, all kernels in turn, the fastest of each. Of a CPU, as hardware or as Vulkan
-// device, CPU time over its threads; of another device PassList's time.
+// Times all kernels in turn, `runs` draws of either list length, and keeps the fastest of each. Kernels on a
+// CPU, run directly or by a Vulkan device, are timed in CPU time divided by the threads; other devices by
+// PassList.
 KernelReport measureKernels(Device& device, int runs, const Stage& progress);
 
 // A kernel of shaders/pass/bench_*.frag.
@@ -44,7 +45,7 @@ struct DeviceKernel {
     std::optional<double> goal;  // KernelRow::goal
 };
 const std::vector<DeviceKernel>& deviceKernels();
-// Empty where the device can draw it.
+// Why the device cannot draw the kernel; empty if it can.
 std::string whyNotDrawn(const Device& device, const DeviceKernel& kernel);
 
 // A kernel over a workload, ready to be drawn. Device and workload outlive it.
@@ -57,7 +58,7 @@ public:
 std::unique_ptr<DrawnKernel> makeDrawnKernel(Device& device, const KernelWorkload& workload,
                                              const DeviceKernel& kernel);
 
-// Where the CPU has AVX2 and FMA; runCpuKernel() asks for them.
+// Whether the CPU has AVX2 and FMA, which runCpuKernel() needs.
 bool hasCpuKernel();
 // The same picture by hand-written AVX2 on all cores: 8 pixels a vector. W x H x 3.
 void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture);

@@ -15,10 +15,10 @@ using page::cameraTitle;
 
 namespace {
 
-// Frames whose passes are timed one by one, where --runs says fewer.
+// The least number of frames whose passes are timed one by one.
 constexpr int fewestProfiled = 3;
 
-// Beyond this many times --max-ms the first frame, in which drivers compile, is not given a second chance.
+// A first frame slower than this many times --max-ms is not drawn again, although drivers compile during it.
 constexpr double compiling = 4;
 
 BenchSkip skipOf(const Settings& settings, const BenchGroup& group, std::string reason) {
@@ -29,7 +29,8 @@ bool isMode(const Settings& a, const Settings& b) {
     return a.path == b.path && a.assign == b.assign && a.size == b.size;
 }
 
-// Why the Settings need not be tried with so many lights, after what fewer took; empty: they must.
+// Why the Settings need not be tried with so many lights, judging by the times with fewer; empty if they must
+// be tried.
 std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings& settings) {
     if (!group.lights) return {};
     for (const BenchSkip& skip : bench.skips)

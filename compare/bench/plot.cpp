@@ -38,7 +38,7 @@ std::vector<Series> seriesOf(const Bench& bench, const Size& size) {
     return all;
 }
 
-// Told by shape as well as by colour: a path has a mark and a dash, an assignment a colour.
+// Paths differ in the shape of points and the dash of lines, assignments in colour.
 std::string markAt(Path path, double x, double y) {
     constexpr double r = 4;
     return path == Path::deferred

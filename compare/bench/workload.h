@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of a benchmark shade.
+// The workload that the kernels of a benchmark shade.
 #pragma once
 
 #include "shared/contract/light.h"

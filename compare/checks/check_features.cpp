@@ -182,7 +182,7 @@ CheckFeatures featuresOf(const Scene& scene, const Primitive& primitive) {
 CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeatures features) {
     if (isMirrored(instance)) {
         features |= bitOf(CheckFeature::mirrored);
-        features &= ~bitOf(CheckFeature::orientation);  // what is pictured may well be mirrored
+        features &= ~bitOf(CheckFeature::orientation);  // a mirrored instance may show its texture mirrored
     }
     if (scene.nodes[static_cast<std::size_t>(instance.node)].skin >= 0 &&
         !primitiveOf(scene, instance).joint_sets.empty())
@@ -192,7 +192,7 @@ CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeat
 
 // ---- what is seen ------------------------------------------------------------------------------------
 
-// No texel and no vertex makes the alpha of the primitive smaller than that.
+// A lower bound of the primitive's alpha over all its texels and vertices.
 float CheckSentences::leastAlpha(const Primitive& primitive) {
     const Material& m = materialOf(scene_, primitive);
     float least = m.base_color.a;

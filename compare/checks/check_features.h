@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What may be wrong in both paths alike, and what is seen where it is right.
+// Features of a scene that both paths may draw wrongly in the same way, and what is seen where they are
+// right.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -49,14 +50,15 @@ constexpr CheckFeatures bitOf(CheckFeature feature) {
     return CheckFeatures{1} << static_cast<unsigned>(feature);
 }
 
-// What a primitive shows wherever it stands; reads each of its vertices once. A feature that cannot change a
-// pixel (white vertex colours, an edge mode where no coordinate passes the edge) is none.
+// The features of a primitive that do not depend on its instance. Reads each of its vertices once. A feature
+// that cannot change a pixel (white vertex colours, a wrap mode where no coordinate passes the edge) is left
+// out.
 CheckFeatures featuresOf(const Scene& scene, const Primitive& primitive);
 
-// With what depends on the place.
+// Adds the features that depend on the instance.
 CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeatures ofPrimitive);
 
-// What is seen where it is right, for people.
+// Sentences for people: what is seen where a feature is drawn correctly.
 class CheckSentences {
 public:
     explicit CheckSentences(const Scene& scene) : scene_(scene) {}
@@ -69,7 +71,7 @@ private:
     std::string ofMask(const Primitive& primitive);
 
     const Scene& scene_;
-    std::map<int, float> least_alpha_;  // of the texels of an image; looked up once
+    std::map<int, float> least_alpha_;  // least alpha of an image's texels, found once
 };
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which materials a picture shows where, asked a million times.
+// Finds the pixels of a material in part of a picture, fast enough for a million queries.
 #pragma once
 
 #include "compare/checks/pixel_box.h"
@@ -23,8 +23,8 @@ public:
         PixelBox box;  // around them
         void add(std::uint64_t count, const PixelBox& where);
     };
-    // The pixels of `material` in `box` whose positions, where they are known, lie within `reach`. Looks at
-    // no more pixels than lie in the box, and at whole tiles by what is known of them.
+    // The pixels of `material` in `box` whose positions, where they are known, lie within `reach`. Visits no
+    // pixel outside the box, and takes whole tiles from their summaries.
     Seen within(int material, const PixelBox& box, const Bounds& reach) const;
 
 private:

@@ -152,7 +152,7 @@ struct Candidate {
     }
 };
 
-// The best checksShown of however many.
+// Keeps the best checksShown of any number of candidates.
 struct Chosen {
     std::uint64_t found = 0;
     std::vector<Candidate> best;  // a heap, the least of them on top
@@ -169,7 +169,7 @@ struct Chosen {
     }
 };
 
-// What is known of a primitive before it stands anywhere, found out once.
+// What is known of a primitive without its instances, found once.
 struct PrimitiveChecks {
     bool known = false;
     CheckFeatures features = 0;

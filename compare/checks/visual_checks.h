@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where both paths may be wrong alike, so that no comparison of the two can show it and a person has to look.
+// Visual checks: places where both paths may be wrong in the same way, which no comparison of the two can
+// show, so that a person must look.
 #pragma once
 
 #include "compare/checks/pixel_box.h"
@@ -20,7 +21,7 @@ struct Scene;
 struct SceneView;
 struct View;
 
-// One feature of the scene at one place. The names in it are the file's: nobody has escaped them.
+// One feature of the scene at one place. Its names come from the scene's file and are not escaped.
 struct VisualCheck {
     std::string what;   // one sentence: what is seen there if it is right
     std::string name;   // short, of the place
@@ -32,20 +33,20 @@ struct VisualCheck {
 // The checks of one feature, largest first.
 struct FeatureChecks {
     std::string_view feature;
-    std::uint64_t found = 0;  // in view, of which at most `checksShown` are told
+    std::uint64_t found = 0;  // in view; at most `checksShown` of them are listed
     std::vector<VisualCheck> checks;
 };
 inline constexpr std::size_t checksShown = 24;
 
 // One check for each feature of an instance that the view shows. The instance's bounds, cut off at the near
 // and far planes, are projected; of that box the pixels count at which `materials`, the channel material_id,
-// has the instance's material and `positions`, the channel position, lies within its bounds: where there are
-// none it is hidden, off the picture or turned away. Without a channel (nullptr) its word is not asked.
-// Features without a check are left out.
+// has the instance's material and `positions`, the channel position, lies within its bounds: without any such
+// pixel the instance is hidden, outside the picture or turned away. A channel that is nullptr is not
+// consulted. Features without a check are left out.
 std::vector<FeatureChecks> visualChecksOf(const Scene& scene, const Pose& pose, const View& view,
                                           const Image* materials, const Image* positions);
 
-// As the Frame, drawn of this view, shows the scene.
+// The same with the channels of a Frame that was drawn of this view.
 std::vector<FeatureChecks> visualChecksOf(const Scene& scene, const SceneView& view, const Frame& frame);
 
 }  // namespace diptych

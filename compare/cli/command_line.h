@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the words of the command line to what is asked for.
+// Parses the words of the command line into Options.
 #pragma once
 
 #include "compare/cli/options.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every command is called and understands, for the command line's parser.
+// The names and options of every command, for the command line's parser.
 #pragma once
 
 #include "compare/cli/options.h"
@@ -21,7 +21,7 @@ struct Command {
 };
 std::span<const Command> allCommands();
 
-// What was said, before it has a meaning.
+// The options as parsed, before resolve() interprets them together.
 struct ParsedOptions {
     std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
     std::vector<std::string> cameras;
@@ -35,7 +35,7 @@ struct ParsedOptions {
     double max_ms = 2000;
 };
 
-// Everything that `command` understands; the parser fills `options` and `said`.
+// Adds everything that `command` understands to `app`; parsing fills `options` and `parsed`.
 void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& said);
 
 }  // namespace diptych::cli

@@ -24,8 +24,8 @@ int fail(std::string what) {
     return 2;
 }
 
-// Who reads stdout has gone: the usual end, as of any program in a pipe. Until here its signal was ignored,
-// so that nothing half written stays behind.
+// The reader of stdout has closed the pipe, so the program ends by SIGPIPE as usual. Until here the signal
+// was ignored, so that no unfinished file is left behind.
 [[noreturn]] void endOfPipe() {
     diptych::dieOf(SIGPIPE);
 }

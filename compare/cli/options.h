@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a command line asks for.
+// The parsed command line.
 #pragma once
 
 #include "compare/bench/cases.h"
@@ -42,7 +42,7 @@ struct Options {
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
     bench::BenchOptions bench;
-    std::string grid;  // tradeoff: a file or JSON; empty: what is usual
+    std::string grid;  // tradeoff: a file or JSON; empty: usualGrids()
 };
 
 }  // namespace diptych::cli

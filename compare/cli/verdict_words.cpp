@@ -12,7 +12,7 @@
 namespace diptych::cli {
 namespace {
 
-// "--option value" for what is not as usual; numbers with all their digits.
+// Collects "--option value" for options that differ from their defaults; numbers keep all their digits.
 class Words {
 public:
     template <class T>

@@ -8,7 +8,8 @@ namespace diptych::cli {
 
 struct Options;
 
-// The words of `options` beside scene, camera and Settings that decide a verdict: rules, pixels, metric.
+// The words of the options that influence a verdict, except scene, camera and Settings: rules, pixels,
+// metric.
 std::vector<std::string> wordsOfWhatCounts(const Options& options);
 
 }  // namespace diptych::cli

@@ -20,15 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* begunName = ".diptych.put";  // the folder whose plan is being carried out
+constexpr const char* begunName = ".diptych.put";  // the folder whose files are being moved out
 constexpr const char* listName = ".plan.json";
-constexpr const char* oldName = ".old";  // in it: what was replaced, until all is done
+constexpr const char* oldName = ".old";  // inside it: replaced files, until all moves are done
 
 bool isThere(const fs::path& path) {
     return fs::exists(fs::symlink_status(path));
 }
 
-// Moves files and remembers them, to move them back.
+// Moves files, and can move them back.
 class UndoableMoves {
 public:
     void make(const fs::path& from, const fs::path& to) {
@@ -40,7 +40,8 @@ public:
         throw std::runtime_error(writingFailed(to, error));
     }
 
-    // `to` gets the name `kept` as well, if the file system can, so that it is never missing.
+    // Moves `from` to `to` and keeps the old `to` as `kept`. Where the file system has hard links, `to`
+    // exists at every moment.
     void replace(const fs::path& from, const fs::path& to, const fs::path& kept) {
         makeFolder(kept.parent_path());
         if (::link(to.c_str(), kept.c_str()) != 0) {
@@ -82,7 +83,7 @@ std::vector<std::string> removedBy(const FileMoves& moves) {
     return names;
 }
 
-// The folders "1" of removed "1/lit.png", where nothing is left in them.
+// Removes folders that are now empty, such as "1" after "1/lit.png" was removed.
 void removeEmptied(const fs::path& folder, const FileMoves& moves) {
     for (const std::string& name : removedBy(moves))
         if (const fs::path inner = fs::path(name).parent_path(); !inner.empty())
@@ -106,11 +107,11 @@ FileMoves readMoves(const fs::path& file) {
     return {namesIn(json, "files"), namesIn(json, "earlier")};
 }
 
-// Everything new is in place. The plan goes after what it speaks of, so that a kill in between leaves what
-// can be carried out again.
+// Cleans up when everything new is in place. The list of moves is removed last: if the program is killed in
+// between, finishMoves() can repeat the clean-up.
 void removeBegun(const fs::path& begun) {
     std::error_code ignored;
-    std::vector<fs::path> folders;  // what was replaced, and those that files were moved out of
+    std::vector<fs::path> folders;  // of replaced files, and those that files were moved out of
     for (fs::directory_iterator entry(begun, ignored), end; !ignored && entry != end;
          entry.increment(ignored))
         if (entry->is_directory(ignored)) folders.push_back(entry->path());
@@ -140,7 +141,7 @@ void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) 
             if (fs::is_regular_file(fs::symlink_status(folder / name)))
                 done.make(folder / name, begun / oldName / name);
     } catch (...) {
-        // Where not even this can be done the plan stays: the next program carries it out.
+        // If undoing fails as well, the list of moves stays, and the next program finishes the moves.
         if (done.undo()) std::rename(begun.c_str(), temporary.c_str());
         throw;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moving a report's files into a folder that holds files of others, one by one: all of them or none.
+// Moves a report's files one by one into a folder that also holds other files: either all of them or none.
 #pragma once
 
 #include "shared/image/temporary.h"
@@ -15,14 +15,15 @@ struct FileMoves {
     std::vector<std::string> earlier;  // to be removed where they are not among `files`
 };
 
-// `made`, in `folder`, gets the plan written into it and is renamed to what finishMoves() looks for: from
-// then on the new files count. What fails after that is undone. Throws std::runtime_error naming the file.
+// Writes the list of moves into `made`, a folder inside `folder`, and renames it to the name that
+// finishMoves() looks for; from then on the new files count. Then moves the files, and undoes all moves if
+// one fails. Throws std::runtime_error naming the file.
 void moveFiles(const std::filesystem::path& folder, Temporary& made, const FileMoves& moves);
 
-// A program was killed while it carried out its plan, or is at it now.
+// Whether a program was killed during moveFiles(), or is in it now.
 bool isMoveBegun(const std::filesystem::path& folder);
 
-// Carries out a plan that was begun and not undone. Throws std::runtime_error naming the file.
+// Finishes moves that were begun and neither finished nor undone. Throws std::runtime_error naming the file.
 void finishMoves(const std::filesystem::path& folder);
 
 }  // namespace diptych

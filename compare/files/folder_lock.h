@@ -5,13 +5,13 @@
 
 namespace diptych {
 
-// While it lives no other program of ours moves files into the folder or beside it: a lock on the folder that
-// holds it, which leaves no file behind and ends with the program, however that ends. Programs wait for each
-// other; moving takes milliseconds.
+// While this object lives, no other diptych program moves files into the folder or beside it. It is a lock on
+// the parent folder, which leaves no file behind and is released however the program ends. Programs wait for
+// each other; moving takes milliseconds.
 class FolderLock {
 public:
-    // Throws std::runtime_error naming the folder where another has it for half a minute. Where the file
-    // system knows no locks there is none.
+    // Throws std::runtime_error naming the folder if another program holds the lock for half a minute. On a
+    // file system without locks nothing is locked.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;

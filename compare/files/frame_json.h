@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every JSON file of ours says of a Frame.
+// A Frame in JSON, as all our files hold it.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -8,10 +8,10 @@
 
 namespace diptych {
 
-// All but its pixels, as a report's "frames" holds it.
+// Everything but the pixels, as in the "frames" of a report.
 nlohmann::ordered_json jsonOf(const Frame& frame);
 nlohmann::ordered_json jsonOf(const FrameCamera& camera);
-// Without its "far" there is no far plane. Throws nlohmann::json::exception where a vector is missing or of
+// Without "far" the camera has no far plane. Throws nlohmann::json::exception where a vector is missing or of
 // another size.
 FrameCamera cameraFromJson(const nlohmann::json& json);
 

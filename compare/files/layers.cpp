@@ -51,7 +51,7 @@ ChannelKind kindOf(const std::string& name, const Names& channels, const std::st
     return type == "uint" ? ChannelKind::id : ChannelKind::scalar;
 }
 
-// A layer in pieces that have a meaning each.
+// Splits a layer into channels that each have one meaning.
 class Splitter {
 public:
     Splitter(PictureLayer layer, std::vector<PictureChannel>& out) : layer_(std::move(layer)), out_(out) {
@@ -74,8 +74,8 @@ private:
     std::vector<PictureChannel>& out_;
     std::vector<bool> left_;
 
-    // A grey picture's light, with alpha or without: as red, green and blue, so that it meets colours and has
-    // a FLIP.
+    // The Y of a grey picture, with alpha or without, becomes red, green and blue, so that it can be compared
+    // with colours and by FLIP.
     void takeGrey() {
         for (std::size_t i = 0; i < layer_.channels.size(); ++i)
             if (left_[i] && layer_.channels[i] == "Y") {
@@ -182,8 +182,8 @@ std::string list(const std::vector<PictureChannel>& channels) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Two whole numbers that float32 rounds to one are told apart by its next value: the difference is seen, by
-// its size only as far as float32 resolves it.
+// Two different integers that float32 rounds to the same value are moved apart to neighbouring floats, so
+// that the difference is seen, though not its exact size.
 void tellApart(const PictureChannel& a, PictureChannel& b) {
     if (a.exact.empty() && b.exact.empty()) return;
     const auto valueAt = [](const PictureChannel& c, std::size_t i) {

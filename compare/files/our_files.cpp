@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Null where the file is not ours.
+// The file's JSON; null if it was not written by diptych.
 nlohmann::json ourJson(const fs::path& file) {
     std::ifstream stream(file);
     nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
@@ -32,8 +32,8 @@ bool isPlainName(const fs::path& name) {
 
 }  // namespace
 
-// Both stand before the pixels: the EXR attribute (name, type, size, value) and the PNG chunk (size, type,
-// keyword, text), byte for byte as they are written.
+// Both formats name the software before the pixels: the EXR attribute (name, type, size, value) and the PNG
+// chunk (size, type, keyword, text), byte for byte as they are written.
 bool isOurPicture(const fs::path& file) {
     using namespace std::string_literals;
     std::string head(1 << 16, '\0');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How diptych knows again what it wrote.
+// How diptych recognises files that it wrote.
 #pragma once
 
 #include <filesystem>
@@ -8,22 +8,23 @@
 
 namespace diptych {
 
-// Every JSON, EXR and PNG of ours says so: what to look for, and what to write.
+// The name of the software that every JSON, EXR and PNG of ours carries.
 inline constexpr const char* softwareName = "diptych";
 
-// A JSON file that says "software": "diptych" and "schema": 1.
+// Whether the file is a manifest: JSON with "software": "diptych" and "schema": 1. A manifest marks its
+// folder as written by diptych.
 bool isOurManifest(const std::filesystem::path& file);
 
-// What a manifest of ours lists under "files": plain names that end as files of ours do, so that an edited
-// list reaches neither outside the folder nor what diptych never writes. Empty where the manifest is not
-// ours.
+// The names that a manifest lists under "files". Only plain names with endings that diptych writes are
+// returned, so that an edited list can name neither files outside the folder nor files that diptych never
+// writes. Empty if the file is no manifest.
 std::vector<std::string> listedIn(const std::filesystem::path& manifest);
 
 // A file's name as diptych gives them in a folder that it writes: "lit.png" or, of several Frames,
 // "1/lit.png".
 bool isOurName(const std::filesystem::path& name);
 
-// `manifest` in the folder and what it lists, where the manifest is ours.
+// The files that the folder's manifest lists, and the manifest itself. Empty if there is no manifest.
 std::vector<std::string> manifestFiles(const std::filesystem::path& folder, const std::string& manifest);
 
 // An EXR or PNG that names diptych as its software.

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// But for what is being written there just now, by this program or another.
+// Temporary files that are being written there now, by this program or another, do not count.
 bool isEmpty(const fs::path& folder) {
     const fs::path name = fs::canonical(folder);
     return std::ranges::all_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {

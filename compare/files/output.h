@@ -19,7 +19,7 @@ struct Output {
 // is one whatever its ending. Throws std::runtime_error naming -o for any other ending.
 Output outputOf(const std::filesystem::path& out);
 
-// ".NAME.what" beside an output: where what is done of it is kept until it is whole.
+// ".NAME.what" beside an output: holds the finished part of it until all of it is done.
 std::filesystem::path besideOutput(const std::filesystem::path& out, const std::string& what);
 
 // An EXR or PNG that names diptych as its software, or a folder that is empty or holds `manifest`, a JSON

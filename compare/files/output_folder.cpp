@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// "out/" and "out/." are out, and a link is where it leads.
+// The folder's absolute name: "out/" and "out/." become "out", and a symbolic link its target.
 fs::path nameOf(const fs::path& folder) {
     fs::path path = fs::absolute(folder).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
     return fs::is_symlink(fs::symlink_status(path)) ? fs::weakly_canonical(path) : path;
 }
 
-// Regular files of `ours` and the folders that they need, but for `aside`.
+// Whether the folder holds nothing but the regular files `ours`, the folders that they need, and `aside`.
 bool holdsOnly(const fs::path& folder, const std::vector<std::string>& ours, const fs::path& aside) {
     const std::set<std::string> names(ours.begin(), ours.end());
     std::set<std::string> folders;
@@ -54,7 +54,8 @@ bool holdsOnly(const fs::path& folder, const std::vector<std::string>& ours, con
     return !error;
 }
 
-// Access lists and the like, which a new folder would not have. SELinux marks every folder by itself.
+// Whether the folder has extended attributes such as access lists, which a new folder would lack. Those that
+// SELinux sets on every folder do not count.
 bool hasAttributes(const fs::path& folder) {
     char names[4096];
     const ssize_t size = ::llistxattr(folder.c_str(), names, sizeof names);
@@ -67,7 +68,8 @@ bool hasAttributes(const fs::path& folder) {
     return false;
 }
 
-// A new folder can have all that the old one has: owner, group, mode. Not a link, and not where we stand.
+// Makes the new folder like the old one in owner, group and mode. False if that is not possible, if the old
+// one is a link, or if it is our working directory.
 bool likeNew(const fs::path& folder, const fs::path& fresh) {
     struct stat old {
     }, made{};
@@ -82,7 +84,7 @@ bool isReadOnly(const fs::path& folder) {
     return ::faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) != 0;
 }
 
-// What somebody else put into a folder of ours while it changed places goes back under its name.
+// Moves files that another program created in the old folder during the exchange into the new one.
 void rescue(const fs::path& from, const fs::path& to, const std::vector<std::string>& ours) {
     std::error_code ignored;
     for (const std::string& name : ours) fs::remove(from / name, ignored);
@@ -101,13 +103,13 @@ OutputFolder::OutputFolder(const fs::path& folder) : folder_(nameOf(folder)) {
     fs::create_directories(folder_.parent_path(), error);
     if (error) throw std::runtime_error(writingFailed(folder, error.value()));
     const FolderLock lock(folder_);
-    // What killed programs left on either side.
+    // Making a Temporary removes what killed programs left there: first beside the folder, then inside it.
     temporary_ = std::make_unique<Temporary>(folder_.parent_path(), folder_);
     if (fs::exists(folder_)) temporary_ = std::make_unique<Temporary>(folder_, folder_);
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
 }
 
-// False, and nothing is changed, where the whole folder cannot be replaced at once.
+// Replaces the whole folder at once. If that is not possible, changes nothing and returns false.
 bool OutputFolder::exchange(const std::vector<std::string>& earlier) {
     if (isReadOnly(folder_) || !holdsOnly(folder_, earlier, temporary_->path()) ||
         !likeNew(folder_, temporary_->path()))

@@ -53,7 +53,7 @@ void checkAlike(const Image& a, const Image& b, std::size_t covered) {
                                              a.height, a.components, b.width, b.height, b.components));
 }
 
-// The channel that tells the background, and its value there.
+// The channel by which background is recognised, and its value there.
 std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Frame& b) {
     for (const auto& [mode, value] : {std::pair{static_cast<int>(gpu::DEBUG_material_id), -1.0f},
                                       {static_cast<int>(gpu::DEBUG_depth), 0.0f}})

@@ -12,13 +12,13 @@
 
 namespace diptych {
 
-// Which pixels show a surface in at least one of two Frames; the others are background and outside every
-// statistic. Told by material_id (-1), without it by depth (0). Throws std::runtime_error where a channel is
-// not of its Frame's size.
+// Which pixels show a surface in at least one of two Frames; the others are background and count in no
+// statistic. Background is recognised by material_id = -1, or, without that channel, by depth = 0. Throws
+// std::runtime_error where a channel is not of its Frame's size.
 struct Coverage {
     std::vector<std::uint8_t> covered;  // 1 per pixel that counts
     std::size_t count = 0;
-    bool known = false;  // neither channel is there: every pixel counts
+    bool known = false;  // false: neither channel is there, so every pixel counts
 };
 Coverage coverage(const Frame& a, const Frame& b);
 Coverage everyPixel(std::size_t pixels);
@@ -64,7 +64,8 @@ ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline
 Image errorImage(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
                  const Coverage& coverage);
 
-// Of the pixel's largest component: what a GPU's compiler may contract differently in two pipelines.
+// Units in the last place of a pixel's largest component by which two pipelines may differ on a GPU, whose
+// compiler may contract multiplications and additions differently in each.
 constexpr int gpuUlps = 16;
 
 // Pixels of all W x H, covered or not, that are not the same: bit for bit (NaN is NaN, -0 is not 0), or, with

@@ -19,7 +19,7 @@
 namespace diptych {
 namespace {
 
-constexpr float absent = -1;       // in a list of errors: none to measure
+constexpr float absent = -1;       // in a list of errors: not measured
 constexpr double mostStops = 126;  // 2^126 is a float
 
 bool finite(const float* p) {

@@ -29,12 +29,13 @@ struct HdrFlipOptions : FlipOptions {
     std::optional<int> exposures;  // 1 or more; else stop - start rounded up, at least 2
 };
 
-// Statistics are over the covered pixels but those where both pictures hold the same nonfinite value: those
-// have no error to measure. A pixel that is nonfinite otherwise has error 1, and counts.
+// Statistics are over the covered pixels, except those where both pictures hold the same nonfinite value:
+// they have no error to measure. A pixel that is nonfinite in any other way has error 1 and counts.
 struct FlipResult {
     Image error;  // W x H x 1, in [0, 1]; every pixel, covered or not
     double mean = 0, min = 0, max = 0;
-    // Each error weighs as much as it is: the least such that errors up to it are that share of their sum.
+    // Quantiles in which each error is weighted by its own size: the least error such that all errors up to
+    // it add up to that share of the sum.
     double weighted_first_quartile = 0, weighted_median = 0, weighted_third_quartile = 0;
     std::uint64_t pixels = 0;  // what the statistics are over
     // Of all pixels, covered or not:
@@ -52,9 +53,9 @@ struct HdrFlipResult : FlipResult {
 };
 
 // `reference` and `test` are W x H x 3, alike in size; throws std::runtime_error otherwise, and where an
-// option is out of its range. Nonfinite pixels (NaN or infinity in a component) are outside all filters in
-// both pictures: the weights of the others make up for them. The same result whatever the number of threads.
-// sRGB, display-referred values.
+// option is out of its range. Nonfinite pixels (NaN or infinity in a component) are left out of all filters
+// in both pictures, and the weights of the other pixels are renormalised. The result does not depend on the
+// number of threads. sRGB, display-referred values.
 FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions& options = {});
 // Linear radiance. The largest error over the exposures, evenly spaced.
 HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options = {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What FLIP does to rows of pixels; planes apart, so that a row is worked on in vector lanes.
+// FLIP's arithmetic on rows of pixels. Each component is a plane of its own, so that compilers vectorise
+// along the row.
 #pragma once
 
 namespace diptych {
@@ -36,8 +37,8 @@ double whereCurveReaches(ToneMapper mapper, double value);
 void opponentsFromSrgb(const OpponentRow& out, const float* rgb, int n);
 void opponentsFromLinear(const OpponentRow& out, const float* rgb, int n, float scale, ToneMapper mapper);
 
-// FLIP's error of n pixels whose rows have been filtered, in [0, 1]; exactly 0 where they are the same. The
-// rows' colours are used up.
+// FLIP's error of n pixels whose rows have been filtered, in [0, 1]; exactly 0 where they are the same.
+// Overwrites the rows' colours.
 void flipErrors(float* out, const FilteredRow& reference, const FilteredRow& test, int n);
 
 }  // namespace diptych

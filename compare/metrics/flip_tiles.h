@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FLIP's errors of two pictures, tile by tile: what is held beside them is a few dozen rows of one tile for
-// each thread.
+// FLIP's errors of two pictures, tile by tile. Beside the pictures each thread holds a few dozen rows of one
+// tile.
 #pragma once
 
 #include "compare/metrics/flip_filters.h"
@@ -12,7 +12,8 @@
 
 namespace diptych {
 
-// What a pixel is outside the filters for: NaN or infinity in a component.
+// Whether a pixel is left out of the filters because a component is NaN or infinite: not at all, in both
+// pictures with the same value, or otherwise.
 enum class Hole : std::uint8_t { none, same, different };
 
 struct FlipPair {
@@ -20,7 +21,7 @@ struct FlipPair {
     std::vector<Hole> holes;        // W x H; empty: none
 };
 
-// One look at the pair, whose linear values are multiplied by `scale` and tone mapped.
+// One exposure of a pair of linear pictures: values are multiplied by `scale` and tone mapped.
 struct FlipLook {
     float scale;
     ToneMapper mapper;

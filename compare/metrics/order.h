@@ -8,9 +8,10 @@
 
 namespace diptych::metrics {
 
-// Of floats that are 0 or above, infinity too; a NaN or a negative value counts as not there. Their bits are
-// in their order, so that two counts of 2^15 and 2^16 bins find any rank; the values are read again for each
-// question and must outlive this. The same whatever the number of threads.
+// Order statistics of floats that are 0 or above, infinity included; a NaN or a negative value is left out.
+// The bits of such floats have the order of their values, so that two histograms of 2^15 and 2^16 bins find
+// any rank. Each query reads the values again, which must outlive this object. Results do not depend on the
+// number of threads.
 class Order {
 public:
     explicit Order(std::span<const float> values);
@@ -19,10 +20,11 @@ public:
     double sum() const { return sum_; }
     double mean() const { return size_ ? sum_ / static_cast<double>(size_) : 0; }
 
-    // The ceil(share N)-th smallest (nearest rank), share in [0, 1]; 0 where there is none. 0: the smallest.
+    // The ceil(share N)-th smallest value (nearest rank), share in [0, 1]; share 0 is the smallest. 0 if
+    // there are no values.
     float nearestRank(double share) const;
-    // Each value weighs as much as it is: the least value such that it and those below it are at least
-    // `share` of the sum. 0 where the sum is; the sum must be finite.
+    // A quantile in which each value is weighted by itself: the least value such that it and those below it
+    // are at least `share` of the sum. 0 if the sum is 0; the sum must be finite.
     float weightedQuantile(double share) const;
 
 private:

@@ -71,8 +71,7 @@ public:
 
 private:
     void row(int y, BandSums& sums);
-    // The same for a row with nonfinite or uncovered pixels: their components are 0 in the copies that are
-    // added.
+    // For a row with nonfinite or uncovered pixels: adds copies of the row in which their components are 0.
     void unevenRow(int y, BandSums& sums);
     void addFinite(int y, const float* test, const float* reference, BandSums& sums);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The figures that other programs give two pictures: errors of numbers, without a model of an eye (but
-// SSIM's).
+// The figures that other programs compute of two pictures: numerical errors, without a model of the eye
+// except SSIM's.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -11,7 +11,7 @@
 
 namespace diptych {
 
-// What a picture's values are: sRGB values in [0, 1], or linear radiance without an upper limit.
+// Whether a picture holds sRGB values in [0, 1] or linear radiance without an upper limit.
 enum class Range { display, linear };
 
 // r: reference, t: test; N: components of covered pixels, or, for figures of pixels, covered pixels. All 0

@@ -7,7 +7,8 @@
 
 namespace diptych {
 
-// In eight sums that take turns, and are added in one order: the same however wide the lanes are.
+// Eight partial sums that are used in turn and added in a fixed order, so that the result does not depend on
+// the width of vector lanes.
 struct RowSums {
     std::array<double, 8> absolute{}, squared{}, relative{}, ulps{};
     double mostUlps = 0;

@@ -69,7 +69,7 @@ Image blurred(const Image& image, double radius) {
 
 Image shifted(const Image& reference, const Image& test, int radius) {
     if (radius <= 0) return test;
-    // Nearest first, so that a tie is won by what moved least.
+    // Spatially closest first, so that a tie goes to the pixel that moved least.
     struct Step {
         int x, y;
     };

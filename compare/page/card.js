@@ -5,7 +5,7 @@ const flickerMs = 250;  // a side: both are seen twice a second, below the three
 // ---- A card: both pictures and their difference under one transform.
 
 const cards = new WeakMap();
-let current = null;  // the card that keys are for: the last one that was pointed at or led to
+let current = null;  // the card that keys act on: the last one that was pointed at or opened by a link
 
 function cardOf(node) {
   const element = node && node.closest && node.closest('.card');
@@ -71,7 +71,7 @@ class Card {
     this.element.classList.toggle('zoomed', this.zoom > 1);
     this.panels.forEach(panel => this.sharpen(panel));
   }
-  // Where a pixel is larger than one of the screen's it is shown as what it is.
+  // Shows a pixel as a square once it is larger than a pixel of the screen.
   sharpen(panel) {
     panel.classList.toggle('enlarged', panel.clientWidth * this.zoom > this.width);
   }

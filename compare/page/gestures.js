@@ -77,7 +77,7 @@ const actions = {
 
 async function copy(button) {
   const code = button.parentElement.querySelector('code');
-  getSelection().selectAllChildren(code);  // where there is no clipboard to write to, one key is left to press
+  getSelection().selectAllChildren(code);  // without access to the clipboard the user only has to press Ctrl+C
   try {
     await navigator.clipboard.writeText(code.textContent);
     button.textContent = 'copied';

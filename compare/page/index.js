@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ---- Several comparisons: a line each, and what is said of one once it is asked for.
+// ---- Several comparisons: one line each; the section of a comparison is loaded on demand.
 
 const arriving = new Map();  // comparison -> what to do once its section is there
 

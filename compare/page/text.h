@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text and numbers as every page and table of ours shows them.
+// Text and numbers as all our pages and tables show them.
 #pragma once
 
 #include "shared/frame/debug_modes.h"

@@ -5,8 +5,8 @@
 
 // ---- The values behind the pictures: compare/report/values.h says how they are stored.
 
-const values = new Map();   // file -> what it holds, or null while it is on its way
-const waiting = new Map();  // file -> what to do once it is there
+const values = new Map();   // file -> its Values, or null while it is loading
+const waiting = new Map();  // file -> functions to call once it is loaded
 
 function half(bits) {
   const sign = bits >> 15 ? -1 : 1, exponent = bits >> 10 & 31, fraction = bits & 1023;
@@ -52,7 +52,7 @@ class Values {
   error(pixel) {
     return this.file.errors ? this.number(this.planes.length - 1, pixel, this.file.errorUnit) : 0;
   }
-  // The shortest decimal that names the number; of a rounded one no digit that is not there.
+  // The shortest decimal that identifies the number; of a quantised one only the digits that it still has.
   text(number) {
     if (!this.file.exact || !Number.isFinite(number)) return String(+number.toPrecision(4));
     for (let digits = 1; digits < 9; ++digits) {

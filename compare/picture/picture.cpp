@@ -21,8 +21,8 @@ std::uint8_t byteOf(double zeroToOne) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(zeroToOne, 0.0, 1.0)));
 }
 
-// srgbFromLinear in 8 bits by table: sqrt spreads the steep dark end, 4096 entries keep every code exact to
-// one.
+// srgbFromLinear() in 8 bits, by a table over the square root, which resolves the steep dark end. With 4096
+// entries every code is off by at most one.
 std::uint8_t srgbByte(float linear) {
     static const std::vector<std::uint8_t> table = [] {
         std::vector<std::uint8_t> codes(4097);
@@ -53,7 +53,7 @@ Rgb8 display(Color radiance, const Exposure& exposure) {
     return {srgbByte(radiance[0]), srgbByte(radiance[1]), srgbByte(radiance[2])};
 }
 
-// Neighbouring ids far apart in hue: the golden angle, three lightnesses.
+// Gives neighbouring ids distant hues (steps of the golden angle) in three lightnesses.
 Rgb8 idColor(float id) {
     const auto i = static_cast<std::int64_t>(id);
     const double hue = 6 * (0.6180339887498949 * static_cast<double>(i) + 0.07);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers to pictures, for people alone: nothing is ever compared after this.
+// Turns numbers into pictures for people. Nothing is compared after this step.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -27,14 +27,15 @@ struct Exposure {
     std::string because;  // "automatic, 0.18 / log-average luminance 1.3"
 };
 
-// As asked for, or automatic: 0.18 over the log-average luminance of the covered pixels of `lit` (Reinhard et
-// al. 2002, "Photographic Tone Reproduction for Digital Images", equation 1), each luminance at least 1e-3 of
-// the mean so that unlit pixels do not decide; but no more than shows the 95th percentile at 0.7, short of
-// the tone curve's shoulder, so that a dark room with lamps stays one. EV100: 1 / (1.2 x 2^EV) (Lagarde and
-// de Rousiers 2014, "Moving Frostbite to PBR", 4.6). `lit` may be nullptr: factor 1.
+// The exposure asked for, or an automatic one: 0.18 over the log-average luminance of the covered pixels of
+// `lit` (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", equation 1), each
+// luminance at least 1e-3 of the mean so that unlit pixels do not decide; but no more than shows the 95th
+// percentile at 0.7, short of the tone curve's shoulder, so that a dark room with lamps stays one. EV100: 1 /
+// (1.2 x 2^EV) (Lagarde and de Rousiers 2014, "Moving Frostbite to PBR", 4.6). `lit` may be nullptr:
+// factor 1.
 Exposure exposureFor(const PictureChoice& choice, const Image* lit, const Coverage& coverage);
 
-// What the numbers of a channel become, the same for every panel.
+// How the numbers of a channel become colours; the same for every panel.
 struct PictureScale {
     double low = 0, high = 1;  // shown black and white, where the channel is normalised to what was seen
     Exposure exposure;         // for radiance

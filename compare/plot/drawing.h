@@ -12,10 +12,10 @@ namespace diptych {
 
 extern const char* const plotStyle;  // plot.css, in a page and in a file of its own
 
-// A file by itself has its style and title in it; in a page both come from there.
+// A plot in a file of its own holds its style and title; in a page the page supplies both.
 enum class PlotPlace { file, page };
 
-// Where the axes stand.
+// The rectangle that the axes enclose.
 struct PlotBox {
     double left, top, right, bottom;  // edges; y grows downwards
 };
@@ -37,7 +37,7 @@ private:
     std::string lines_, texts_;
 };
 
-// A length with one digit behind the point.
+// A length with one digit after the decimal point, as SVG attributes hold it.
 std::string svgNumber(double length);
 
 // The element around a plot's markup.

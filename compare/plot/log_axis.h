@@ -14,11 +14,12 @@ struct Tick {
 // A logarithmic axis that holds values above 0, with some room on either side.
 class LogAxis {
 public:
-    explicit LogAxis(const std::vector<double>& values);  // those above 0 and finite count; of none, 0.1 to 1
+    explicit LogAxis(
+        const std::vector<double>& values);  // only finite values above 0 count; without any, 0.1 to 1
 
     double low() const { return low_; }
     double high() const { return high_; }
-    // From 0 (low) to 1 (high); what is beyond is at its end.
+    // From 0 (low) to 1 (high); values beyond are clamped.
     double place(double value) const;
     // Powers of ten where at least two of them are in view, with minor ones between; else 1, 2 and 5 times
     // them; else round steps.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a Frame says of itself, whoever made it.
+// Facts about a Frame that do not depend on who drew it.
 #pragma once
 
 #include "shared/frame/frame.h"

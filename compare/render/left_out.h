@@ -9,10 +9,10 @@
 
 namespace diptych {
 
-// What of a scene's light the path does not draw yet, a note each; the reference draws all.
+// One note for each kind of light in the scene that the path does not draw yet; the reference draws all.
 std::vector<std::string> leftOutLight(Path path, const Requirements& needs);
 
-// Likewise what of a scene it draws undeformed; the reference poses it in mode scene.
+// Likewise for objects that the path draws undeformed; the reference poses them in mode scene.
 std::vector<std::string> leftOutMotion(Path path, const Requirements& needs);
 
 }  // namespace diptych

@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-// What a frame would be made of, without drawing it.
+// The passes of a frame and their sizes, found without drawing it.
 struct PathPlan {
     std::string path;
     std::vector<std::string> passes;

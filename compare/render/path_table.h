@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two paths, as everything that draws asks for them.
+// The functions of the two paths, for everything that draws.
 #pragma once
 
 #include "shared/draw/captures.h"

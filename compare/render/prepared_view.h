@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What drawing a scene takes, made up front: what all Settings share, and one view of the scene under one
-// Settings, ready to be drawn again and again.
+// Everything that drawing a scene needs, made in advance: the resources that all Settings share, and one view
+// of the scene under one Settings, which can be drawn repeatedly.
 #pragma once
 
 #include "compare/render/path_table.h"
@@ -36,7 +36,8 @@ struct SharedResources {
     Pipelines& pipelines;
 };
 
-// One view of the scene under one Settings, ready for passes. It does not outlive what it is made of.
+// One view of the scene under one Settings, ready for passes. It refers to the arguments of its constructor,
+// which must outlive it.
 class PreparedView {
 public:
     PreparedView(Device& device, SharedResources& shared, const SceneView& scene, const Settings& settings);
@@ -65,7 +66,7 @@ struct PreparedFrame {
 // Throws std::runtime_error naming --size where the device draws no picture so large.
 void checkSize(const Device& device, const Size& size);
 
-// What is known of the Frame before it is drawn: names, Settings, camera, lights, notes of the scene.
+// The Frame as far as it is known before drawing: names, Settings, camera, lights, notes of the scene.
 Frame describedFrame(const PreparedFrame& prepared, const SharedResources& shared, const Scene& scene,
                      const Settings& settings);
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared);

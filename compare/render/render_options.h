@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of a Frame that is made of Settings.
+// What is drawn and measured when a Frame is made of Settings.
 #pragma once
 
 #include "compare/run/progress.h"
@@ -16,12 +16,14 @@ class Checkpoint;
 }
 
 struct RenderOptions {
-    // Debug modes; a forward-only one is left out of a deferred Frame. Empty: it is timed, and nothing else.
+    // Debug modes to draw; a forward-only one is left out of a deferred Frame. Empty: the frame is timed and
+    // nothing else.
     std::vector<int> channels;
-    std::vector<int> requested;    // of these, Frame::requested; empty: all
-    int runs = 5;                  // timed frames; 0: no times, no profile
-    bool through_gbuffer = false;  // forward+: also what its shading makes of the G-buffer's encoding
-    bool twice = false;            // every channel once more, for Frame::noise
+    std::vector<int> requested;  // of these, Frame::requested; empty: all
+    int runs = 5;                // timed frames; 0: no times, no profile
+    bool through_gbuffer =
+        false;  // forward+: also draw lit channels from surfaces that went through the G-buffer's encoding
+    bool twice = false;                               // draw every channel twice, for Frame::noise
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()
     // Where a reference keeps what is done of it, as reference::Request::keep; asked once for each. Empty:
@@ -29,7 +31,7 @@ struct RenderOptions {
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};
 };
 
-// What making one Frame takes, in the time of drawing one frame: for a progress line.
+// The cost of making one Frame, in multiples of drawing one frame; for progress lines.
 double framesIn(const RenderOptions& options);
 
 }  // namespace diptych

@@ -64,7 +64,8 @@ private:
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
-    // The lean pipelines: one frame to warm up (drivers compile at the first draw), then the timed ones.
+    // Draws with the pipelines without debug code: one frame to warm up (drivers compile at the first draw),
+    // then the timed ones.
     void drawTimed() {
         PassList& passes = prepared_.passes;
         announce("draw");
@@ -83,7 +84,7 @@ private:
         frame_.bytes = bytesOf(prepared_, shared_);
     }
 
-    // lit, to be held against the timed one, and every channel asked for that this path can make.
+    // lit, to be compared with the timed frame's, and every requested channel that this path can make.
     CaptureRequest captureRequest() const {
         CaptureRequest request;
         request.modes = {lit};
@@ -97,7 +98,7 @@ private:
         return request;
     }
 
-    // Every channel, over what the timed frame left; lit itself stays the timed pipeline's.
+    // Draws every channel from the timed frame's images. lit itself stays the timed pipeline's.
     void capture() {
         PassList& passes = prepared_.passes;
         announce("capture");
@@ -132,7 +133,7 @@ private:
         if (!isRequested(lit)) frame_.channels.erase(lit);
     }
 
-    // The second run of a channel against the first.
+    // Stores how the second run of a channel differs from the first.
     void addNoise(int number, const Image& again) {
         const Image& first = frame_.channels.at(number);
         ChannelNoise noise{unequalPixels(first, again, 0), 0};
@@ -195,7 +196,7 @@ Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
     return FrameMaker(state_->device, state_->shared, state_->views, settings, options).make();
 }
 
-// The reference, over what forward+ captures where that is asked for.
+// Draws the reference; in mode surface from surfaces that forward+ captures.
 Frame Renderer::drawReference(const Settings& settings, const RenderOptions& options) {
     const Scene& scene = state_->views.scene();
     const SceneView& view = state_->views.at(viewRequest(settings));

@@ -14,9 +14,9 @@ namespace diptych {
 
 class Device;
 
-// Frames of one scene, ready to be drawn again and again and in any order: going from one to another uploads
-// nothing and makes no pipeline, only what a frame itself makes (light lists) is made anew. It outlives
-// neither its Renderer nor the scene.
+// Frames of one scene that can be drawn repeatedly and in any order. Switching between them uploads nothing
+// and makes no pipeline; only what each frame makes itself (light lists) is made again. The Renderer and the
+// scene must outlive it.
 class PreparedFrames {
 public:
     PreparedFrames(PreparedFrames&&) noexcept;
@@ -31,7 +31,7 @@ public:
     Image lit(std::size_t i);
     // Light lists of that frame that found no room.
     std::uint64_t overflowedLists(std::size_t i) const;
-    // What is known without drawing: Settings, camera, lights, bytes, notes.
+    // The Frame as far as it is known without drawing: Settings, camera, lights, bytes, notes.
     const Frame& described(std::size_t i) const;
 
 private:

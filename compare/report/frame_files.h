@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `render` leaves of a Frame.
+// The files that `render` writes of a Frame.
 #pragma once
 
 #include "compare/files/output.h"
@@ -13,12 +13,13 @@
 
 namespace diptych {
 
-// One Frame: an EXR of the channels asked for, or a PNG of channel `shown`. Throws std::runtime_error naming
-// the file, or the channel where the Frame does not have it.
+// Writes one Frame: an EXR of the requested channels, or a PNG of channel `shown`. Throws std::runtime_error
+// naming the file, or the channel where the Frame does not have it.
 void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
                 const PictureChoice& choice);
 
-// Into the folder that is there: FRAME.exr, CHANNEL.png and frame.json, which lists all; returns their names.
+// Writes FRAME.exr, CHANNEL.png and frame.json, which lists all three, into an existing folder; returns their
+// names.
 std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
                                           const std::filesystem::path& folder, const DebugMode& shown,
                                           const PictureChoice& choice);

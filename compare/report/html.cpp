@@ -26,7 +26,7 @@ std::string titleOf(const Report& report, const Comparison& comparison) {
     const Frame& left = report.baseline(comparison);
     const Frame& frame = left.origin.file.empty() ? left : report.test(comparison);
     std::string title = fmt::format("{} \u00b7 {}", frame.scene, cameraTitle(frame));
-    // Three pairs of one scene and camera.
+    // Several comparisons of one scene and camera are told apart by their pair.
     if (hasSeveralPairs(report)) title += " \u00b7 " + pairTitle(report, comparison);
     return title;
 }
@@ -63,7 +63,7 @@ std::string whereOf(const Report& report, const Comparison& comparison) {
     return report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) + ": " : "";
 }
 
-// The first of `items`, and how many more there are and where.
+// The first of `items` as a list; if there are more, their number and where to find them.
 std::string firstOf(const std::vector<std::string>& items, const char* elsewhere) {
     constexpr std::size_t most = 40;
     std::string out;
@@ -79,7 +79,7 @@ std::string firstNotes(const Report& report) {
     return listBox("notes", "Before anything else", firstOf(items, "report.json has all of them"));
 }
 
-// Where to look first, over all comparisons.
+// The failures of all comparisons: where to look first.
 std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order) {
@@ -95,7 +95,7 @@ std::string failures(const Report& report, const ReportLayout& layout) {
                    firstOf(items, "the comparisons below begin with those that fail"));
 }
 
-// What a rule warns of.
+// The warnings of all rules.
 std::string warnings(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order)
@@ -107,7 +107,7 @@ std::string warnings(const Report& report, const ReportLayout& layout) {
     return listBox("notes", "Warnings", firstOf(items, "report.json has all of them"));
 }
 
-// A note that several frames share is said once.
+// A note that several frames share is listed once.
 std::string notes(const Report& report) {
     std::set<std::string> seen;
     std::vector<std::string> items;
@@ -121,7 +121,7 @@ std::string notes(const Report& report) {
     return listBox("notes", "Notes", firstOf(items, "report.json has all of them"));
 }
 
-// Where to look last: what passes may still be wrong in both paths.
+// Links to the visual checks: what passes may still be wrong in both paths.
 std::string checksLinks(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order) {
@@ -136,7 +136,7 @@ std::string checksLinks(const Report& report, const ReportLayout& layout) {
     return listBox("notes", "Both paths may be wrong alike", firstOf(items, "each comparison lists its own"));
 }
 
-// What the script understands: compare/page/gestures.js.
+// The keys and gestures that compare/page/gestures.js handles.
 constexpr const char* legend =
     "<details class=\"keys box\"><summary>Keys and gestures</summary><dl>"
     "<dt><kbd>1</kbd> <kbd>2</kbd></dt><dd>left, right picture alone</dd>"
@@ -151,7 +151,8 @@ constexpr const char* legend =
 
 std::string used(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
-    // There max meets the tolerance by construction, and a full meter would read as "just barely".
+    // There the largest error equals the tolerance by construction, and a full meter would read as "just
+    // barely passed".
     if (channel.unexplained_pixels)
         return fmt::format("<span class=\"soft\">explained by the encoding, {} pixels left over</span>",
                            *channel.unexplained_pixels);
@@ -222,7 +223,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
            frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
 }
 
-// A single file brings its later sections as text: nothing of it is built before somebody asks.
+// A single file holds its later sections as text, from which the browser builds nothing until one is opened.
 std::string laterSections(const Report& report, const ReportLayout& layout) {
     std::string out;
     if (layout.single_file)

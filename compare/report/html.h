@@ -11,14 +11,14 @@ namespace diptych {
 
 std::string reportHtml(const Report& report, const ReportLayout& layout);
 
-// One comparison as a script that puts it into the page: what layout.sections names.
+// One comparison as a script that adds it to the page: the contents of a file of layout.sections.
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index);
 
-// Its parts. `index` is the comparison's.
+// Parts of the page. `index` is the number of the comparison.
 std::string checksSection(const Report& report, const ReportLayout& layout, std::size_t index);
 std::string indexTable(const Report& report, const ReportLayout& layout);  // empty for one comparison
 std::string channelCards(const Report& report, const ReportLayout& layout, std::size_t index);
-// Histogram and worst pixels of the card `id`.
+// Histogram and worst pixels for the card with this `id`.
 std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id);
 // Empty without a reference.
 std::string closerPathSection(const Report& report, const ReportLayout& layout);

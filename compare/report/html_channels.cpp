@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    // What moves and is zoomed; `over` lies on it and keeps its size.
+    // A picture that can be moved and zoomed; `over` is drawn on top of it and keeps its size.
     std::string panel(const std::string& picture, const std::string& alt,
                       const std::string& over = "") const {
         return fmt::format(
@@ -83,7 +83,7 @@ private:
                "<button data-do=\"in\" aria-label=\"zoom in\" title=\"+\">+</button></span>";
     }
 
-    // The script names its rows after the Frames that have the channel.
+    // The script labels its rows with the names of the Frames that have the channel.
     std::string readout() const {
         if (pictures_.values.empty())
             return fmt::format(
@@ -129,7 +129,7 @@ private:
                            decides, markup(channel_.tolerance.because));
     }
 
-    // How to make the failure again.
+    // The command that reproduces the failure.
     std::string again() const {
         if (channel_.verdict != Verdict::fail || command_.empty()) return {};
         return fmt::format(
@@ -206,7 +206,7 @@ private:
         return out + "</dl>\n";
     }
 
-    // What stands at the worst pixel, enlarged and in numbers.
+    // The surroundings of the worst pixel, enlarged, and its values.
     std::string loupes() const {
         const int x = channel_.stats.worst_x, y = channel_.stats.worst_y;
         if (x < 0) return {};
@@ -236,7 +236,7 @@ private:
                "</div>\n";
     }
 
-    // Forward-only: one picture, no verdict to give.
+    // A forward-only channel has one picture and no verdict.
     std::string single() const {
         const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
         return fmt::format(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person must look at: links, and what each leads to, cut out of the pictures that are there already.
+// The visual checks: a table of links, and for each a detail of the pictures that the report already has.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "shared/contract/debug_mode.h"
@@ -20,8 +20,8 @@ struct Region {
     double x, y, width, height;
 };
 
-// Around the box with a third of it to spare, as wide for its height as the picture, within it, enlarged up
-// to eight times.
+// The region around the box with a margin of a third, in the picture's aspect ratio and inside it, enlarged
+// up to eight times.
 Region regionAround(const PixelBox& box, const Size& size) {
     const double width = size.width, height = size.height;
     const double share =
@@ -89,10 +89,10 @@ private:
         return npos;
     }
 
-    // Where no light falls the base colour still shows what there is to see.
+    // Where no light falls, the base colour is shown instead of lit.
     std::size_t channelFor(const VisualCheck& check) const { return isDark(check.box) ? dark_ : lit_; }
 
-    // Whether under a tenth of the box reaches a hundredth of white in the picture of lit.
+    // Whether less than a tenth of the box reaches a hundredth of white in the picture of lit.
     bool isDark(const PixelBox& box) const {
         const auto lit = left_.channels.find(gpu::DEBUG_lit);
         if (lit == left_.channels.end()) return false;
@@ -106,7 +106,7 @@ private:
         return bright * 10 < looked;
     }
 
-    // Each picture stands in the page once; every view uses it.
+    // The pictures as SVG definitions, each once; every view refers to them.
     std::string sources() const {
         if (lit_ == npos) return {};
         std::string images;
@@ -153,7 +153,8 @@ private:
     std::string view(const FeatureChecks& feature, const VisualCheck& check, std::size_t number) const {
         if (lit_ == npos) return {};
         const std::size_t channel = channelFor(check);
-        // Enlarged over twice in a panel of half the page, a pixel is worth seeing as one.
+        // In a panel of half the page such a region is enlarged more than twice, so pixels are shown as
+        // squares.
         const bool near = regionAround(check.box, left_.settings.size).width < 320;
         return fmt::format(
             "<figure class=\"box view{}\" id=\"check-{}\"><div class=\"pair side\">{}{}</div>"
@@ -166,7 +167,7 @@ private:
             channel == lit_ ? "" : " \u00b7 no light falls there, so its base colour is shown");
     }
 
-    // A place with a name that an earlier one of its row has is told by a number.
+    // Places of one row that share a name are distinguished by a number.
     struct Place {
         std::string name, links;
         int count = 0;
@@ -182,7 +183,7 @@ private:
                             : fmt::format("<span title=\"{}\">{}</span>", markup(check.where), markup(text));
     }
 
-    // One row for all checks of a feature that are right alike.
+    // One row for all checks of a feature that share a sentence.
     std::string rowsOf(const FeatureChecks& feature, std::size_t number) const {
         std::vector<Row> rows;
         for (const VisualCheck& check : feature.checks) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the errors of a channel are spread: a histogram, and links to the worst pixels.
+// How the errors of a channel are distributed: a histogram, and links to the worst pixels.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 
@@ -37,7 +37,8 @@ public:
 private:
     std::string size(double error) const { return number(error) + unitOf(mode_); }
 
-    // Of a bin that holds the tolerance the part right of the line is beyond it, where any error is.
+    // If a channel fails, the bin that holds the tolerance is split at it: the part on the right is coloured
+    // as beyond.
     std::string bars() const {
         const std::uint64_t most = std::ranges::max(errors_.bins);
         const double line = tolerance_ > 0 ? binAt(tolerance_) : 0;

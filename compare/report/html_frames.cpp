@@ -108,7 +108,7 @@ std::string camera(const Frame& frame) {
         c.near, c.far);
 }
 
-// Which file a picture that was not drawn now comes from.
+// The files of pictures that were not drawn in this run.
 std::string origins(const Frame& a, const Frame& b) {
     std::string rows;
     for (const Frame* frame : {&a, &b}) {

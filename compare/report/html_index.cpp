@@ -16,7 +16,7 @@ using page::number;
 
 namespace {
 
-// How much of its tolerance a channel uses: infinity where it has none and differs.
+// The share of its tolerance that a channel uses; infinite if the tolerance is 0 and the channel differs.
 double used(const ChannelDiff& channel) {
     if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0)
@@ -28,14 +28,15 @@ double used(const ChannelDiff& channel) {
                                      : std::numeric_limits<double>::infinity();
 }
 
-// The failing channel that uses most of its tolerance; without one, of all that are not explained otherwise.
+// The failing channel that uses most of its tolerance; if none fails, the passing one that does, except
+// channels judged by what the encoding explains.
 const ChannelDiff* worstOf(const Comparison& comparison) {
     const ChannelDiff* worst = nullptr;
     for (const bool failing : {true, false}) {
         for (const ChannelDiff& channel : comparison.channels) {
             if ((channel.verdict == Verdict::fail) != failing || channel.verdict == Verdict::forward_only)
                 continue;
-            if (!failing && channel.unexplained_pixels) continue;  // max is the tolerance there
+            if (!failing && channel.unexplained_pixels) continue;  // their largest error equals the tolerance
             if (!worst || used(channel) > used(*worst)) worst = &channel;
         }
         if (worst) return worst;

@@ -14,9 +14,9 @@ namespace diptych {
 // says at how many pixels; a forward-only channel's statistics are all null. `layout` may be nullptr.
 std::string reportJson(const Report& report, const ReportLayout* layout);
 
-// One test case per scene x camera x channel; one more where a comparison fails beside its channels. The
-// pictures of a failing channel are named as attachments in `folder`: CI servers look for them from where the
-// job runs, so it stays as relative as it was given.
+// One test case per scene x camera x channel; one more where a comparison fails for another reason than a
+// channel. The pictures of a failing channel are named as attachments in `folder`. CI servers resolve them
+// against the working directory of the job, so a relative folder stays relative.
 std::string reportJunit(const Report& report, const ReportLayout& layout,
                         const std::filesystem::path& folder);
 

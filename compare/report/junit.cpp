@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    // All channels come from the same two Frames: each case gets an even share of what they took.
+    // All channels come from the same two Frames, so each case gets an equal share of their time.
     std::string testCase(std::string_view name, const std::string& outcome) const {
         const std::string open = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
                                              name_, markup(name), seconds() / static_cast<double>(tests()));

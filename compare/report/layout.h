@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which file holds what, decided once for the writers and the page.
+// The names of all files of a report, decided once for the writers and the page.
 #pragma once
 
 #include "compare/picture/picture.h"
@@ -12,30 +12,31 @@
 
 namespace diptych {
 
-// The pictures of one channel and what stands with them; a name is empty where there is no such file.
+// The pictures of one channel and the figures shown with them; a name is empty where there is no such file.
 struct ChannelPictures {
-    std::string baseline, test, difference;  // difference: only where there is one
+    std::string baseline, test, difference;  // difference: empty if both are equal
     std::string values;                      // valuesScript() of both Frames
     PictureScale scale;
     double error_top = 0;  // the error at the end of the error map
-    // Of the difference; the writer of its picture fills them in.
+    // Of the difference; filled in by the writer of its picture.
     ErrorHistogram histogram;
     std::vector<WorstPixel> worst;
 };
 inline constexpr std::size_t worstShown = 10;
 inline constexpr int worstApart = 8;  // pixels
 
-// So many comparisons stand in the page itself, failing ones first. Of the others it has a line each, and
-// what is to be said of them comes from a file, or in a single file from a text in it, once it is asked for.
+// The number of comparisons that the page itself holds, failing ones first. Each of the others has a line in
+// a table; its section is loaded on demand from a file of its own, or, with --single-file, from text inside
+// the page.
 inline constexpr std::size_t comparisonsInPage = 4;
 
 struct ReportLayout {
     std::vector<std::string> exr;                        // per frame; empty: it gets none
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
     std::vector<std::vector<std::string>>
-        closer_paths;                             // per Report::closer_paths and channel of it: a picture
-    std::vector<std::size_t> order;               // the comparisons as the page shows them
-    std::vector<std::string> sections;            // per comparison: its file, where it has one
+        closer_paths;                   // per Report::closer_paths and channel of it: a picture's name
+    std::vector<std::size_t> order;     // the comparisons as the page shows them
+    std::vector<std::string> sections;  // per comparison: its file, where it has one
     std::map<std::string, std::string> embedded;  // --single-file: picture -> data URI
     double encode_ms = 0;                         // EXRs, pictures and values
     bool single_file = false;

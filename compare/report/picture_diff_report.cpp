@@ -15,12 +15,12 @@
 namespace diptych {
 namespace {
 
-// What decides: the first of those that came out worst.
+// The channel that decides the verdict: the first with the worst outcome.
 const PictureChannelDiff& deciding(const PictureDiff& diff) {
     return **std::ranges::max_element(diff.channels, {}, [](const auto& c) { return c->decision.level; });
 }
 
-// The channels as debug modes that are in no table: their names lie in the PictureDiff.
+// Describes the channels as debug modes outside the table; their names refer to strings of the PictureDiff.
 std::vector<DebugMode> modesOf(const PictureDiff& diff) {
     std::vector<DebugMode> modes;
     for (const auto& channel : diff.channels) {
@@ -46,7 +46,7 @@ std::vector<DebugMode> modesOf(const PictureDiff& diff) {
     return modes;
 }
 
-// Takes the pictures: nothing is measured after this.
+// Moves the pictures out of the PictureDiff: nothing can be measured after this.
 Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test) {
     Frame frame;
     frame.name = test ? "test" : "reference";

@@ -7,10 +7,10 @@
 
 namespace diptych {
 
-// An EXR of every channel's errors (FLIP's for colours that FLIP judges, else of the channel's metric), a
-// picture of the channel's errors that decides, or a folder with the same report as of two paths. Throws
-// std::runtime_error naming the file.
-// `words`: of the command line, for commands that repeat it.
+// Writes an EXR of every channel's errors (FLIP's for colours that FLIP judges, else those of the channel's
+// metric), a picture of the errors of the deciding channel, or a folder with the same report as for two
+// paths. Throws std::runtime_error naming the file. `words`: the options of the command line, for commands
+// that repeat it.
 void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
                       const std::vector<std::string>& words);
 

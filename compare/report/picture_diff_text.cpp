@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What diff prints: for people and for scripts.
+// The output of diff, for people and for scripts.
 #include "compare/report/picture_diff_text.h"
 
 #include "compare/files/our_files.h"
@@ -38,7 +38,7 @@ std::vector<const PictureChannelDiff*> failuresFirst(const PictureDiff& diff) {
     return channels;
 }
 
-// The bound that decides, where there is a single one.
+// The rule's bound, if it has a single one.
 const Condition* singleBound(const PictureChannelDiff& channel) {
     return channel.rule.fail.kind == Condition::Kind::bound ? &channel.rule.fail : nullptr;
 }

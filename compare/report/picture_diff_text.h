@@ -10,7 +10,7 @@ namespace diptych {
 // For a terminal: a line per channel, failures first, then one line of verdict. Ends in a newline.
 std::string pictureDiffTable(const PictureDiff& diff);
 
-// Every figure of every channel, and of the one that decides at the top. Ends in a newline.
+// Every figure of every channel; those of the deciding channel stand at the top. Ends in a newline.
 std::string pictureDiffJson(const PictureDiff& diff);
 
 }  // namespace diptych

@@ -24,7 +24,7 @@
 namespace diptych {
 namespace {
 
-// One file each, in any order and on any thread; the long ones first.
+// Writes one file. Tasks may run in any order and on any thread; the longest are listed first.
 using Task = std::function<void()>;
 
 class Encoder {
@@ -71,7 +71,7 @@ private:
             tasks.push_back([&] { writeErrors(comparison, channel, pictures); });
     }
 
-    // The difference, what is told of it, and the values, which hold it too.
+    // Writes the difference picture, its figures, and the values script, which also holds the errors.
     void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelPictures& pictures) {
         const DebugMode& mode = *channel.mode;
         const auto imageOf = [&](const Frame& frame) {

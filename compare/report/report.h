@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a comparison leaves for people and for scripts.
+// The report that a comparison writes, for people and for scripts.
 #pragma once
 
 #include "compare/picture/picture.h"
@@ -20,10 +20,10 @@ struct ReportOptions {
 };
 
 // index.html, report.json, junit.xml, an EXR per frame and the page's pictures. Everything is written into a
-// temporary folder first and put in place at once, so an earlier report stays whole until the new one is.
-// What the earlier report.json lists and the new one does not is removed, whatever else lies there is left
-// alone. With several comparisons each one's files begin with its number, scene and camera. Returns the text
-// of report.json. Throws std::runtime_error naming folder or file.
+// temporary folder first and put in place at once, so an earlier report stays complete until the new one is.
+// Files that the earlier report.json lists and the new one does not are removed; all other files in the
+// folder stay. With several comparisons the names of each one's files begin with its number, scene and
+// camera. Returns the text of report.json. Throws std::runtime_error naming folder or file.
 std::string writeReport(const Report& report, const std::filesystem::path& folder,
                         const ReportOptions& options);
 

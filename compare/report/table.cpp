@@ -19,7 +19,8 @@ namespace {
 
 using Row = std::array<std::string, 7>;
 
-// Where the encoding's effect is known pixel by pixel the largest says little: max meets it by construction.
+// Where the encoding's effect is known for each pixel, the tolerance is its largest and max equals it by
+// construction, so the outcome is shown instead.
 std::string toleranceOf(const ChannelDiff& channel) {
     if (!channel.rule.empty() && !std::isfinite(channel.tolerance.max)) return "rule";
     if (!channel.unexplained_pixels) return number(channel.tolerance.max);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report calls its parts, and in which order it tells of them.
+// The titles of a report's parts, and the order in which they are shown.
 #pragma once
 
 #include "compare/page/text.h"
@@ -10,15 +10,15 @@
 
 namespace diptych {
 
-// Whether a scene and camera have several pairs: with a Frame of earlier, or the reference.
+// Whether one scene and camera have several comparisons: with an earlier Frame or the reference.
 bool hasSeveralPairs(const Report& report);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);
 
-// The comparisons by number, those that fail first.
+// The numbers of the comparisons, failing ones first.
 std::vector<std::size_t> failingFirst(const Report& report);
 
-// The channels as people want to read them: failures, then passes, then forward-only.
+// The channels in the order in which people read them: failures, then passes, then forward-only.
 std::vector<const ChannelDiff*> failuresFirst(const Comparison& comparison);
 
 // The comparison's notes and those of its two Frames, each once.

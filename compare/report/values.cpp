@@ -44,7 +44,7 @@ bool holdsExactly(const Image& image, int exponent) {
     });
 }
 
-// Deltas of rows, by bytes, deflated plane by plane: what the page undoes.
+// Stores planes as differences along rows, split into bytes and deflated; the page reverses this.
 class Planes {
 public:
     Planes(int width, std::size_t pixels, int bits)

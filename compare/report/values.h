@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The numbers behind the pictures of one channel, for the page to show under the cursor. A page from file://
-// may neither fetch a file nor read a picture back, but it may load a script: so they are one.
+// The numbers behind the pictures of one channel, which the page shows under the cursor. A page from file://
+// may neither fetch a file nor read pixels of a picture, but it may load a script, so the numbers are stored
+// as one.
 #pragma once
 
 #include "shared/image/image.h"
@@ -17,16 +18,17 @@ struct ChannelValues {
     const Image* errors;
 };
 
-// Of larger pictures there are none: their text would come near the longest that browsers take, half a GiB.
+// Larger pictures get no values: the text would come close to half a GiB, the longest string that browsers
+// allow.
 inline constexpr std::size_t mostPixelsOfValues = std::size_t{16} << 20;
 
 // diptychValues("NAME", {...}): width, height, components, images (1 or 2), bits, exact, exponent, errorUnit,
 // and `data`, base64 of zlib's format of these planes of W x H words of 16 or 32 bits, one after the other:
-// the components of baseline; those of test, less the baseline's words; the errors. Of each word its left
-// neighbour in the row is taken off (both modulo 2^bits), and a plane is stored by bytes, all lowest ones
-// first.
+// the components of baseline; those of test, less the baseline's words; the errors. Each word is stored as
+// the difference to its left neighbour in the row (modulo 2^bits), and a plane is stored by bytes: the lowest
+// bytes of all words first.
 //
-// 32 bits: float32, exact, where baseline and test take no more than a MiB of it. 16 bits: float16 of the
+// 32 bits: exact float32, used if baseline and test take at most 1 MiB. 16 bits: float16 of the
 // value x 2^exponent, by which the largest magnitude stays below 2^15, so that 11 bits are left of all that
 // is no more than 2^29 times smaller; `exact` where no value is changed by it. Errors in 16 bits are in units
 // of errorUnit, the largest finite one.

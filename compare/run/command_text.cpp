@@ -12,7 +12,8 @@ bool isPlain(char c) {
            std::string_view("_-+=:,./@%").find(c) != std::string_view::npos;
 }
 
-// In single quotes where the shell would see more in it than a word; a quote itself stands outside of them.
+// Puts a word in single quotes if the shell would interpret any character of it. A single quote cannot stand
+// inside single quotes, so it is escaped outside of them.
 std::string shellWord(const std::string& word) {
     if (!word.empty() && std::ranges::all_of(word, isPlain)) return word;
     std::string quoted = "'";
@@ -40,7 +41,8 @@ std::vector<std::string> commandWords(const std::string& command, const std::str
         else
             words.insert(words.end(), {option, value});
     }
-    if (scene.starts_with('-')) words.emplace_back("--");  // a file's name, no option
+    if (scene.starts_with('-'))
+        words.emplace_back("--");  // so that the name of a file is not taken for an option
     words.push_back(scene);
     return words;
 }
@@ -48,7 +50,7 @@ std::vector<std::string> commandWords(const std::string& command, const std::str
 std::vector<std::string> withOption(std::vector<std::string> words, const std::string& option,
                                     const std::string& value) {
     words.insert(words.begin() + 1,
-                 {option, value});  // before the scene, after which "--" may have ended options
+                 {option, value});  // after the command, because "--" may end the options before the scene
     return words;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what is asked for back to the words of the command line.
+// Turns Settings back into the words of the command line that asks for them.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -9,16 +9,17 @@
 
 namespace diptych {
 
-// The words that parseCommandLine() reads as `command` of `scene` with these Settings, without the program's
-// name. Only what is not the default is said; the path is not where `command` is compare, which draws both.
+// The words from which parseCommandLine() reads `command` of `scene` with these Settings, without the
+// program's name. Settings with their default value are left out, and so is the path of compare, which draws
+// both.
 std::vector<std::string> commandWords(const std::string& command, const std::string& scene,
                                       const Settings& settings);
 
-// The same with one more option.
+// `words` with one option and its value added.
 std::vector<std::string> withOption(std::vector<std::string> words, const std::string& option,
                                     const std::string& value);
 
-// The same with several words more, options and their values.
+// `words` with several words added: options and their values.
 std::vector<std::string> withWords(std::vector<std::string> words, const std::vector<std::string>& more);
 
 // "diptych" and the words, quoted so that a POSIX shell reads them back.

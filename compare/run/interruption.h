@@ -5,13 +5,14 @@
 
 namespace diptych {
 
-// From now on SIGINT, SIGTERM and SIGHUP (but for those that are ignored, as under nohup) end the program at
-// once, within a long submit too: what is not whole is removed, the line of progress is wiped, and the
-// program dies of the signal, as its shell expects. To be called before any thread is started: all inherit
-// the blocked signals.
+// From now on SIGINT, SIGTERM and SIGHUP end the program at once, even during a long submission to the
+// device; signals that are already ignored (as under nohup) stay ignored. Unfinished temporary files are
+// removed, the progress line is wiped, and the program dies of the signal, as its shell expects. Call this
+// before any thread is started: threads inherit the blocked signals.
 void watchInterruption();
 
-// What an interruption says on stderr before the program ends; empty: nothing. From any thread.
+// Sets the line that an interruption prints on stderr before the program ends; empty: none. May be called
+// from any thread.
 void sayWhenInterrupted(const std::string& line);
 
 // The program ends as if `signal` had never been caught.

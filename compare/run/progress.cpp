@@ -18,11 +18,13 @@ constexpr std::chrono::milliseconds patience{1000}, pause{50};
 constexpr std::chrono::seconds logPause{10};
 constexpr const char* wipeLine = "\r\x1b[K";  // ECMA-48: erase to the end of the line
 
-// The one that draws on standard error. Whoever wants it may come while the program ends.
+// The Progress that draws on standard error, if any. The thread that handles signals may use it while the
+// program ends.
 std::timed_mutex drawingMutex;
 Progress* drawing = nullptr;
 
-// Whoever draws may hang in a terminal that is stopped: then the line stays.
+// How long to wait for a thread that is drawing: it may be blocked by a stopped terminal. Then the line
+// stays.
 constexpr std::chrono::milliseconds wipePatience{100};
 
 std::size_t terminalColumns() {
@@ -123,7 +125,7 @@ std::string progressLine(const std::string& what, double fraction, const std::st
     const std::string numbers = fmt::format(" {:3.0f} % {}", std::floor(part * 100), step);
     if (columns < numbers.size()) return numbers.substr(0, columns);
     std::size_t room = columns - numbers.size();
-    // The bar first, then as much of the end of the name as fits.
+    // The bar gets its columns first; then as much of the end of the name as fits.
     const std::size_t bar = room >= 12 ? std::min(widest, room / 2) : 0;
     std::string line;
     if (bar > 2) {

@@ -11,7 +11,7 @@
 
 namespace diptych {
 
-// Where progress goes, and the time by which it does.
+// Where progress is written, and the clock that it is timed by. Tests replace both.
 struct ProgressOutput {
     using Time = std::chrono::steady_clock::time_point;
     bool terminal = false;
@@ -24,16 +24,17 @@ struct ProgressOutput {
 
 class Progress {
 public:
-    // Without an output: never anything.
+    // Without an output nothing is ever written.
     explicit Progress(std::optional<ProgressOutput> output);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // From any thread. `what` it is about, e.g. "Sponza.gltf"; `fraction` of the whole command from 0 to 1,
-    // and what is less than was said before is taken for that; `step` in a word or two.
+    // May be called from any thread. `what`: the subject, e.g. "Sponza.gltf". `fraction`: of the whole
+    // command, 0 to 1; it never goes back, a smaller value counts as the largest one so far. `step`: what is
+    // being done, in a word or two.
     void at(const std::string& what, double fraction, const std::string& step);
-    void wipe();  // the terminal's line; the next at() draws it again
+    void wipe();  // removes the line from the terminal; the next at() draws it again
 
 private:
     std::optional<ProgressOutput> output_;
@@ -43,10 +44,10 @@ private:
     bool shown_ = false;
 };
 
-// A stretch of a command's progress that one piece of work fills, and pieces of it smaller ones.
+// A range of a command's progress that one piece of work covers; part() divides it further.
 class Stage {
 public:
-    Stage() = default;  // nobody asks
+    Stage() = default;  // reports to nobody
     Stage(Progress& progress, std::string what);
 
     void at(double fraction, const std::string& step) const;  // of this stage, from 0 to 1
@@ -66,8 +67,8 @@ void wipeProgress();
 std::string progressLine(const std::string& what, double fraction, const std::string& step,
                          std::size_t columns);
 
-// What is left at the pace so far, "0:07 left" or "1:02:05 left"; empty where nobody can know yet: before two
-// seconds or two percent.
+// The remaining time at the pace so far, "0:07 left" or "1:02:05 left". Empty during the first two seconds
+// and the first two percent, from which no estimate is possible.
 std::string timeLeft(std::chrono::duration<double> elapsed, double fraction);
 
 }  // namespace diptych

@@ -9,7 +9,7 @@
 namespace diptych::tradeoff {
 namespace {
 
-// In quotes where a comma, a quote or a line's end stands in it (RFC 4180).
+// Quoted if the text contains a comma, a quote or a line break (RFC 4180).
 std::string quoted(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string out = "\"";
@@ -28,7 +28,7 @@ std::string digits(double value) {
     return fmt::format("{}", value);
 }
 
-// Beside the path, which has a column of its own.
+// All options that may be swept except the path, which has a column of its own.
 std::vector<std::string> sweptOptions() {
     std::vector<std::string> options;
     for (const Field& field : settingFields())

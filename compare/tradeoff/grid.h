@@ -8,10 +8,10 @@
 
 namespace diptych::tradeoff {
 
-// What --grid says, a file or the JSON itself (it begins with { or [): { "settings": { "gbuffer": ["compact",
-// "full"], "size": ["1/2", "320x180"] } } is every combination of these, a list of such one after the other.
-// A value may stand without brackets. Throws std::runtime_error, one line that names the file and what in it
-// is wrong.
+// Reads --grid, a file or the JSON itself (it begins with { or [): { "settings": { "gbuffer": ["compact",
+// "full"], "size": ["1/2", "320x180"] } } is every combination of these values; a list holds several such
+// grids. A single value needs no brackets. Throws std::runtime_error, one line that names the file and what
+// in it is wrong.
 std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given);
 
 }  // namespace diptych::tradeoff

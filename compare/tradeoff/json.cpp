@@ -14,7 +14,7 @@ Json jsonOf(const std::vector<Choice>& choices) {
     return json;
 }
 
-// By number, from 1, as the table and the page have them.
+// Row numbers count from 1, as in the table and the page.
 Json numbersOf(const std::vector<std::size_t>& rows) {
     Json json = Json::array();
     for (const std::size_t row : rows) json.push_back(row + 1);

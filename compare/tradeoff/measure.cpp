@@ -26,7 +26,7 @@ double knownOrInfinite(double value) {
     return std::isfinite(value) ? value : infinity;
 }
 
-// lit and what tells the background of it.
+// Draws lit, and material_id, by which background is recognised.
 RenderOptions drawingOptions(const RenderOptions& options) {
     RenderOptions drawing = options;
     drawing.channels = drawing.requested = {lit, ids};

@@ -11,9 +11,9 @@
 
 namespace diptych::tradeoff {
 
-// What all rows of a sweep are measured against.
+// The reference frames with which all rows of a sweep are compared.
 struct ReferenceFrames {
-    std::vector<Frame> frames;  // one a camera
+    std::vector<Frame> frames;  // one per camera
     Exposure exposure;          // of every picture
 };
 
@@ -21,7 +21,7 @@ ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
                                     const std::vector<std::string>& cameras, const PictureChoice& choice,
                                     const RenderOptions& options);
 
-// RMSE and 99th percentile (nearest rank) of relative errors, each a pixel's.
+// RMSE and 99th percentile (nearest rank) of the pixels' relative errors.
 struct RelativeErrors {
     double rmse = 0, p99 = 0;
 };
@@ -46,11 +46,11 @@ struct MeasuredRow {
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,
                        const RenderOptions& options);
 
-// One visit more, of `options.runs` frames.
+// Times `options.runs` more frames of the row from every camera: one more visit.
 void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& references,
                const RenderOptions& options);
 
-// lit as the pages show it, not wider than a card.
+// The picture of lit as the page shows it, at most as wide as a card.
 Image8 thumbnail(const Frame& frame, const Exposure& exposure);
 
 }  // namespace diptych::tradeoff

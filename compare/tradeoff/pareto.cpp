@@ -13,8 +13,8 @@ std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points) {
         if (std::isfinite(points[i].time) && std::isfinite(points[i].error)) order.push_back(i);
     std::ranges::sort(order, {},
                       [&](std::size_t i) { return std::tuple(points[i].time, points[i].error, i); });
-    // By time, of equal times the smallest error first: what comes later must have less error, or be the
-    // same.
+    // Points are sorted by time and then by error, so a later point is on the front if its error is smaller,
+    // or if it equals the last point of the front.
     std::vector<std::size_t> front;
     for (const std::size_t i : order) {
         const bool beats = front.empty() || points[i].error < points[front.back()].error;

@@ -10,8 +10,9 @@ struct TimeError {
     double time = 0, error = 0;
 };
 
-// Which points no other one beats: none is as good in both and better in one. Equal points stay together, so
-// that a tie is seen; a NaN or infinity is never on the front and beats nothing. By time, then by number.
+// The indices of the points that no other point dominates, that is, equals or beats in both values and beats
+// in one. Equal points are kept together. Points with a NaN or infinity are never on the front and dominate
+// nothing. Sorted by time, then by index.
 std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points);
 
 }  // namespace diptych::tradeoff

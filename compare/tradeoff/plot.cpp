@@ -19,7 +19,7 @@ namespace {
 
 // Of the drawing, in its own units.
 constexpr double width = 720, height = 440, left = 74, right = 16, top = 32, bottom = 56;
-constexpr double lane = 26;  // of errors that no logarithm shows
+constexpr double lane = 26;  // the strip for errors that a logarithmic axis cannot show, 0 and infinity
 
 class Plot {
 public:
@@ -95,7 +95,7 @@ private:
         return drawing.group();
     }
 
-    // What is reached at most that time: less error only at the next point.
+    // The least error that is reached within a time: a step line, lower only from the next point on.
     std::string frontLine() const {
         if (front_.empty()) return {};
         std::string line;
@@ -129,7 +129,7 @@ private:
                            svgNumber(py));
     }
 
-    // Told by shape as well as by colour.
+    // Paths differ in shape as well as in colour.
     static std::string mark(Path path, double px, double py, double r) {
         if (path == Path::deferred)
             return fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(px),

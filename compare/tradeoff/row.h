@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep measures of one Settings.
+// The measurements of one row of a sweep: one Settings.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -26,7 +26,7 @@ using Errors = std::array<double, errorFigures.size()>;
 
 struct CameraRow {
     std::string camera;             // its title: "default view"
-    std::vector<FrameTime> visits;  // the frames timed at once
+    std::vector<FrameTime> visits;  // one entry per series of timed frames
     std::vector<PassTime> passes;
     FrameBytes bytes;
     Errors errors{};
@@ -43,8 +43,8 @@ struct TradeoffRow {
     std::vector<std::string> warnings{};
 };
 
-// Of all visits: the mean of their medians, so that each counts alike; the least and greatest time, all
-// frames.
+// Over all visits: the mean of their medians, so that each visit counts equally; the least and greatest time;
+// the number of all frames.
 FrameTime timeOf(const CameraRow& camera);
 
 struct Spread {
@@ -52,17 +52,17 @@ struct Spread {
 };
 // The mean over cameras of the medians, of the least and of the greatest times, ms.
 Spread timeOf(const TradeoffRow& row);
-// Of all cameras together, and the least and greatest of one camera's.
+// The error over all cameras together, and the least and greatest of a single camera.
 Spread errorOf(const TradeoffRow& row, std::size_t figure);
 // The mean over cameras, ms; names in the first camera's order.
 std::vector<PassTime> passesOf(const TradeoffRow& row);
-// The most that a camera takes, and images and buffers of it together.
+// The bytes of the camera that takes most, and the sum of its images and buffers.
 FrameBytes bytesOf(const TradeoffRow& row);
 std::uint64_t memoryOf(const TradeoffRow& row);
 
 // Every number with all its digits; an error that is infinite is null.
 nlohmann::ordered_json jsonOf(const TradeoffRow& row);
-// The way back; throws std::runtime_error or nlohmann's exception where it is none.
+// Reads what jsonOf() wrote; throws std::runtime_error or nlohmann's exception if it is anything else.
 TradeoffRow tradeoffRowFrom(const nlohmann::ordered_json& json);
 
 }  // namespace diptych::tradeoff

@@ -73,7 +73,7 @@ private:
         }
         return choices;
     }
-    // ParsedOptions once: not again of what holds more choices than those that were the reason.
+    // A skip is not listed again for combinations that add more choices to those that caused it.
     void skip(const std::vector<Choice>& tried, const std::string& reason) {
         const auto covers = [&](const SweepSkip& skip) {
             return skip.reason == reason && std::ranges::all_of(skip.tried, [&](const Choice& choice) {

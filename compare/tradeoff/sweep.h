@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which Settings a sweep draws, and which it does not and why.
+// Which Settings a sweep draws, which it skips, and why.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -26,12 +26,12 @@ struct SweepRows {
     std::vector<SweepSkip> skips;
 };
 
-// What is tried where nobody says what: of each path that can be drawn each Setting that it reads by itself,
-// and the pairs of sweepPairs().
+// The grids of a sweep without --grid: for each path that can be drawn, every Setting that it reads is varied
+// by itself, and the pairs of sweepPairs() together.
 std::vector<Grid> usualGrids(const Settings& given);
 
-// Combinations without meaning, or that cannot be drawn, are skips; a value that its path ignores is
-// one, too, and the row is drawn without it. Throws std::runtime_error where nothing is left to draw, or more
+// Combinations that have no meaning or cannot be drawn become skips. So does a value that its path
+// ignores; the row is then drawn without it. Throws std::runtime_error where nothing is left to draw, or more
 // than mostCombinations are asked for.
 SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
 inline constexpr std::size_t mostCombinations = 10'000;
@@ -43,7 +43,7 @@ struct SkipGroup {
 };
 std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 
-// What a row has otherwise than `given`, the path first and always.
+// The Settings of a row that differ from `given`. The path comes first and is always included.
 std::vector<Choice> choicesOf(const Settings& row, const Settings& given);
 std::string inWords(const std::vector<Choice>& choices);  // "deferred, gbuffer compact"
 

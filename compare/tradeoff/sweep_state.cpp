@@ -28,7 +28,7 @@ std::string textOf(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// Null where there is none or it is not whole.
+// The file's JSON; null if there is no file or it is incomplete.
 Json readJson(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     const Json json = Json::parse(stream, nullptr, false);
@@ -70,7 +70,7 @@ SweepState::SweepState(const fs::path& out, const Json& key) : folder_(folderOf(
     if (error) throw std::runtime_error(writingFailed(folder_, error.value()));
     lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ < 0) throw std::runtime_error(writingFailed(folder_, errno));
-    // Where locks are unknown there is none.
+    // A file system without locks locks nothing.
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         throw std::runtime_error(
             fmt::format("{}: another diptych sweeps to the same -o; wait for it, or write to another place",
@@ -92,7 +92,7 @@ SweepState::~SweepState() {
     if (lock_ >= 0) ::close(lock_);
 }
 
-// The key goes last: without it what is left would be nobody's.
+// The key is removed last: it marks the other files as ours.
 void SweepState::clear() {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
@@ -111,7 +111,7 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings) const {
                            row.errors_map == errorsOf(settings) && fs::exists(folder_ / row.picture) &&
                            fs::exists(folder_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
-    } catch (const std::exception&) {  // not what was written: measured again
+    } catch (const std::exception&) {  // not what was written: the row is measured again
         return {};
     }
 }

@@ -11,22 +11,22 @@
 
 namespace diptych::tradeoff {
 
-// What a sweep has measured so far, in ".NAME.sweep" beside the folder NAME that it will leave: each row by
-// itself, its record last, so that whatever ends the program the next one goes on from there. Held by one
-// program at a time. Throws std::runtime_error naming the folder.
+// The rows that a sweep has measured so far, in ".NAME.sweep" beside its output folder NAME. Each row is
+// stored by itself, its JSON after its pictures, so that the next program can resume however this one ends.
+// One program at a time may hold it. Throws std::runtime_error naming the folder.
 class SweepState {
 public:
-    // `key`: all that rows depend on beside their Settings. Rows of another key are removed.
+    // `key`: everything that rows depend on besides their Settings. Rows of another key are removed.
     SweepState(const std::filesystem::path& out, const nlohmann::ordered_json& key);
     ~SweepState();
     SweepState(const SweepState&) = delete;
     SweepState& operator=(const SweepState&) = delete;
 
-    bool isRenewed() const { return renewed_; }  // there were rows of another key
+    bool isRenewed() const { return renewed_; }  // whether rows of another key were removed
     std::optional<TradeoffRow> find(const Settings& settings) const;
     void keep(MeasuredRow& measured);    // names the row's pictures
     void renew(const TradeoffRow& row);  // of one that is kept
-    // Of a kept row, under a name of the folder.
+    // The path of a file of a kept row.
     std::filesystem::path operator/(const std::string& file) const { return folder_ / file; }
     void remove();  // all of it: the sweep is done
 

@@ -11,7 +11,7 @@
 namespace diptych::tradeoff {
 namespace {
 
-// Every camera of the sweep, where it is not the default alone.
+// Adds every camera of a sweep that has several.
 std::vector<std::string> withCameras(std::vector<std::string> words, const Tradeoff& tradeoff) {
     if (tradeoff.cameras.size() < 2) return words;
     std::vector<std::string> cameras;
@@ -21,12 +21,12 @@ std::vector<std::string> withCameras(std::vector<std::string> words, const Trade
     return withWords(std::move(words), cameras);
 }
 
-// What a command is given so that its reference is the sweep's: what of the row that would change is in the
-// grid.
+// Settings for a command whose reference equals the sweep's: choices of the row that would change the
+// reference are moved into the grid.
 struct AgainstReference {
     Settings settings;
     std::string grid;
-    bool sameReference = true;  // the grid is empty
+    bool sameReference = true;  // the row changes nothing that the reference depends on, so the grid is empty
 };
 
 AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& row) {

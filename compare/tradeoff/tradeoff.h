@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A whole sweep, and what is made of it.
+// A whole sweep, and the files and texts made of it.
 #pragma once
 
 #include "compare/picture/picture.h"
@@ -36,18 +36,18 @@ struct Tradeoff {
     SweepCost cost;
 };
 
-// Rows of one path, or of all, and of them the front in time and one error. Numbers of rows.
+// Indices of the rows of one path, or of all; and of those on the Pareto front of time and one error.
 std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> path);
 std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path = {});
 std::vector<Path> pathsOf(const Tradeoff& tradeoff);  // that have rows, in the enumeration's order
 
-// The time of the second visit of a row over that of the first: the median row's, the least and the greatest;
-// what the device's speed did meanwhile. Nothing where there was one visit.
+// The time of a row's second visit divided by that of its first: median, least and greatest over the rows.
+// Shows how the device's speed changed during the sweep. Empty if rows were visited once.
 std::optional<Spread> driftOf(const Tradeoff& tradeoff);
 
-// Commands for a shell: the row measured again by itself; its picture; its errors beside those of the other
-// path, channel by channel: empty where its own reference would be another, for its size, or no other path
-// knows it.
+// Commands for a shell. The first measures the row again by itself, the second draws its picture, the third
+// compares its errors with the other path's, channel by channel. The third is empty if the row's reference
+// would differ from the sweep's, e.g. by its size, or if the other path cannot draw the Settings.
 std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
@@ -64,7 +64,7 @@ private:
 };
 // Skips with their reasons, the front, notes, cost.
 std::string tradeoffEnd(const Tradeoff& tradeoff);
-// What the speed of the device did during the sweep, and what it cost beside drawing: a sentence each.
+// Sentences on how the speed of the device changed during the sweep, and what the sweep cost besides drawing.
 std::vector<std::string> howItWent(const Tradeoff& tradeoff);
 
 // RFC 4180, a line a row.

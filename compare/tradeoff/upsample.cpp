@@ -15,7 +15,7 @@ namespace {
 
 constexpr float background = -1;  // material_id
 
-// Where a pixel's centre of the new picture lies among the centres of the old one, along one axis.
+// The position of a new pixel's centre between two centres of the old picture, along one axis.
 struct Between {
     int low = 0, high = 0, nearest = 0;
     double part = 0;  // of the way from low to high

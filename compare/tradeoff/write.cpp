@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// From the name that a picture was kept under to the one that it gets.
+// Copies a kept picture to its final name in the folder.
 void copyPicture(const fs::path& from, const fs::path& to) {
     std::error_code error;
     fs::copy_file(from, to, error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Frame that was drawn earlier, or by somebody else, as what new ones are held against.
+// A Frame that was drawn earlier, or by another renderer, with which new ones are compared.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -10,8 +10,8 @@
 
 namespace diptych {
 
-// What must be known before any number is read: commit, device, driver, scene, camera and Settings of the
-// baseline that are not those of `frame`, a line each.
+// Differences that a reader must know before any number: commit, device, driver, scene, camera and Settings
+// of the baseline that are not those of `frame`, one line each.
 std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& frame,
                                             const ReportDevice& device);
 

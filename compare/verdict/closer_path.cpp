@@ -45,7 +45,7 @@ std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image,
         for (double& mean : material.mean) mean /= static_cast<double>(material.pixels);
         materials.push_back(material);
     }
-    // By what they add to the difference of the two means.
+    // Sorted by how much they contribute to the difference of the two means.
     std::ranges::stable_sort(materials, std::greater{}, [](const MaterialError& m) {
         const double weight = std::abs(m.mean[0] - m.mean[1]) * static_cast<double>(m.pixels);
         return std::isnan(weight) ? std::numeric_limits<double>::infinity() : weight;
@@ -54,7 +54,7 @@ std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image,
     return materials;
 }
 
-// What the reference is known to, relative to it, over the pixels that count.
+// The uncertainty of the reference's mean over the covered pixels, relative to its values.
 double meanUncertainty(const Frame& referenceFrame, const Image& reference, const Coverage& covered) {
     if (referenceFrame.uncertainty.empty() || covered.count == 0) return 0;
     const PixelError error(Metric::relative, ChannelKind::color, reference, covered);
@@ -65,7 +65,7 @@ double meanUncertainty(const Frame& referenceFrame, const Image& reference, cons
         const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
         sum += double{referenceFrame.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
     }
-    // Errors of pixels are independent: their mean is known better by the root of their number.
+    // Errors of pixels are independent, so the mean of N pixels is known sqrt(N) times better than one pixel.
     return sum / static_cast<double>(covered.count) / std::sqrt(static_cast<double>(covered.count));
 }
 
@@ -93,7 +93,7 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
         if (first != second) channel.apart.data[i] = first - second;
     }
     const double first = channel.paths[0].stats.mean, second = channel.paths[1].stats.mean;
-    // Two means that share most of their error are told apart by no less than the reference's own.
+    // Two means are distinguished only if they differ by more than the reference's own uncertainty.
     const double known =
         std::max(1e-3 * std::min(first, second), meanUncertainty(referenceFrame, reference, covered));
     if (std::abs(first - second) > known || std::isinf(first) != std::isinf(second)) {

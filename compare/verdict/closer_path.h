@@ -37,11 +37,12 @@ struct CloserPathChannel {
     std::array<PathError, 2> paths;  // against the reference
     PathError between;               // the second against the first
     std::array<std::uint64_t, 2> closer_pixels{};
-    std::uint64_t even_pixels = 0;  // errors that are the same
-    int closer =
-        -1;  // 0 or 1, by mean error; -1: neither, by less than the reference is known to or a thousandth
-    double by = 1;  // the farther one's mean error over the closer one's; infinite where that is 0
-    std::vector<MaterialError> materials;  // those where the two are furthest apart first, at most eight
+    std::uint64_t even_pixels = 0;  // pixels where both errors are equal
+    int closer = -1;  // 0 or 1: the path with the smaller mean error; -1: their difference is below the
+                      // reference's uncertainty or a thousandth
+    double by = 1;    // the farther one's mean error over the closer one's; infinite where that is 0
+    std::vector<MaterialError>
+        materials;  // those with the largest difference of the two errors first, at most eight
     // Pixel by pixel, the first's error less the second's: below 0 the first is closer.
     Image apart;
 };
@@ -63,8 +64,9 @@ CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
 std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& channel,
                            const std::vector<Frame>& frames);
 
-// Blue where the first is closer, orange where the second is, as bright as they are apart; `top` ends it.
+// Blue where the first path is closer, orange where the second is; the brightness is the difference of their
+// errors, full at `top`.
 Image8 closerPathPicture(const Image& apart, double top);
-double closerPathTop(const Image& apart);  // the 99th percentile of what is not 0
+double closerPathTop(const Image& apart);  // the 99th percentile of the values that are not 0
 
 }  // namespace diptych

@@ -25,7 +25,7 @@ namespace {
 std::string faultOf(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("{} pixel(s) differ from what the encoding explains", *channel.unexplained_pixels);
-    // At most a share of the pixels beyond it is the same as the next percentile within it.
+    // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     if (channel.tolerance.most_pixels) {
         const double p999 = channel.certain_p999.value_or(channel.stats.p999);
         return p999 <= channel.tolerance.max
@@ -51,7 +51,7 @@ double noiseOf(const FramePair& pair, int mode) {
     return sum;
 }
 
-// The derived tolerance decides.
+// Judges by the derived tolerance.
 void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
@@ -64,7 +64,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     channel.reason = faultOf(channel);
 }
 
-// A rule of the user's decides.
+// Judges by a rule of the user.
 void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measurement) {
     const Decision decision = decide(rule, measurement);
     channel.tolerance = {boundOn(rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
@@ -105,7 +105,7 @@ ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
     return objects;
 }
 
-// What a Frame says about itself that no channel shows.
+// Adds failures and notes from the Frame's counters, which no channel shows.
 void readCounters(const Frame& frame, Comparison& comparison) {
     const FrameCounters& counters = frame.counters;
     if (counters.unreproduced_pixels > 0)
@@ -128,7 +128,7 @@ void readCounters(const Frame& frame, Comparison& comparison) {
             fmt::format("{}: lit is NaN or infinite at {} pixel(s)", frame.name, counters.nonfinite_pixels));
 }
 
-// Two runs of one path that differ: on a CPU device a race, on a GPU what its scheduling leaves open.
+// Reports two runs of one path that differ: on a CPU device that is a race, on a GPU scheduling may cause it.
 void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& comparison) {
     for (const auto& [mode, noise] : frame.noise) {
         if (noise.pixels == 0) continue;
@@ -187,7 +187,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             fmt::format("{} is {}x{} and {} is {}x{}: only pictures of one size are compared", left.name,
                         left.settings.size.width, left.settings.size.height, right.name,
                         right.settings.size.width, right.settings.size.height));
-    // A picture of another device was rounded in another way.
+    // A picture of another device may have been rounded differently.
     const bool here = std::ranges::all_of(std::array{&left, &right}, [&](const Frame* frame) {
         return frame->origin.file.empty() ||
                (frame->origin.device == report.device.name && frame->origin.driver == report.device.driver);
@@ -311,9 +311,9 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
 
 namespace {
 
-// What forward+ makes of the encoding now is what it made of it then only where it still draws the same: for
-// those channels of an earlier picture of forward+ it explains what the encoding does, for others nothing
-// does.
+// An earlier Frame of forward+ has no images drawn through the G-buffer. Those of today's forward+ stand in
+// for them, but only in channels where forward+ still draws the same picture; in other channels no difference
+// is explained.
 void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
     if (baseline.settings.path != Path::forward_plus) return;
     for (const Frame& frame : frames)

@@ -31,8 +31,10 @@ struct ChannelDiff {
     ChannelStats stats;          // meaningless where forward-only
     std::optional<double> flip;  // mean; of colours
     Tolerance tolerance;
-    std::optional<std::uint64_t> unexplained_pixels;  // lit channels: what the encoding does not explain
-    std::optional<double> certain_p999;  // against a reference that sampled: beyond what that is known to
+    std::optional<std::uint64_t>
+        unexplained_pixels;  // lit channels: pixels whose difference the encoding does not explain
+    std::optional<double>
+        certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; empty otherwise
     std::string warning;  // what a rule warns of; empty otherwise
@@ -49,9 +51,11 @@ struct Comparison {
     std::size_t baseline = 0, test = 0;  // into Report::frames
     std::vector<ChannelDiff> channels;   // in ascending number
     Coverage coverage;
-    std::vector<std::string> failures;  // beside the channels', e.g. a capture that is not the timed frame
-    std::vector<std::string> notes;     // what a reader must know and what is no failure
-    std::vector<std::string> command;   // the words that make this comparison again; --channels may be added
+    std::vector<std::string>
+        failures;  // in addition to the channels', e.g. a capture that is not the timed frame
+    std::vector<std::string> notes;  // what a reader must know although it is no failure
+    std::vector<std::string>
+        command;  // the command line that repeats this comparison; --channels may be added
     std::vector<FeatureChecks> visual_checks;  // what no comparison shows and a person must look at
 
     bool passed() const;
@@ -61,9 +65,9 @@ struct Report {
     ReportDevice device;
     std::vector<Frame> frames;
     std::vector<Comparison> comparisons;
-    std::vector<std::string> first_notes;  // what must be known before any number is read
+    std::vector<std::string> first_notes;  // what a reader must know before any number
     std::vector<CloserPath> closer_paths;  // with --baseline reference: one per scene and camera
-    double diff_ms = 0;                    // the comparing alone
+    double diff_ms = 0;                    // time of comparing alone
 
     bool passed() const;
     const Frame& baseline(const Comparison& comparison) const { return frames[comparison.baseline]; }
@@ -74,15 +78,14 @@ struct CompareOptions {
     Path baseline = Path::deferred;  // the left panel
     std::vector<Rule> rules;         // in place of the derived tolerances, where one names the channel
     SelectionOptions selection;      // pixels
-    std::vector<std::string>
-        words;                 // of the command line that said the above: commands that repeat it need them
-    bool allow_noise = false;  // on a GPU: what two runs of a path differ by is granted on top
+    std::vector<std::string> words;  // of the command line that set the above; repeated commands contain them
+    bool allow_noise = false;  // on a GPU: the difference of two runs of one path is added to tolerances
     Stage progress{};          // of comparing
 };
 
-// frames[test] against frames[baseline] of the report, over their common channels that were asked for; what
-// only one of them has and only forward+ can make is listed as forward-only and never counts. Throws
-// std::runtime_error where the two differ in size or share no channel.
+// frames[test] against frames[baseline] of the report, over the requested channels that both have. A channel
+// that only forward+ can make is listed as forward-only and never fails. Throws std::runtime_error where the
+// two differ in size or share no channel.
 Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,
                          const Requirements& needs, const CompareOptions& options = {});
 
@@ -100,8 +103,8 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
                            std::vector<std::vector<FeatureChecks>> checks,
                            const std::vector<std::vector<std::string>>& materials);
 
-// A Frame of earlier as the left panel: both paths against it, then against each other. `mismatches` are said
-// first.
+// An earlier Frame as the left panel: both paths against it, then against each other. `mismatches` are
+// printed first.
 Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
                           ReportDevice device, const CompareOptions& options,
                           const std::vector<std::string>& mismatches);

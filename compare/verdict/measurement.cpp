@@ -13,7 +13,7 @@ namespace {
 
 using Value = std::optional<double>;
 
-// A figure and where its value is.
+// A figure and the function that gets its value.
 struct Row {
     Figure figure;
     Value (*value)(const Measurement&);
@@ -130,8 +130,8 @@ const PlainMetrics& Measurement::plain() const {
     return *plain_;
 }
 
-// FLIP's filters reach some pixels beyond the one that they judge: what does not count is a hole in both
-// pictures, so that it cannot be seen from beside it.
+// FLIP's filters read neighbouring pixels. Uncovered pixels become NaN in both pictures, so that they do not
+// influence covered ones beside them.
 Image Measurement::withHoles(const Image& image) const {
     Image holed = image;
     for (std::size_t i = 0; i < holed.pixels(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every figure of two images of one channel, each worked out when it is asked for.
+// Every figure of two images of one channel, each computed on demand.
 #pragma once
 
 #include "compare/metrics/flip.h"
@@ -16,7 +16,7 @@
 
 namespace diptych {
 
-// Two images of one channel, alike in size and components. They outlive their Measurement.
+// Two images of one channel, equal in size and components. They must outlive their Measurement.
 struct ChannelPair {
     Metric metric = Metric::absolute;  // of max, mean, rmse, p99, p999 and the share of failing pixels
     ChannelKind kind = ChannelKind::color;
@@ -32,15 +32,16 @@ class Measurement {
 public:
     explicit Measurement(const ChannelPair& pair) : pair_(pair) {}
 
-    // Nothing where a figure is not defined: flip and ssim of what is no colour, angles of what is no vector.
+    // Empty where a figure is not defined: flip and ssim need colours, angles need vectors.
     std::optional<double> operator()(const Quantity& quantity) const;
-    Measured asMeasured() const;  // of this, which must outlive it
+    Measured asMeasured() const;  // a function that measures by this object, which must outlive it
 
     // All that are defined, in the table's order.
     std::vector<std::pair<std::string, double>> all() const;
 
     bool isVector() const;  // of 3 components
-    // As given; else mean and rmse of an absolute error are over components, as other programs have them.
+    // The statistics given in the pair. If computed here, mean and rmse of an absolute error are over
+    // components, as in other programs.
     const ChannelStats& stats() const;
     const PlainMetrics& plain() const;
     const HdrFlipResult* flip() const;  // nullptr where it is not defined
@@ -55,9 +56,9 @@ private:
     mutable std::optional<HdrFlipResult> flip_;
 };
 
-// What the rule decides about what was measured. A NaN or infinity against anything else is a difference that
-// some figures are blind to (a mean, FLIP, SSIM): it fails whatever they are, unless the rule grants a share
-// of failing pixels, among which it is.
+// Applies the rule to the measurement. A NaN or infinity against any other value is a difference that some
+// figures do not see (a mean, FLIP, SSIM), so it always fails, unless the rule allows a share of failing
+// pixels, where it counts as one.
 Decision decide(const Rule& rule, const Measurement& measurement);
 
 }  // namespace diptych

@@ -64,8 +64,8 @@ ObjectPlanes objectsOf(const std::vector<PictureChannel>& reference,
     return objects;
 }
 
-// What the command line says of a channel that no rule names. Colours have a FLIP; what has none is judged by
-// its largest error, unless the figure was asked for.
+// The command line's rule for a channel that no rule names. A channel without the figure (only colours have a
+// FLIP) is judged by its largest error, unless --metric was given: then it is not judged.
 Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel) {
     Rule rule;
     rule.channel = channel.pair.name;
@@ -103,7 +103,7 @@ void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
     channel.worst_y = at / errors.width;
 }
 
-// What is silent otherwise: a NaN in both, a rule that names nothing.
+// Notes on what no figure shows: a NaN in both pictures, a rule that names no channel.
 void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
     for (const auto& channel : diff.channels) {
         const ChannelStats& s = channel->measurement->stats();
@@ -163,7 +163,7 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     diff.test = test;
     options.progress.at(0, "read");
     PictureFile a, b;
-    // Of two that cannot be read the reference is named, whichever thread was faster.
+    // If neither file can be read, the error names the reference, whichever thread was faster.
     std::exception_ptr failures[2];
     const auto read = [](PictureFile& file, const std::string& name, std::exception_ptr& failure) {
         try {

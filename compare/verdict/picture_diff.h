@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two picture files from anybody's renderer, channel by channel: figures and a verdict.
+// Compares two picture files from any renderer, channel by channel: figures and a verdict.
 #pragma once
 
 #include "compare/files/layers.h"
@@ -16,10 +16,11 @@
 namespace diptych {
 
 struct PictureDiffOptions {
-    std::string metric = "flip";        // the figure that decides where no rule does, figureOfMetric()
+    std::string metric =
+        "flip";  // the figure that decides for channels without a rule, as figureOfMetric() returns it
     bool metric_given = false;          // then a channel that has no such figure is not judged
-    double tolerance = 0;               // the most that passes; of psnr and ssim the least
-    std::optional<double> warn;         // what is beyond it is warned of
+    double tolerance = 0;               // the largest value that passes; for psnr and ssim the smallest
+    std::optional<double> warn;         // values beyond it give a warning
     std::optional<double> failing;      // instead: `tolerance` may be exceeded by this share of the pixels
     std::vector<Rule> rules;            // a rule that names the channel decides instead
     std::vector<std::string> channels;  // patterns of names; empty: all
@@ -33,17 +34,17 @@ struct PictureDiffOptions {
 
 struct PictureDiff;
 
-// One channel of both pictures with all that is known of it.
+// One channel of both pictures and everything measured of it.
 struct PictureChannelDiff {
     MatchedChannel pair;
-    std::unique_ptr<Measurement> measurement;  // looks into `pair`
+    std::unique_ptr<Measurement> measurement;  // refers to `pair`
     bool display = false;
     Rule rule;  // what decided
     Decision decision;
-    int worst_x = -1, worst_y = -1;  // where the errors that decide are largest; -1: nowhere
+    int worst_x = -1, worst_y = -1;  // the pixel with the largest deciding error; -1: none
 };
 
-// Errors as what decided sees them.
+// The errors of the figure that decided.
 struct DecidingErrors {
     Image image;       // W x H x 1
     std::string name;  // "FLIP", "relative"; empty: of the channel's metric
@@ -56,7 +57,7 @@ struct PictureDiff {
     std::string reference_format, test_format;
     int width = 0, height = 0;
     bool display = false;                // both hold display colours
-    std::unique_ptr<Coverage> coverage;  // where the measurements find it
+    std::unique_ptr<Coverage> coverage;  // on the heap, because measurements refer to it
     std::vector<std::unique_ptr<PictureChannelDiff>> channels;
     std::vector<std::string> notes;
 

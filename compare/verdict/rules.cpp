@@ -57,7 +57,7 @@ class ConditionReader {
 public:
     explicit ConditionReader(const Presets& presets) : presets_(presets) {}
 
-    // Every member of the object but `others`, all of which must hold.
+    // A condition from all members of the object except `others`; all must hold.
     Condition read(const Json& object, const std::set<std::string>& others = {}) {
         if (!object.is_object()) fail(fmt::format("{} is no object of bounds", oneLine(object.dump(), 60)));
         Condition all{Condition::Kind::all, {}, 0, {}};
@@ -141,7 +141,7 @@ std::vector<Rule> readDocument(const Json& document, const std::string& name) {
     return rules;
 }
 
-// Six digits, and as many more as it takes to differ from `other`.
+// Four digits, and as many more as it takes to differ from `other`.
 std::string shown(double value, double other) {
     for (int digits = 4; digits < 17; ++digits)
         if (std::string text = fmt::format("{:.{}g}", value, digits);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a team lets differ, as data: a tolerance file's rules, and what they decide about measured figures. In
-// the manner of Filament's renderdiff presets.
+// Tolerances as data: the rules of a tolerance file and what they decide about measured figures. Modelled on
+// Filament's renderdiff presets.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace diptych {
 
-// One number that a comparison of two images of a channel ends in, and that a rule may bound.
+// One number that a comparison of two images of a channel yields, and that a rule may bound.
 struct Figure {
     std::string_view name;
     bool more_is_better;       // psnr, ssim: a bound is the least that passes
@@ -28,7 +28,7 @@ struct Quantity {
     std::string figure;  // "failing" for the share
     double above = 0;
 };
-// Gives the measured value of a quantity; nothing where it is not defined for the channel (flip of an id).
+// Returns the measured value of a quantity; empty where it is not defined for the channel (flip of an id).
 using Measured = std::function<std::optional<double>(const Quantity&)>;
 
 // A bound on one quantity, or several conditions of which all or any must hold.
@@ -39,13 +39,13 @@ struct Condition {
     double limit = 0;  // at most, or at least where more is better
     std::vector<Condition> parts;
 };
-// Why it does not hold, "max 0.005 exceeds 0.0037"; nothing where it does. What is NaN or not defined never
-// holds.
+// Why the condition does not hold, e.g. "max 0.005 exceeds 0.0037"; empty if it holds. A quantity that is NaN
+// or not defined never holds.
 std::optional<std::string> violation(const Condition& condition, const Measured& measured);
 
-// Whether it puts a bound on a figure in any case.
+// Whether any part of the condition bounds the figure.
 bool boundsFigure(const Condition& condition, std::string_view figure);
-// The least upper bound that it puts on a figure in every case; nothing: none.
+// The least upper bound on the figure that holds in every case; empty if there is none.
 std::optional<double> boundOn(const Condition& condition, std::string_view figure);
 
 // "max <= 0.0037 and (flip <= 0.02 or psnr >= 40)"
@@ -54,7 +54,7 @@ std::string conditionText(const Condition& condition);
 struct Rule {
     std::string channel = "*";      // a name, or with * and ? several
     Condition fail;                 // what must hold, or the channel fails
-    std::optional<Condition> warn;  // what must hold, or it is warned of
+    std::optional<Condition> warn;  // what must hold, or there is a warning
     std::string because;
     std::string origin;  // "tolerances.json, rule 3"; printed with what it decided
 };

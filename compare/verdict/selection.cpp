@@ -27,7 +27,7 @@ void applyMask(Coverage& coverage, int width, int height, const std::string& fil
         throw std::runtime_error(fmt::format("--mask {}: is {}x{}, the pictures are {}x{}", file, mask.width,
                                              mask.height, width, height));
     const Image& image = mask.layers.front().image;
-    // Alpha says nothing of what is white.
+    // Alpha does not count as brightness.
     const int components = image.components == 4 ? 3 : image.components == 2 ? 1 : image.components;
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const float* p = image.pixel(i);
@@ -61,7 +61,7 @@ bool otherDepth(float a, float b) {
     return std::abs(a - b) > depthStep * std::min(std::abs(a), std::abs(b));
 }
 
-// 1 where a pixel's right or lower neighbour, or its left or upper one, is of another object.
+// Sets 1 at both pixels of every horizontal or vertical neighbour pair that belongs to two objects.
 template <class Other>
 void markEdges(const Image& plane, const Other& other, std::vector<std::uint8_t>& edges) {
     const auto mark = [&](int x, int y, int nx, int ny) {
@@ -76,7 +76,7 @@ void markEdges(const Image& plane, const Other& other, std::vector<std::uint8_t>
         }
 }
 
-// Everything within `radius` pixels, in rows and columns, of what is marked; two passes of running counts.
+// Dilates the marked pixels by `radius` rows and columns: two passes of running counts.
 std::vector<std::uint8_t> grown(const std::vector<std::uint8_t>& marked, int width, int height, int radius) {
     const auto pass = [radius](const std::vector<std::uint8_t>& in, std::size_t lines, std::size_t count,
                                std::size_t line, std::size_t step) {

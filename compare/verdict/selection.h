@@ -16,7 +16,7 @@ struct Crop {
     int x = 0, y = 0, width = 0, height = 0;  // pixels, from the top left
 };
 
-// As the command line asks for it; nothing set: every pixel.
+// As the command line gives it; by default every pixel counts.
 struct SelectionOptions {
     std::string mask;      // a picture file: pixels whose largest component is at least 0.5 count
     std::vector<int> ids;  // material ids: pixels that show one of them in the reference count
@@ -29,15 +29,15 @@ struct SelectionOptions {
 // "X,Y,WxH". Throws std::runtime_error where it is not that.
 Crop cropOf(const std::string& words);
 
-// What tells objects apart: ids, or without them view depth; nullptr where a picture has neither.
+// What distinguishes objects: ids, or without them view depth; nullptr where a picture lacks them.
 struct ObjectPlanes {
     const Image* ids[2] = {nullptr, nullptr};  // of reference and test; one component
     const Image* depth[2] = {nullptr, nullptr};
 };
 
-// Takes out of `coverage`, of a picture of width x height, what `options` leave out, and says so in `notes`,
-// a line each. Throws std::runtime_error where the mask cannot be read or is of another size, the crop is not
-// inside the picture, or what tells objects apart is needed and missing.
+// Removes the pixels that `options` exclude from `coverage`, of a picture of width x height, and adds a line
+// each to `notes`. Throws std::runtime_error if the mask cannot be read or has another size, if the crop is
+// not inside the picture, or if the planes that distinguish objects are needed and missing.
 void applySelection(Coverage& coverage, int width, int height, const SelectionOptions& options,
                     const ObjectPlanes& objects, std::vector<std::string>& notes);
 

@@ -185,7 +185,7 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
     return 0;
 }
 
-// What float32 shading may be off of double: DESIGN's figure, of the pixel as its metric has it.
+// How far float32 shading may be from double precision, in the channel's metric.
 constexpr double shadingRounding = 1e-4;
 
 // The G-buffer's whole effect on a lit channel, at 99.9 % of the pixels.
@@ -197,7 +197,7 @@ double encodingEffect(const DebugMode& mode, const FramePair& pair) {
     return channelStats(mode.metric, mode.kind, own->second, through->second, pair.coverage).p999;
 }
 
-// The path that is held against the reference loses what its encoding loses, and what its arithmetic does.
+// A path compared with the reference may differ by what its encoding and its float32 arithmetic lose.
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far apart two paths may be, and why: derived from what the G-buffer's encoding loses.
+// How far apart two paths may be, and why: derived from the precision that the G-buffer's encoding loses.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -26,7 +26,8 @@ struct FramePair {
     const Requirements& needs;
     const Coverage& coverage;
     bool cpu = true;  // a CPU device rounds alike in every pipeline; a GPU is granted gpuUlps
-    // Against the reference: forward+ of the same view, which was drawn through the G-buffer; or nullptr.
+    // In a comparison with the reference: the Frame of forward+ of the same view that was also drawn through
+    // the G-buffer; or nullptr.
     const Frame* explaining = nullptr;
 
     const Frame* of(Path path) const;  // nullptr: neither, or both
@@ -39,12 +40,12 @@ double octahedralBound(unsigned bits);
 // The tolerance of `mode`, a channel of both Frames.
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair);
 
-// Against a reference that sampled: the error at 99.9 % of the pixels beyond what the reference is known to
-// at each. Nothing where it is known, or no lit channel.
+// In a comparison with a sampled reference: the 99.9th percentile of the errors less the reference's
+// uncertainty at each pixel. Empty for a reference without uncertainty and for channels other than lit ones.
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair);
 
-// Pixels where deferred is not what forward+ shades from a surface that has been through the G-buffer's
-// encoding: a difference that the encoding does not explain. Nothing where forward+ has no such image.
+// The number of pixels where deferred differs from what forward+ shades from a surface that went through the
+// G-buffer's encoding: differences that the encoding does not explain. Empty if forward+ has no such image.
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair);
 
 }  // namespace diptych

@@ -29,7 +29,7 @@ addEventListener('keydown', event => {
 
 async function copy(button) {
   const code = $('code', button.parentElement);
-  getSelection().selectAllChildren(code);  // where there is no clipboard to write to, one key is left to press
+  getSelection().selectAllChildren(code);  // without access to the clipboard the user only has to press Ctrl+C
   try {
     await navigator.clipboard.writeText(code.textContent);
     button.textContent = 'copied';
