@@ -347,11 +347,11 @@ Faults otherUsersOfLibpng(const Files& files) {
     return faults;
 }
 
-TEST(House, LibpngIsUsedInOnePlace) {
-    EXPECT_EQ(joined(otherUsersOfLibpng(house())), "");
+TEST(Architecture, LibpngIsUsedInOnePlace) {
+    EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
 }
 
-TEST(House, APlantedUseOfLibpngIsFound) {
+TEST(Architecture, APlantedUseOfLibpngIsFound) {
     const auto plant = [](const std::string& path, const std::string& line) {
         return otherUsersOfLibpng({{path, "// SPDX-License-Identifier: MIT\n" + line + "\n"}}).size();
     };
@@ -401,11 +401,11 @@ Faults longShaderLines(const Files& files) {
     return faults;
 }
 
-TEST(House, ShadersKeepToTheColumnsOfTheRest) {
-    EXPECT_EQ(joined(longShaderLines(house())), "");
+TEST(Architecture, ShadersKeepToTheColumnsOfTheRest) {
+    EXPECT_EQ(joined(longShaderLines(sources())), "");
 }
 
-TEST(House, APlantedLongLineOfAShaderIsFound) {
+TEST(Architecture, APlantedLongLineOfAShaderIsFound) {
     const std::string fits = "// " + std::string(107, 'x') + "\n";
     EXPECT_EQ(longShaderLines({{"shaders/lib/planted.glsl", fits + "//  " + std::string(107, 'x') + "\n"}}),
               Faults{"shaders/lib/planted.glsl:2"});

@@ -38,12 +38,12 @@ TEST(CheckFeatures, BuiltinScenesHaveTheirs) {
 
 TEST(CheckFeatures, AFrameShowsItsSceneAsItWasDrawn) {
     const Scene scene = sceneOf(squareAt(0, 0, -2));
+    const SceneView view =
+        makeSceneView(scene, {0, "eye=0,0,0 target=0,0,-1 fov=90 near=1", 200, 100, "", 0});
     Frame frame;
-    frame.settings.size = {200, 100};
-    frame.settings.camera = "eye=0,0,0 target=0,0,-1 fov=90 near=1";
-    EXPECT_EQ(boxesOf(visualChecksOf(scene, frame)), (Boxes{{75, 25, 125, 75}}));
+    EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), (Boxes{{75, 25, 125, 75}}));
     frame.channels[static_cast<int>(gpu::DEBUG_material_id)] = Image(200, 100, 1, -1);
-    EXPECT_EQ(boxesOf(visualChecksOf(scene, frame)), Boxes{});
+    EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), Boxes{});
 }
 
 // The matrix as KHR_texture_transform writes it.
