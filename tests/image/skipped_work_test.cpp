@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a device is spared (uniforms gathered for each pixel, inputs that nobody reads, normals of triangles)
 // changes no bit of the picture.
+#include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
@@ -14,12 +15,13 @@ namespace {
 Image litWith(const Scene& scene, const Settings& settings,
               const std::function<void(PreparedView&)>& change) {
     SharedResources shared(device(), scene);
-    PreparedView shot(device(), shared, scene, settings);
-    change(shot);
+    const SceneView seen = makeSceneView(scene, viewRequest(settings));
+    PreparedView view(device(), shared, seen, settings);
+    change(view);
     const PathFunctions& path = functionsOf(settings.path);
     PassList passes(device(), static_cast<std::uint32_t>(settings.size.width),
                     static_cast<std::uint32_t>(settings.size.height));
-    const FrameImages images = path.add(passes, shot.inputs);
+    const FrameImages images = path.add(passes, view.inputs);
     passes.run();
     return readImages(passes, {{images.lit, 3}}).front();
 }
@@ -42,10 +44,10 @@ void expectSame(const std::string& name, const Settings& settings,
 }
 
 TEST(Spared, TheViewIsTheSameFromEverySource) {
-    const auto uniform = [](PreparedView& shot) {
-        EXPECT_EQ(shot.inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM,
+    const auto uniform = [](PreparedView& view) {
+        EXPECT_EQ(view.inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM,
                   device().info().isCpu());
-        shot.inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_UNIFORM);
+        view.inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_UNIFORM);
     };
     for (const Path path : {Path::deferred, Path::forward_plus})
         for (const Assignment assign : {Assignment::clustered, Assignment::tiled, Assignment::every}) {
@@ -63,8 +65,8 @@ TEST(Spared, FewerInputsBringTheSamePictureAsAll) {
     std::size_t scene = 0;
     for (const std::string& name : builtinScenes())
         expectSame(name, smallFrame(scene++ % 2 == 0 ? Path::deferred : Path::forward_plus),
-                   [](PreparedView& shot) {
-                       for (DrawItem& item : shot.draws.items)
+                   [](PreparedView& view) {
+                       for (DrawItem& item : view.draws.items)
                            item.variant.set(gpu::FEATURE_texture_transform);
                    });
 }
@@ -93,8 +95,10 @@ TEST(Spared, DrawsGoFromNearToFar) {
     for (const char* name : {"builtin:spheres", "builtin:ortho"}) {
         const Scene scene = loadScene(name);
         SharedResources shared(device(), scene);
-        const PreparedView shot(device(), shared, scene, smallFrame(Path::forward_plus));
-        const std::vector<DrawItem>& items = shot.draws.items;
+        const Settings settings = smallFrame(Path::forward_plus);
+        const SceneView seen = makeSceneView(scene, viewRequest(settings));
+        const PreparedView view(device(), shared, seen, settings);
+        const std::vector<DrawItem>& items = view.draws.items;
         ASSERT_GT(items.size(), 1u) << name;
         EXPECT_TRUE(std::ranges::is_sorted(items, {}, &DrawItem::distance)) << name;
         EXPECT_LT(items.front().distance, items.back().distance) << name;

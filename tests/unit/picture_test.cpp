@@ -31,7 +31,7 @@ TEST(Picture, BackgroundAndExposure) {
         exposureFor(choice, &frame.channels.at(gpu::DEBUG_lit), coverage(frame, frame));
     EXPECT_DOUBLE_EQ(automatic.factor, 0.18 / 0.5) << "one covered pixel of luminance 0.5";
     const Frame* frames[] = {&frame};
-    const Image8 image = picture(lit, frame, scaleFor(lit, automatic, frames));
+    const Image8 image = channelPicture(lit, frame, scaleFor(lit, automatic, frames));
     EXPECT_EQ(image.data[3 * (2 * 4 + 1)], 118) << "sRGB of 0.18 is 117.6";
     EXPECT_EQ(image.data[0], 0);
     EXPECT_EQ(image.data[2], std::lround(255 * srgbFromLinear(0.36)))

@@ -102,7 +102,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
 
 TEST(Uncertainty, IsWrittenBesideLitAlone) {
     Frame truth = sampled();
-    truth.asked = {ids};
+    truth.requested = {ids};
     EXPECT_TRUE(throughExr(truth).uncertainty.empty());
     truth = sampled();
     truth.uncertainty = {};
