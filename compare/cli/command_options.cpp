@@ -123,7 +123,7 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& sai
 void addTolerances(CLI::App& app, Options& options) {
     app.option_defaults()->group(selection_group);
     app.add_option("--tolerances", options.tolerances,
-                   "rules of what may differ, see compare/tolerances.schema.json")
+                   "rules of what may differ, see compare/verdict/tolerances.schema.json")
         ->type_name("FILE.json");
 }
 

@@ -102,7 +102,7 @@ public:
 
 private:
     static Surface framed(Surface s) {
-        constexpr double least = 1e-4;  // as the material is shaded (README, "The model")
+        constexpr double least = 1e-4;  // as the material is shaded (README.md, "The model")
         const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least, 1.0);
         s.normal = {0, 0, 1};
         s.to_viewer = {std::sqrt(1 - cosine * cosine), 0, cosine};

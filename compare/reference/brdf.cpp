@@ -11,8 +11,9 @@
 namespace diptych::reference {
 namespace {
 
-// What the model itself bounds (README, "The model"), restated here: a punctual light on a perfect mirror is
-// a delta that nothing can sample, and a normal map may turn a surface away from the viewer who sees it.
+// What the model itself bounds (README.md of this folder, "The model"), restated here: a punctual light on a
+// perfect mirror is a delta that nothing can sample, and a normal map may turn a surface away from the viewer
+// who sees it.
 constexpr double least_roughness = 0.045, least_n_dot_v = 1e-4;
 
 double square(double x) {

@@ -42,7 +42,7 @@ GpuLights lightsOf(const std::vector<Light>& lights, const View& view, const Set
 }
 
 // A workgroup a cell suits a GPU's wide groups; lavapipe runs them eight threads at a time and tests every
-// light in every cell (README, "Many lights").
+// light in every cell (shared/light/README.md, "What lists cost").
 ListKernel kernelOf(LightKernel kernel, const Device& device) {
     if (kernel == LightKernel::automatic)
         return device.info().isCpu() ? ListKernel::scatter : ListKernel::gather;

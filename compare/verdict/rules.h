@@ -75,7 +75,7 @@ const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel);
 // A line for each rule whose pattern is that of none of the channels.
 std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels);
 
-// A tolerance file, as compare/tolerances.schema.json describes it. Every rule names its reason. Throws
+// A tolerance file, as tolerances.schema.json describes it. Every rule names its reason. Throws
 // std::runtime_error, one line: "FILE: rule 2: no such figure maxx; there are ...".
 std::vector<Rule> readRules(const std::filesystem::path& file);
 std::vector<Rule> rulesFromJson(std::string_view text, const std::string& name);

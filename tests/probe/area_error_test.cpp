@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far both ways of shading area lights are from the reference: the table of the documentation, measured
-// here; whole in a campaign and where DIPTYCH_AREA_TABLE names a file for it, else a slice.
+// How far both ways of shading area lights are from the reference: the table of shared/light/README.md,
+// measured here; whole in a campaign and where DIPTYCH_AREA_TABLE names a file for it, else a slice.
 #include "tests/campaign.h"
 #include "tests/probe/area_maker.h"
 

@@ -412,6 +412,64 @@ TEST(Architecture, APlantedLongLineOfAShaderIsFound) {
     EXPECT_TRUE(longShaderLines({{"shaders/lib/planted.glsl", fits}, {"README.md", fits + fits}}).empty());
 }
 
+// The documentation: the README of the repository is one page, each module has one of its own, and no link
+// between them leads nowhere.
+Faults documentationFaults(const Files& files) {
+    constexpr long most_lines = 150;
+    static const std::regex relative_link("\\]\\(([^)#]+)(#[^)]*)?\\)");  // [words](file#heading)
+    Faults faults;
+    const auto isThere = [&](const std::string& path) { return files.contains(path); };
+    for (const Module& module : modules) {
+        // Both folders of shaders share one page.
+        const std::string folder = module.path.starts_with("shaders/") ? "shaders" : module.path;
+        const auto first = files.lower_bound(module.path + "/");
+        const bool exists = first != files.end() && first->first.starts_with(module.path + "/");
+        if (exists && !isThere(folder + "/README.md")) faults.push_back(module.path + " has no README.md");
+    }
+    for (const auto& [path, text] : files) {
+        if (fs::path(path).filename() != "README.md") continue;
+        const long lines = std::ranges::count(text, '\n');
+        if (path == "README.md" && lines > most_lines)
+            faults.push_back(path + " has " + std::to_string(lines) + " lines");
+        for (std::sregex_iterator it(text.begin(), text.end(), relative_link), end; it != end; ++it) {
+            const std::string target = (*it)[1].str();
+            if (target.find("://") != std::string::npos) continue;
+            if (!isThere((fs::path(path).parent_path() / target).lexically_normal().generic_string()))
+                faults.push_back(path + " links to " + target + ", which is not there");
+        }
+    }
+    return faults;
+}
+
+TEST(Architecture, EveryModuleIsDocumentedAndNoLinkIsDead) {
+    EXPECT_EQ(joined(documentationFaults(sources())), "");
+}
+
+TEST(Architecture, APlantedFaultOfTheDocumentationIsFound) {
+    const Files sound{
+        {"README.md", "[the page](shared/text/README.md#words), [a site](https://example.org/a)\n"},
+        {"shared/text/README.md", "[the code](json.h) and [the top](../../README.md)\n"},
+        {"shared/text/json.h", ""},
+        {"shaders/README.md", ""},
+        {"shaders/lib/brdf.glsl", ""}};
+    EXPECT_EQ(joined(documentationFaults(sound)), "");
+    Files files = sound;
+    files["README.md"] = std::string(151, '\n');
+    EXPECT_EQ(documentationFaults(files), Faults{"README.md has 151 lines"});
+    files["README.md"] = std::string(150, '\n');
+    EXPECT_EQ(joined(documentationFaults(files)), "");
+    files = sound;
+    files.erase("shared/text/json.h");
+    EXPECT_EQ(documentationFaults(files),
+              Faults{"shared/text/README.md links to json.h, which is not there"});
+    files = sound;
+    files["shared/image/image.h"] = "";
+    EXPECT_EQ(documentationFaults(files), Faults{"shared/image has no README.md"});
+    files = sound;
+    files.erase("shaders/README.md");
+    EXPECT_EQ(documentationFaults(files), Faults{"shaders/lib has no README.md"});
+}
+
 // A forgotten channel fails by name.
 Faults channelsWithoutShader(const std::string& shader) {
     Faults faults;

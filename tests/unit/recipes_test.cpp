@@ -25,7 +25,7 @@ using Files = std::map<std::string, std::string>;  // path from the repository's
 using Faults = std::vector<std::string>;
 
 // Where the table stands, and its first line.
-constexpr const char* table_file = "README.md";
+constexpr const char* table_file = "tests/architecture/README.md";
 constexpr const char* table_head = "| to add | touch |";
 
 // A row of the table, and whole words by which the files that know of its example are found. Words in

@@ -72,7 +72,7 @@ TEST(ReferenceLobes, LightAndViewerMayChangePlaces) {
             }
 }
 
-// What the model bounds it says (README, "The model"): smoother than 0.045 is 0.045.
+// What the model bounds it says (compare/reference/README.md, "The model"): smoother than 0.045 is 0.045.
 TEST(ReferenceLobes, AMirrorIsAsRoughAsTheModelsSmoothest) {
     const glm::dvec3 l = direction(0.501, pi);
     EXPECT_EQ(red(Brdf(mirror(0, 0.5))(l)), red(Brdf(mirror(0.045, 0.5))(l)));

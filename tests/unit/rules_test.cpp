@@ -161,7 +161,7 @@ TEST(Rules, FaultsWordByWord) {
 
 // The schema that editors read knows the same figures.
 TEST(Rules, TheSchemaNamesEveryFigure) {
-    std::ifstream stream(DIPTYCH_SOURCE_DIR "/compare/tolerances.schema.json");
+    std::ifstream stream(DIPTYCH_SOURCE_DIR "/compare/verdict/tolerances.schema.json");
     const Json schema = Json::parse(stream);
     std::string names = "^(";
     for (const Figure& figure : figures())
