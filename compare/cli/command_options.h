@@ -36,6 +36,6 @@ struct ParsedOptions {
 };
 
 // Adds everything that `command` understands to `app`; parsing fills `options` and `parsed`.
-void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& said);
+void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed);
 
 }  // namespace diptych::cli

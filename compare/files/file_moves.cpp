@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* begunName = ".diptych.put";  // the folder whose files are being moved out
-constexpr const char* listName = ".plan.json";
-constexpr const char* oldName = ".old";  // inside it: replaced files, until all moves are done
+constexpr const char* listName = ".plan.json";     // inside it: the list of moves
+constexpr const char* oldName = ".old";            // inside it: replaced files, until all moves are done
 
 bool isThere(const fs::path& path) {
     return fs::exists(fs::symlink_status(path));

@@ -20,8 +20,8 @@ struct PictureChannel {
     std::string type;                   // "half", "8 bit", ...
     ChannelKind kind = ChannelKind::scalar;
     Image image;
-    std::vector<std::uint32_t>
-        exact{};  // of a single channel: the exact integers, where float32 rounds them; else empty
+    // Of a single channel: the exact integers, where float32 rounds them; else empty.
+    std::vector<std::uint32_t> exact{};
 };
 
 // `names`: what another renderer's channels are called here, "albedo=diffuse.R,diffuse.G,diffuse.B". Used

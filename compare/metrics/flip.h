@@ -52,12 +52,14 @@ struct HdrFlipResult : FlipResult {
     Image exposure_map;  // W x H x 1: the first exposure, 0 .. exposures - 1, that shows the pixel's error
 };
 
-// `reference` and `test` are W x H x 3, alike in size; throws std::runtime_error otherwise, and where an
-// option is out of its range. Nonfinite pixels (NaN or infinity in a component) are left out of all filters
-// in both pictures, and the weights of the other pixels are renormalised. The result does not depend on the
-// number of threads. sRGB, display-referred values.
+// For both functions below: `reference` and `test` are W x H x 3, equal in size; throws std::runtime_error
+// otherwise, and where an option is out of its range. Nonfinite pixels (NaN or infinity in a component) are
+// left out of all filters in both pictures, and the weights of the other pixels are renormalised. The result
+// does not depend on the number of threads.
+
+// Of sRGB, display-referred values.
 FlipResult ldrFlip(const Image& reference, const Image& test, const FlipOptions& options = {});
-// Linear radiance. The largest error over the exposures, evenly spaced.
+// Of linear radiance: the largest error over the exposures, evenly spaced.
 HdrFlipResult hdrFlip(const Image& reference, const Image& test, const HdrFlipOptions& options = {});
 
 // The exposures between which a reference's parts are neither too dark nor too bright: they map the largest

@@ -30,9 +30,9 @@ struct Exposure {
 // The exposure asked for, or an automatic one: 0.18 over the log-average luminance of the covered pixels of
 // `lit` (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", equation 1), each
 // luminance at least 1e-3 of the mean so that unlit pixels do not decide; but no more than shows the 95th
-// percentile at 0.7, short of the tone curve's shoulder, so that a dark room with lamps stays one. EV100: 1 /
-// (1.2 x 2^EV) (Lagarde and de Rousiers 2014, "Moving Frostbite to PBR", 4.6). `lit` may be nullptr:
-// factor 1.
+// percentile at 0.7, short of the tone curve's shoulder, so that a dark room with lamps stays one.
+// EV100: 1 / (1.2 x 2^EV) (Lagarde and de Rousiers 2014, "Moving Frostbite to PBR", 4.6). `lit` may be
+// nullptr: factor 1.
 Exposure exposureFor(const PictureChoice& choice, const Image* lit, const Coverage& coverage);
 
 // How the numbers of a channel become colours; the same for every panel.

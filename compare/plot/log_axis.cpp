@@ -27,9 +27,9 @@ LogAxis::LogAxis(const std::vector<double>& values) {
         most = std::max(most, v);
     }
     if (most == 0) return;
-    const double room = std::max(std::pow(most / least, 0.06), 1.08);
-    low_ = least / room;
-    high_ = most * room;
+    const double margin = std::max(std::pow(most / least, 0.06), 1.08);
+    low_ = least / margin;
+    high_ = most * margin;
 }
 
 double LogAxis::place(double value) const {

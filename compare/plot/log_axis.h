@@ -11,11 +11,11 @@ struct Tick {
     std::string text;  // empty: a minor one
 };
 
-// A logarithmic axis that holds values above 0, with some room on either side.
+// A logarithmic axis that holds values above 0, with a margin on either side.
 class LogAxis {
 public:
-    explicit LogAxis(
-        const std::vector<double>& values);  // only finite values above 0 count; without any, 0.1 to 1
+    // Only finite values above 0 count; without any the axis goes from 0.1 to 1.
+    explicit LogAxis(const std::vector<double>& values);
 
     double low() const { return low_; }
     double high() const { return high_; }

@@ -223,7 +223,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
            frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
 }
 
-// A single file holds its later sections as text, from which the browser builds nothing until one is opened.
+// With --single-file the later sections are text, from which the browser builds nothing until one is opened.
 std::string laterSections(const Report& report, const ReportLayout& layout) {
     std::string out;
     if (layout.single_file)

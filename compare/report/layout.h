@@ -33,10 +33,10 @@ inline constexpr std::size_t comparisonsInPage = 4;
 struct ReportLayout {
     std::vector<std::string> exr;                        // per frame; empty: it gets none
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
-    std::vector<std::vector<std::string>>
-        closer_paths;                   // per Report::closer_paths and channel of it: a picture's name
-    std::vector<std::size_t> order;     // the comparisons as the page shows them
-    std::vector<std::string> sections;  // per comparison: its file, where it has one
+    // A picture's name per Report::closer_paths and channel of it.
+    std::vector<std::vector<std::string>> closer_paths;
+    std::vector<std::size_t> order;               // the comparisons as the page shows them
+    std::vector<std::string> sections;            // per comparison: its file, where it has one
     std::map<std::string, std::string> embedded;  // --single-file: picture -> data URI
     double encode_ms = 0;                         // EXRs, pictures and values
     bool single_file = false;

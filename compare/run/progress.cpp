@@ -124,18 +124,18 @@ std::string progressLine(const std::string& what, double fraction, const std::st
     const double part = std::clamp(std::isfinite(fraction) ? fraction : 0.0, 0.0, 1.0);
     const std::string numbers = fmt::format(" {:3.0f} % {}", std::floor(part * 100), step);
     if (columns < numbers.size()) return numbers.substr(0, columns);
-    std::size_t room = columns - numbers.size();
+    std::size_t space = columns - numbers.size();
     // The bar gets its columns first; then as much of the end of the name as fits.
-    const std::size_t bar = room >= 12 ? std::min(widest, room / 2) : 0;
+    const std::size_t bar = space >= 12 ? std::min(widest, space / 2) : 0;
     std::string line;
     if (bar > 2) {
         const auto filled = static_cast<std::size_t>(part * static_cast<double>(bar - 2));
         line = fmt::format(" [{}{}]", std::string(filled, '='), std::string(bar - 2 - filled, ' '));
-        room -= line.size();
+        space -= line.size();
     }
-    const std::string name = what.size() <= room ? what
-                             : room > 3          ? "..." + what.substr(what.size() - (room - 3))
-                                                 : "";
+    const std::string name = what.size() <= space ? what
+                             : space > 3          ? "..." + what.substr(what.size() - (space - 3))
+                                                  : "";
     return name + line + numbers;
 }
 

@@ -70,7 +70,7 @@ SweepState::SweepState(const fs::path& out, const Json& key) : folder_(folderOf(
     if (error) throw std::runtime_error(writingFailed(folder_, error.value()));
     lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ < 0) throw std::runtime_error(writingFailed(folder_, errno));
-    // A file system without locks locks nothing.
+    // On a file system without locks nothing is locked.
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         throw std::runtime_error(
             fmt::format("{}: another diptych sweeps to the same -o; wait for it, or write to another place",

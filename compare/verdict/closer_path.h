@@ -38,11 +38,12 @@ struct CloserPathChannel {
     PathError between;               // the second against the first
     std::array<std::uint64_t, 2> closer_pixels{};
     std::uint64_t even_pixels = 0;  // pixels where both errors are equal
-    int closer = -1;  // 0 or 1: the path with the smaller mean error; -1: their difference is below the
-                      // reference's uncertainty or a thousandth
-    double by = 1;    // the farther one's mean error over the closer one's; infinite where that is 0
-    std::vector<MaterialError>
-        materials;  // those with the largest difference of the two errors first, at most eight
+    // 0 or 1: the path with the smaller mean error; -1: their difference is below the reference's uncertainty
+    // or a thousandth of the smaller error.
+    int closer = -1;
+    double by = 1;  // the farther one's mean error over the closer one's; infinite where that is 0
+    // Those with the largest difference of the two errors first, at most eight.
+    std::vector<MaterialError> materials;
     // Pixel by pixel, the first's error less the second's: below 0 the first is closer.
     Image apart;
 };
