@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What evaluating one listed point light at one pixel costs: the shaders' own functions in full-screen draws,
-// beside the same arithmetic written by hand for the CPU.
+// Measures the cost of evaluating one listed point light at one pixel: the shaders' own functions in
+// full-screen draws, compared with the same arithmetic written by hand for the CPU.
 #pragma once
 
 #include "compare/bench/workload.h"
@@ -20,7 +20,7 @@ namespace diptych::bench {
 struct KernelRow {
     std::string name;             // "uniform buffer, uniform base"
     double ns = 0;                // per light and pixel: the slope between two list lengths
-    std::optional<double> ratio;  // over the CPU's ns; nothing where that is not measured
+    std::optional<double> ratio;  // ns divided by the CPU's ns; empty if that was not measured
     std::optional<double> goal;   // the ratio to stay below
 };
 

@@ -69,14 +69,15 @@ std::string bySlot(const Material& material, const TextOf& textOf) {
 
 // ---- texture transforms ------------------------------------------------------------------------------
 
-// KHR_texture_transform's numbers back from the matrix; a mirroring one is told as a negative second scale.
+// Recovers the parameters of KHR_texture_transform from the matrix; a mirrored one gets a negative second
+// scale.
 std::string transformOf(const TextureSlot& slot) {
     if (!isTransformed(slot)) return {};
     const double determinant = slot.u.x * slot.v.y - slot.u.y * slot.v.x;
     const double sx = std::hypot(slot.u.x, slot.v.x);
     const double sy = std::copysign(std::hypot(slot.u.y, slot.v.y), determinant);
     const double angle = sx > 0 ? std::atan2(0 - slot.v.x, slot.u.x) : std::atan2(slot.u.y, slot.v.y);
-    // 1e-6: what sines and cosines leave of a number that the file has exactly.
+    // 1e-6: the rounding of sines and cosines, for numbers that the file holds exactly.
     const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6; };
     std::string out;
     const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
@@ -140,7 +141,7 @@ float leastAlphaOf(const std::vector<Texel>& rgba) {
     return static_cast<float>(least) / static_cast<float>(std::numeric_limits<Texel>::max());
 }
 
-// Whether flat normals can be told from smooth ones.
+// Whether flat shading differs from smooth shading here.
 bool isBent(const Primitive& primitive) {
     return std::ranges::any_of(primitive.normals,
                                [&](const glm::vec3& n) { return n != primitive.normals.front(); });

@@ -60,17 +60,20 @@ public:
             place.reach.max = glm::max(place.reach.max, glm::dvec3(p));
             corners[i] = clip_from_world_ * p;
         }
-        // A thousandth of the farthest coordinate: positions come back from a float32 depth.
+        // A slack of a thousandth of the farthest coordinate, because positions are reconstructed from a
+        // float32 depth.
         const glm::dvec3 farthest = glm::max(glm::abs(place.reach.min), glm::abs(place.reach.max));
         const double slack = 1e-3 * std::max({farthest.x, farthest.y, farthest.z});
         place.reach.min -= slack;
         place.reach.max += slack;
-        // The planes are parallel, so every corner of what they leave of the bounds lies on one of the edges.
+        // The near and far planes are parallel, so every corner of the clipped bounds lies on one of the
+        // box's edges.
         Extent extent;
         for (unsigned i = 0; i < 8; ++i)
             for (const unsigned axis : {1u, 2u, 4u})
                 if (!(i & axis)) addEdge(corners[i], corners[i | axis], extent);
-        // A millionth of a pixel, which holds no pixel's centre: rounding must not add a row.
+        // A millionth of a pixel of slack, so that rounding does not add a row; it contains no pixel's
+        // centre.
         const glm::dvec2 low = glm::floor(extent.low + 1e-6), high = glm::ceil(extent.high - 1e-6);
         place.box = {pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_),
                      pixel(high.y, height_)};

@@ -50,7 +50,7 @@ FrameCamera cameraFromJson(const nlohmann::json& json) {
 Json jsonOf(const Frame& frame) {
     Json passes = Json::array();
     for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
-    // A picture of another renderer: nothing is known of how it was drawn.
+    // Nothing is known about how another renderer drew its picture.
     const bool isUnknown = !frame.origin.file.empty() && frame.origin.device.empty();
     Json noise = Json::object();
     for (const auto& [mode, of] : frame.noise)

@@ -137,7 +137,7 @@ Renaming renamingOf(const std::string& words) {
     return renaming;
 }
 
-// The channels of a renaming as a layer; nothing where the file does not have them all.
+// The channels of a renaming as one channel; empty unless the file has them all.
 std::optional<PictureChannel> renamed(PictureFile& file, const Renaming& renaming) {
     struct Place {
         PictureLayer* layer;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What two picture files have in common: their layers, matched by name.
+// Matches the layers of two picture files by name.
 #pragma once
 
 #include "shared/frame/debug_modes.h"
@@ -24,7 +24,7 @@ struct PictureChannel {
     std::vector<std::uint32_t> exact{};
 };
 
-// `names`: what another renderer's channels are called here, "albedo=diffuse.R,diffuse.G,diffuse.B". Used
+// `names`: renames another renderer's channels, e.g. "albedo=diffuse.R,diffuse.G,diffuse.B". Used
 // channels are taken out of the layers they were in. Of our own files the uncertainty is left out. Throws
 // std::runtime_error where such words are wrong.
 std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names);
@@ -51,7 +51,7 @@ struct MatchedChannel {
 
 struct MatchedChannels {
     std::vector<MatchedChannel> channels;  // in the reference's order
-    std::vector<std::string> notes;        // what is in one file alone, or of two types
+    std::vector<std::string> notes;        // channels that only one file has, or that have two types
 };
 
 // `wanted`: patterns of names (* and ?), empty: all. Throws std::runtime_error where a pattern names nothing

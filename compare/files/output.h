@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a command writes, and what it may replace.
+// Where a command writes, and which existing files it may replace.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,8 @@ std::filesystem::path besideOutput(const std::filesystem::path& out, const std::
 
 // An EXR or PNG that names diptych as its software, or a folder that is empty or holds `manifest`, a JSON
 // file of ours, may be replaced; whatever else is there needs `force`. Throws std::runtime_error naming -o.
-// Files of others in such a folder are left alone. What a killed program left half done in a folder is
-// completed first.
+// Files of others in such a folder are left alone. Moves that a killed program began in the folder are
+// finished first.
 void checkReplaceable(const Output& output, const std::string& manifest, bool force);
 
 }  // namespace diptych

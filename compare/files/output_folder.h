@@ -14,7 +14,7 @@ namespace diptych {
 // A folder's new contents, written to a temporary folder and put in place when they are complete: at every
 // moment the folder holds all of the old or all of the new contents, however the program ends and however
 // many programs write to it. Without put() nothing is left behind. Throws std::runtime_error naming the
-// folder or file and what helps.
+// folder or file and a remedy.
 class OutputFolder {
 public:
     // The temporary folder is made inside `folder`, or beside it if it does not exist yet.

@@ -36,7 +36,7 @@ struct ChannelStats {
                   nonfinite_test = 0;  // pixels with a NaN or infinity, the same or not
 };
 
-// What errors are measured by. |.| is the largest absolute component.
+// The error of a pixel in a metric. |.| is the largest absolute component.
 //   relative  |a-b| / max(|b|, 1e-3 mean), mean: the baseline's mean luminance over covered finite pixels
 //             (Rec.709 weights for colours, magnitude for scalars and vectors)
 //   absolute  |a-b|
@@ -60,7 +60,7 @@ private:
 ChannelStats channelStats(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
                           const Coverage& coverage);
 
-// Every pixel's error, W x H x 1: what the statistics are over; 0 in the background, +infinity kept.
+// The errors that the statistics are over, W x H x 1; 0 in the background, infinite errors are +infinity.
 Image errorImage(Metric metric, ChannelKind kind, const Image& baseline, const Image& test,
                  const Coverage& coverage);
 

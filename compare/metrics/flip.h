@@ -14,7 +14,8 @@
 
 namespace diptych {
 
-// What a viewer sees of a display `width` m wide of `pixels` columns from `distance` m: pixels per degree.
+// Pixels per degree that a viewer sees at `distance` m from a display that is `width` m and `pixels` columns
+// wide.
 double pixelsPerDegree(double distance, double width, int pixels);
 
 struct FlipOptions {

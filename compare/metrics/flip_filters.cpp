@@ -12,8 +12,8 @@ using Weights = std::vector<double>;
 
 constexpr double pi = std::numbers::pi;
 
-// exp(-pi^2 d^2 / b), d in degrees: what a sensitivity of exp(-b f^2), f in cycles per degree, looks like in
-// space.
+// exp(-pi^2 d^2 / b), d in degrees: up to a factor the inverse Fourier transform of a sensitivity of exp(-b
+// f^2), f in cycles per degree.
 Weights sensitivity(double b, double pixelsPerDegree, int radius) {
     Weights w(static_cast<std::size_t>(radius) + 1);
     for (std::size_t k = 0; k < w.size(); ++k) {

@@ -8,7 +8,7 @@
 
 namespace diptych {
 
-// Weights at 0 .. radius; those at -k are the same, or the negative of an odd filter's. Radius: size() - 1.
+// Weights at 0 .. radius, radius = size() - 1. The weight at -k is that at k, negated for odd filters.
 using HalfKernel = std::vector<float>;
 
 struct FlipFilters {

@@ -62,7 +62,7 @@ public:
         }
     }
 
-    // Whether no filter of the tile's pixels sees a difference; then every error is 0.
+    // Whether both pictures are equal wherever a filter of the tile's pixels reads; then every error is 0.
     bool isSame(const Tile& tile) const;
     // Calls use(y, errors) with the tile's rows from the top; tile.width() errors each.
     template <class Use>
@@ -78,7 +78,8 @@ public:
     }
 
 private:
-    // Reference, test, and, where there are holes, 1 for each pixel that is none.
+    // Of the reference, the test, and, where there are holes, a weight plane: 1 for each pixel that is no
+    // hole.
     struct Picture {
         std::vector<float> ring;      // kept_ rows x 3 planes
         std::vector<float> filtered;  // 7 rows
@@ -220,9 +221,9 @@ void TileRows::filter(Picture& picture, int y) {
     along(convolveEven, f.smooth, out.point_y);
 }
 
-// What the filters give when the weights of holes, whose values went in as 0, are spread over the other
-// pixels. The detectors, whose weights add up to 0, see at a hole the filtered luminance of the pixel that
-// they are for.
+// Renormalises filtered values after holes entered the filters as 0: the weights of holes are distributed
+// over the other pixels. The feature detectors, whose weights add up to 0, treat a hole as if it had the
+// filtered luminance of the pixel they are evaluated at.
 void TileRows::withoutHoles(const FilteredRow& row, const FilteredRow& weights) const {
     constexpr float least = 1e-30f;  // at a hole among holes, whose error comes from elsewhere
     for (int i = 0; i < tile_.width(); ++i) {
@@ -252,7 +253,7 @@ void TileRows::makeErrors(int y) {
         if (holes[i] != Hole::none) second_[size(i)] = holes[i] == Hole::different ? 1.0f : 0.0f;
 }
 
-// Where `next` is above `most`, it and its number take their place.
+// Where `next` is above `most`, replaces `most` by it and `which` by its number.
 void keepLargest(const float* next, float number, float* most, float* which, int n) {
     for (int i = 0; i < n; ++i) {
         which[i] = next[i] > most[i] ? number : which[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How far apart two pixels are. Two NaNs are the same, and so are two equal infinities; any other nonfinite
-// component is infinitely far from what stands against it.
+// component is infinitely far from the component it is compared with.
 #pragma once
 
 #include <algorithm>

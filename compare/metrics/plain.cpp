@@ -27,7 +27,7 @@ std::size_t size(int n) {
     return static_cast<std::size_t>(n);
 }
 
-// What one band of rows adds to the figures.
+// The sums of one band of rows.
 struct BandSums {
     RowSums components;
     double angles = 0, mostDegrees = 0, peak = 0;
@@ -178,7 +178,7 @@ void setAngles(const BandSums& sums, PlainMetrics& m) {
     m.angle_mean = sums.angles / static_cast<double>(m.pixels) + beyond;
 }
 
-// What SSIM looks at.
+// The plane of luma that SSIM compares.
 Image luma(const Image& image, Range range, float scale) {
     Image plane(image.width, image.height, 1);
     tbb::parallel_for(tbb::blocked_range<int>(0, image.height, bandHeight), [&](const auto& rows) {

@@ -16,7 +16,7 @@ enum class Range { display, linear };
 
 // r: reference, t: test; N: components of covered pixels, or, for figures of pixels, covered pixels. All 0
 // where nothing is covered. A component that is nonfinite and not the same in both is an infinite difference:
-// what it enters is infinite (PSNR minus infinity), and the pixel is counted.
+// every figure that it enters becomes infinite (PSNR minus infinity), and the pixel is counted.
 struct PlainMetrics {
     // Over components.
     double mse = 0, rmse = 0;  // 1/N sum (t-r)^2, and its root

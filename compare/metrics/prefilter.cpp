@@ -51,7 +51,7 @@ Image blurred(const Image& image, double radius) {
     std::vector<float> weights;
     for (int k = 0; k <= static_cast<int>(std::ceil(3 * radius)); ++k)
         weights.push_back(static_cast<float>(std::exp(-0.5 * k * k / (radius * radius))));
-    // A last component counts what went into the sums.
+    // An additional last component sums up the weights.
     Image counted(image.width, image.height, image.components + 1);
     for (std::size_t i = 0; i < image.pixels(); ++i)
         if (finite(image.pixel(i), image.components)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The style and the scripts beside this file, as they stand in every index.html; embedded at build time.
+// The style and the scripts in this folder, which every index.html contains; embedded at build time.
 #pragma once
 
 namespace diptych::page {

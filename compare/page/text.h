@@ -11,16 +11,16 @@
 
 namespace diptych::page {
 
-// Text for HTML and XML, in elements and attributes: markup is escaped; what is no UTF-8, or no character
-// that XML 1.0 allows, becomes U+FFFD.
+// Escapes text for elements and attributes of HTML and XML. Bytes that are not UTF-8, and characters that
+// XML 1.0 does not allow, become U+FFFD.
 std::string markup(std::string_view text);
 
 std::string number(double value);        // three digits: "0.0123", "1.2e-07", "inf"
 std::string bytes(std::uint64_t count);  // "1.25 MiB"
 
-const char* unitOf(const DebugMode& mode);  // of its errors: a degree sign, or nothing
+const char* unitOf(const DebugMode& mode);  // unit of the channel's errors: a degree sign or empty
 
-// "default view", or the camera's name, or what was asked for.
+// The camera's name, else --camera as given, else "default view".
 std::string cameraTitle(const Frame& frame);
 
 }  // namespace diptych::page

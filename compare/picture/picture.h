@@ -37,9 +37,10 @@ Exposure exposureFor(const PictureChoice& choice, const Image* lit, const Covera
 
 // How the numbers of a channel become colours; the same for every panel.
 struct PictureScale {
-    double low = 0, high = 1;  // shown black and white, where the channel is normalised to what was seen
-    Exposure exposure;         // for radiance
-    std::string words;         // for the report: "grey, 0.4 to 12 m"
+    // The values shown as black and white in channels that are normalised to their range.
+    double low = 0, high = 1;
+    Exposure exposure;  // for radiance
+    std::string words;  // for the report: "grey, 0.4 to 12 m"
 };
 PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span<const Frame* const> frames);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What plots have in common, as SVG in the classes of plot.css. Lengths are in the drawing's own units.
+// Parts that all plots share, as SVG with the classes of plot.css. Lengths are in the drawing's own units.
 #pragma once
 
 #include "compare/plot/log_axis.h"

@@ -14,7 +14,8 @@ namespace diptych {
 // The view that these Settings ask for.
 ViewRequest viewRequest(const Settings& settings);
 
-// Name, scene, Settings, camera, background and the scene's notes: what is known before anything is drawn.
+// A Frame with all that is known before drawing: name, scene, Settings, camera, background and the scene's
+// notes.
 Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& settings);
 
 FrameCamera cameraOf(const View& view);

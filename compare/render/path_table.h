@@ -12,7 +12,7 @@
 
 namespace diptych {
 
-// What a path is made of.
+// The functions of one path.
 struct PathFunctions {
     Path path;
     // Decides what the Settings leave to the path; notes on it. Called once, before the others.

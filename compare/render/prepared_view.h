@@ -24,7 +24,7 @@ struct PipelineSet {
     Pipelines pipelines;
 };
 
-// What all Settings share: uploaded and compiled once.
+// The resources that all Settings share, uploaded and compiled once.
 struct SharedResources {
     // Without `set`: pipelines of its own.
     SharedResources(Device& device, const Scene& scene, std::shared_ptr<PipelineSet> set = nullptr);
@@ -44,7 +44,7 @@ public:
     PreparedView(const PreparedView&) = delete;
     PreparedView& operator=(const PreparedView&) = delete;
 
-    std::vector<std::string> notes;  // what was decided for this view
+    std::vector<std::string> notes;  // decisions made for this view
     const SceneView& scene;
     GpuLights lights;
     DrawList draws;

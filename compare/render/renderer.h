@@ -29,7 +29,7 @@ public:
     std::vector<PassTime> profile(std::size_t i);
     // lit of the frame drawn last, W x H x 3.
     Image lit(std::size_t i);
-    // Light lists of that frame that found no room.
+    // The number of light lists of that frame that overflowed.
     std::uint64_t overflowedLists(std::size_t i) const;
     // The Frame as far as it is known without drawing: Settings, camera, lights, bytes, notes.
     const Frame& described(std::size_t i) const;
@@ -46,9 +46,9 @@ private:
 struct PipelineSet;
 std::shared_ptr<PipelineSet> makePipelineSet(Device& device);
 
-// Frames of one scene, one after another as they are asked for: everything is uploaded once for all of them
-// and every pipeline is compiled once, and a view of the scene is made once for all that is drawn of it.
-// Device and scene or views outlive it. Throws std::runtime_error: one line.
+// Draws Frames of one scene on request. Everything is uploaded once, every pipeline is compiled once, and
+// each view of the scene is made once for all Frames. Device and scene or views must outlive it. Throws
+// std::runtime_error: one line.
 class Renderer {
 public:
     // `pipelines`: of the same device; without them it has its own. Without views it has its own of the

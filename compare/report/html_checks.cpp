@@ -215,7 +215,7 @@ private:
     const Frame &left_, &right_;
     const ReportLayout& layout_;
     const std::vector<ChannelPictures>& pictures_;  // per channel
-    std::size_t index_, lit_, dark_;                // dark_: what is shown where lit is black
+    std::size_t index_, lit_, dark_;                // dark_: the channel shown where lit is black
     std::size_t first_ = 0;                         // the number of its first check
     static constexpr std::size_t npos = ~std::size_t{0};
 };

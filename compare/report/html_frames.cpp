@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was drawn, how long it took and what it cost, both Frames side by side.
+// Times, memory, counters, Settings and camera of both Frames, side by side.
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 

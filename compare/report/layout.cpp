@@ -30,8 +30,8 @@ std::string slug(const std::string& text) {
     return out.empty() ? "unnamed" : out;
 }
 
-// The tolerance, where there is one: the picture then shows how much of it is used, and what is beyond stands
-// out. Otherwise the largest finite error.
+// The error at the end of the colour map: the tolerance if there is one, so that the picture shows how much
+// of it is used and larger errors stand out; otherwise the largest finite error.
 double errorTop(const ChannelDiff& channel, const Image& baseline, const Image& test,
                 const Coverage& coverage) {
     if (channel.shown_error) return channel.shown_error_top;

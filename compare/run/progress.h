@@ -60,7 +60,8 @@ private:
     double from_ = 0, to_ = 1;
 };
 
-// Wipes the line on standard error, whoever drew it: before another is written there, or the program dies.
+// Removes the progress line from standard error, whichever Progress drew it. Call this before another line is
+// written there or the program dies.
 void wipeProgress();
 
 // "Sponza.gltf [=======>      ] 52 % images and meshes, 0:12 left", as wide as `columns` at most.

@@ -100,7 +100,7 @@ std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     const AgainstReference against = againstReference(tradeoff, row);
     if (!against.sameReference) return {};
-    // compare draws both paths, and one of them may not know these Settings.
+    // compare draws both paths, and one of them may not support these Settings.
     for (const Path path : drawn_paths) {
         Settings other = row.settings;
         other.path = path;

@@ -13,7 +13,7 @@
 
 namespace diptych::tradeoff {
 
-// Wall clock of this run of the command, ms; rows kept from an earlier one cost it nothing.
+// Wall-clock time of this run of the command, ms; rows kept from an earlier run are not included.
 struct SweepCost {
     double whole = 0;      // until the pages are written
     double reading = 0;    // the scene: read and upload

@@ -15,8 +15,8 @@ namespace diptych {
 std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& frame,
                                             const ReportDevice& device);
 
-// Writes `frame` as the new `file`: beside it first, then renamed; the old file stays as FILE.old. Returns
-// what was done as a line for the user. Throws std::runtime_error naming the file.
+// Writes `frame` as the new `file`: into a temporary file first, which is then renamed; the old file stays as
+// FILE.old. Returns a line for the user that says what was done. Throws std::runtime_error naming the file.
 std::string updateBaseline(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device);
 
 }  // namespace diptych

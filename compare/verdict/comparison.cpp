@@ -43,7 +43,7 @@ std::string faultOf(const ChannelDiff& channel) {
     return {};
 }
 
-// What two runs of either path differ by.
+// The sum of what two runs of each path differ by.
 double noiseOf(const FramePair& pair, int mode) {
     double sum = 0;
     for (const Frame* frame : {&pair.baseline, &pair.test})
@@ -90,7 +90,7 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, const Comp
     return channel;
 }
 
-// What tells objects apart in two Frames.
+// The planes that distinguish objects in two Frames.
 ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
     ObjectPlanes objects;
     const auto find = [](const Frame& frame, gpu::uint mode) {

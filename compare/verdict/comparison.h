@@ -37,9 +37,9 @@ struct ChannelDiff {
         certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; empty otherwise
-    std::string warning;  // what a rule warns of; empty otherwise
-    // What the difference picture shows instead of the metric's errors, what it is called and where its
-    // colours end.
+    std::string warning;  // the warning of a rule; empty without one
+    // The image that the difference picture shows instead of the metric's errors, its name, and the error at
+    // the end of its colours.
     std::shared_ptr<const Image> shown_error;
     std::string shown_error_name;
     double shown_error_top = 1;
@@ -56,7 +56,7 @@ struct Comparison {
     std::vector<std::string> notes;  // what a reader must know although it is no failure
     std::vector<std::string>
         command;  // the command line that repeats this comparison; --channels may be added
-    std::vector<FeatureChecks> visual_checks;  // what no comparison shows and a person must look at
+    std::vector<FeatureChecks> visual_checks;  // places that a person must look at
 
     bool passed() const;
 };

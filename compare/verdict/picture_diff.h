@@ -39,7 +39,7 @@ struct PictureChannelDiff {
     MatchedChannel pair;
     std::unique_ptr<Measurement> measurement;  // refers to `pair`
     bool display = false;
-    Rule rule;  // what decided
+    Rule rule;  // the rule that decided
     Decision decision;
     int worst_x = -1, worst_y = -1;  // the pixel with the largest deciding error; -1: none
 };

@@ -87,7 +87,8 @@ Tolerance specularTolerance(const FramePair& pair, const Bits& bits) {
                 stored ? " and F0" : "", ends, bits.metallic, metallic)};
 }
 
-// What forward+ shades from a surface that went through the same encoding; nullptr: not drawn.
+// The image that forward+ shades from surfaces that went through the same encoding; nullptr if it was not
+// drawn.
 const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
     const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
     if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;

@@ -83,7 +83,8 @@ TEST(Layers, OurUncertaintyIsNoChannel) {
     ours.attributes["software"] = "diptych";
     EXPECT_EQ(namesOf(channelsOf(ours, {})), std::vector<std::string>{"lit"});
     EXPECT_EQ(namesOf(channelsOf(ours, {"known=uncertainty.Y"})), (std::vector<std::string>{"known", "lit"}));
-    const auto matched = matchChannels(channelsOf(ours, {}), channelsOf(file({layer("", {"R", "G", "B"})}), {}), {});
+    const auto matched =
+        matchChannels(channelsOf(ours, {}), channelsOf(file({layer("", {"R", "G", "B"})}), {}), {});
     EXPECT_TRUE(matched.notes.empty()) << "nor is it said to be missing";
 
     PictureFile taken = ours;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files beside this one, as they stand in the page of a sweep; embedded at build time.
+// The style and the script in this folder, which the page of a sweep contains; embedded at build time.
 #pragma once
 
 namespace diptych::tradeoff {
