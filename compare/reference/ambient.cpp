@@ -13,15 +13,15 @@
 namespace diptych::reference {
 namespace {
 
-// Gauss and Legendre's sixteen points on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss Quadrature
-// Rules"; here the roots are found by halving between the extrema of a finer grid, and refined by Newton's
+// Sixteen-point Gauss-Legendre quadrature on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss Quadrature
+// Rules"; here the roots are found by bisection between the extrema of a finer grid, and refined by Newton's
 // method).
 struct Rule {
     static constexpr int points = 16;
     std::array<double, points> at, weight;
 };
 
-// Legendre's polynomial of the rule's degree, and its slope.
+// The Legendre polynomial of the rule's degree, and its derivative.
 std::array<double, 2> legendre(double x) {
     double before = 1, p = x;
     for (int k = 2; k <= Rule::points; ++k) {
@@ -58,12 +58,12 @@ void eachPoint(double from, double to, const F& f) {
         f(from + (to - from) * rule.at[i], (to - from) * rule.weight[i]);
 }
 
-// The viewer in the plane y = 0, the normal +Z.
+// In a frame with the normal +Z and the viewer in the plane y = 0.
 class Integrals {
 public:
     explicit Integrals(const Surface& surface) : brdf_(framed(surface)) {}
 
-    // Evenly over the projected hemisphere, of which half is the other's mirror image.
+    // Integrates over the projected hemisphere; by symmetry one half is enough.
     glm::dvec3 diffuse() const {
         glm::dvec3 sum(0);
         eachPoint(0, 1, [&](double square, double step) {
@@ -76,9 +76,9 @@ public:
         return sum;
     }
 
-    // Over half vectors, by the tangent of their angle from the normal: up to where part of a ring begins to
-    // mirror light from below the horizon, from there to the lobe's width, and on to where all of a ring
-    // does.
+    // Integrates over rings of half vectors, by the tangent of their angle to the normal, in three parts: up
+    // to where a part of a ring begins to reflect light from below the horizon; from there to the lobe's
+    // width; and on to where all of a ring does.
     glm::dvec3 specular() const {
         const double view = std::acos(std::min(brdf_.toViewer().z, 1.0)), right = std::numbers::pi / 2;
         const double whole = std::tan((right - view) / 2), none = std::tan((right + view) / 2);
@@ -87,10 +87,12 @@ public:
         const auto add = [&](double tangent, double step) {
             sum += ring(std::atan(tangent)) * (step / (1 + tangent * tangent));
         };
-        // A hyperbolic sine: even steps near the middle of the lobe, steps of the logarithm far out in it.
+        // Substitution by a hyperbolic sine: even steps near the middle of the lobe, logarithmic steps far
+        // out.
         eachPoint(0, std::asinh(whole / alpha),
                   [&](double y, double step) { add(alpha * std::sinh(y), alpha * std::cosh(y) * step); });
-        // Cubes draw out the ends at which rings open and close; far out the lobe is smooth in the cotangent.
+        // Substitution by a cube: it resolves the ends of the interval, where rings begin and cease to
+        // count; far out the lobe is smooth in the cotangent.
         eachPoint(0, 1, [&](double t, double step) {
             const double cube = t * t * t, slope = 3 * t * t * step;
             add(whole + (width - whole) * cube, (width - whole) * slope);
@@ -102,14 +104,15 @@ public:
 
 private:
     static Surface framed(Surface s) {
-        constexpr double least = 1e-4;  // as the material is shaded (README.md, "The model")
+        constexpr double least = 1e-4;  // of n.v, as in the material (README.md, "The model")
         const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least, 1.0);
         s.normal = {0, 0, 1};
         s.to_viewer = {std::sqrt(1 - cosine * cosine), 0, cosine};
         return s;
     }
 
-    // All half vectors at an angle from the normal whose light is above the horizon.
+    // Integrates over the half vectors of one ring (`angle` from the normal) whose light is above the
+    // horizon.
     glm::dvec3 ring(double angle) const {
         const glm::dvec3 v = brdf_.toViewer();
         const double c = std::cos(angle), s = std::sin(angle);
@@ -121,7 +124,7 @@ private:
             const double v_dot_h = glm::dot(v, h);
             sum += brdf_(2 * v_dot_h * h - v).specular * (4 * v_dot_h * turn);  // dl = 4 v.h dh
         });
-        return sum * (2 * s);  // dh = sin dangle dphi; both halves
+        return sum * (2 * s);  // dh = sin(angle) d(angle) dphi; factor 2 for both halves
     }
 
     Brdf brdf_;

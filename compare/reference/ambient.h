@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Light that is the same from everywhere.
+// Reflection of light that is equal from all directions.
 #pragma once
 
 #include "compare/reference/surface.h"
 
 namespace diptych::reference {
 
-// What each lobe of the surface sends to the viewer of radiance 1 from all of the hemisphere: the integral of
-// the BRDF, unoccluded, within 5e-6. A viewer below n.v = 1e-4 is taken as one that stands there.
+// Directional albedo of each lobe: the radiance that the surface sends to the viewer under radiance 1 from
+// the whole hemisphere, that is the integral of the BRDF, without occlusion, within 5e-6. A viewer below n.v
+// = 1e-4 is treated as one at 1e-4.
 glm::dvec3 diffuseAlbedo(const Surface& surface);
 glm::dvec3 specularAlbedo(const Surface& surface);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Sutherland and Hodgman 1974, "Reentrant Polygon Clipping", against one plane: what of it has n.p > 0.
+// Clips to the half-space n.p > 0 (Sutherland and Hodgman 1974, "Reentrant Polygon Clipping").
 std::vector<glm::dvec3> aboveHorizon(const std::array<glm::dvec3, 4>& corners, const glm::dvec3& n) {
     std::vector<glm::dvec3> polygon;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -27,7 +27,7 @@ std::vector<glm::dvec3> aboveHorizon(const std::array<glm::dvec3, 4>& corners, c
     return polygon;
 }
 
-// Which way a flat light shines on the origin; zero where it does not.
+// The normal of the flat light's side that lights the origin; zero if none does.
 glm::dvec3 shiningSide(const Emitter& light, const glm::dvec3& centre) {
     const double side = -glm::dot(light.direction, centre);
     if (side > 0) return light.direction;
@@ -51,7 +51,8 @@ void addRect(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3
 
 void addDisc(std::vector<Patch>& patches, const glm::dvec3& centre, const glm::dvec3& normal, double radius,
              const glm::dvec3& n) {
-    // Along x it rises fastest over the horizon: n.(centre + s radius x) = height + s rise.
+    // x is the direction in the disc that rises fastest over the horizon: n.(centre + s radius x) = height +
+    // s rise.
     const glm::dvec3 along = n - glm::dot(n, normal) * normal;
     const glm::dvec3 x = unitOr(along, perpendicularTo(normal));
     const double height = glm::dot(n, centre), rise = glm::dot(n, x) * radius;
@@ -63,14 +64,14 @@ void addTube(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3
              const glm::dvec3& n) {
     const glm::dvec3 axis = light.axis;
     const double radius = light.radius, length = light.length;
-    const double along = -glm::dot(centre, axis);  // of the origin, from the centre
+    const double along = -glm::dot(centre, axis);  // position of the origin along the axis, from the centre
     for (const double end : {-1.0, 1.0})
         if (end * along > length / 2)
             addDisc(patches, centre + axis * (end * length / 2), axis * end, radius, n);
     const glm::dvec3 towards = -centre - axis * along;  // from the axis to the origin
     const double distance = glm::length(towards);
     if (!(distance > radius)) return;
-    // Of the side the origin sees what lies within acos(radius / distance) of it.
+    // The origin sees the side within acos(radius / distance) of the direction towards it.
     const glm::dvec3 x = towards / distance;
     const double half = std::acos(radius / distance);
     patches.push_back(Patch::cylinder(centre, axis, x, glm::cross(axis, x), radius, length, -half, half, n));
@@ -125,12 +126,12 @@ Patch Patch::cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const gl
 
 Patch::Point Patch::at(double u, double v) const {
     switch (shape_) {
-        case Shape::triangle:  // Duffy 1982: the first corner is the whole edge u = 0
+        case Shape::triangle:  // Duffy 1982: the edge u = 0 collapses to the first corner
             return {origin_ + u * (x_ + v * y_), normal_, a_ * u};
         case Shape::parallelogram:
             return {origin_ + u * x_ + v * y_, normal_, a_};
         case Shape::disc: {
-            // Chords at s = sin t, cos t long to both sides: smooth up to the rim.
+            // Chords at s = sin t with half length cos t: the parametrisation is smooth up to the rim.
             const double t = a_ + (b_ - a_) * u, cosine = std::cos(t);
             return {origin_ + (x_ * std::sin(t) + y_ * (cosine * (2 * v - 1))) * radius_, normal_,
                     (b_ - a_) * 2 * radius_ * radius_ * cosine * cosine};
@@ -138,7 +139,7 @@ Patch::Point Patch::at(double u, double v) const {
         case Shape::cylinder:
             break;
     }
-    // Along the axis from the one end to the other, or to where the horizon cuts it.
+    // Along the axis from one end to the other, clipped by the horizon.
     const double t = a_ + (b_ - a_) * u;
     const glm::dvec3 out = x_ * std::cos(t) + y_ * std::sin(t);
     double low = -length_ / 2, high = length_ / 2;
@@ -163,7 +164,7 @@ Emitter emitterOf(const Light& light, const glm::dvec3& origin) {
                     .range = light.range,
                     .radiance = glm::dvec3(light.color) * double{light.intensity}};
     if (light.kind != LightKind::directional) return emitter;
-    const double half = std::min(double{light.angle}, 3.14) / 2;  // at pi its disc has no edge
+    const double half = std::min(double{light.angle}, 3.14) / 2;  // at pi the disc would be infinite
     emitter.shape = LightKind::disc;
     emitter.far = true;
     emitter.centre = -light.direction;

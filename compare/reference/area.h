@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights with extent: the part of each that a surface sees, as patches with two parameters.
+// Area lights and suns with an angle: the part of each that a surface sees, as patches with two parameters.
 #pragma once
 
 #include "compare/reference/surface.h"
@@ -10,10 +10,11 @@
 
 namespace diptych::reference {
 
-// A piece of a light above the horizon of the surface that it lights; positions are relative to that surface.
+// The part of a light's surface above the horizon of the surface that it lights; positions are relative to
+// the lit surface.
 class Patch {
 public:
-    // One point of it and what dA it stands for, m^2 per unit of u v.
+    // A point of the patch, with its area element dA / (du dv), m^2.
     struct Point {
         glm::dvec3 place, normal;  // the normal is unit
         double area;
@@ -24,10 +25,10 @@ public:
                           const glm::dvec3& normal);
     static Patch parallelogram(const glm::dvec3& corner, const glm::dvec3& x, const glm::dvec3& y,
                                const glm::dvec3& normal);
-    // A disc, or what lies beyond a chord of it: from `from` to 1 radius along `x` from the centre.
+    // A disc, or the part of it beyond a chord: from `from` to 1 radii along `x` from the centre.
     static Patch disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y,
                       const glm::dvec3& normal, double radius, double from);
-    // A cylinder's side between two angles around `axis`, where n.p > 0.
+    // The side of a cylinder between two angles around `axis`, where n.p > 0.
     static Patch cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const glm::dvec3& x,
                           const glm::dvec3& y, double radius, double length, double from, double to,
                           const glm::dvec3& n);
@@ -39,22 +40,23 @@ private:
     double a_ = 0, b_ = 0, radius_ = 0, length_ = 0;
 };
 
-// A rectangle, disc or tube, or the disc that a directional light with an angle is: seen from everywhere at
-// the same place, a metre away.
+// A rectangle, disc or tube; or the disc of a directional light with an angle, which is seen from everywhere
+// at the same place, a metre away.
 struct Emitter {
     LightKind shape = LightKind::rect;  // rect, disc or tube
-    bool far = false;                   // a sun: `centre` is relative to whatever it lights
+    bool far = false;                   // a directional light: `centre` is relative to the lit surface
     bool two_sided = false;
     glm::dvec3 centre{0}, direction{0, 0, -1}, axis{1, 0, 0};
     double width = 0, height = 0, radius = 0, length = 0, range = 0;  // m
-    glm::dvec3 radiance{0};  // W/(sr m^2), before the window of its range
+    glm::dvec3 radiance{0};  // W/(sr m^2), before the factor rangeWindow()
 };
 
-// `origin` becomes the origin. A sun's illuminance on what faces it is E = pi L sin^2(angle / 2).
+// `origin` becomes the origin of positions. A sun's radiance L follows from its illuminance E on a surface
+// that faces it: E = pi L sin^2(angle / 2).
 Emitter emitterOf(const Light& light, const glm::dvec3& origin);
 
-// What of it shines on a surface with the normal `n` at the origin; `centre` is the emitter's, from there.
-// Empty where nothing does.
+// The patches of the emitter that light a surface at the origin with normal `n`; `centre` is the emitter's,
+// relative to the surface. Empty if none does.
 std::vector<Patch> visiblePatches(const Emitter& emitter, const glm::dvec3& centre, const glm::dvec3& n);
 
 }  // namespace diptych::reference

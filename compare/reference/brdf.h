@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The definition of the material, in double: Khronos, glTF 2.0 Specification, 2021, appendix B, with
+// The material model in double, from its definition: Khronos, glTF 2.0 Specification, 2021, appendix B, with
 // KHR_materials_ior and KHR_materials_specular.
 #pragma once
 
@@ -11,7 +11,8 @@ class Brdf {
 public:
     explicit Brdf(const Surface& surface);
 
-    // f(l, v) n.l of each lobe, 1/sr; `to_light` is unit. 0 from below the shading normal's horizon.
+    // f(l, v) n.l of each lobe, 1/sr; `to_light` is unit. 0 for light from below the shading normal's
+    // horizon.
     Reflected operator()(const glm::dvec3& to_light) const;
 
     const glm::dvec3& normal() const { return normal_; }

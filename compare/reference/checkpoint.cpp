@@ -46,7 +46,8 @@ fs::path fileOf(const fs::path& stem, std::uint64_t key) {
     return fmt::format("{}-{:08x}", stem.string(), key >> 32);
 }
 
-// Files beside each other whose names begin with that of `stem`, a dash, and go on with digits and dashes.
+// Files in the folder of `stem` whose names consist of its name, a dash, and then only hexadecimal digits
+// and dashes.
 std::vector<fs::path> filesOf(const fs::path& stem) {
     const std::string prefix = stem.filename().string() + "-";
     std::vector<fs::path> files;
@@ -65,7 +66,7 @@ std::vector<fs::path> filesOf(const fs::path& stem) {
     return files;
 }
 
-// To read and to write: some file systems lock no other.
+// Opened for reading and writing, because some file systems only lock such files.
 std::FILE* opened(const fs::path& file, int how) {
     const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | how, 0666);
     if (descriptor < 0) return nullptr;
@@ -74,14 +75,14 @@ std::FILE* opened(const fs::path& file, int how) {
     return stream;
 }
 
-// false: somebody else has the lock. It ends when the stream is closed.
+// False if another program holds the lock. The lock ends when the stream is closed.
 bool lock(std::FILE* stream) {
     while (::flock(::fileno(stream), LOCK_EX | LOCK_NB) != 0)
         if (errno != EINTR) return errno != EWOULDBLOCK;
     return true;
 }
 
-// Not removed since it was opened.
+// Whether the file has not been removed since it was opened.
 bool isAt(std::FILE* stream, const fs::path& file) {
     struct stat open {};
     struct stat there {};
@@ -91,7 +92,7 @@ bool isAt(std::FILE* stream, const fs::path& file) {
 
 enum class Holds { nothing, this_picture, something_else };
 
-// What stands at the beginning of the file. One that is shorter than a head was being begun.
+// Compares the beginning of the file with `head`. A file shorter than a head is one that was just begun.
 template <class Head>
 Holds headOf(std::FILE* stream, const Head& head) {
     Head there{};
@@ -99,7 +100,7 @@ Holds headOf(std::FILE* stream, const Head& head) {
     return std::memcmp(&there, &head, sizeof head) == 0 ? Holds::this_picture : Holds::something_else;
 }
 
-// The records that follow, up to one that is not whole: where that begins.
+// Reads the records that follow, up to the first incomplete one; returns the position where that begins.
 long readRecords(std::FILE* stream, std::size_t floats, std::vector<Checkpoint::Record>& records) {
     long whole = std::ftell(stream);
     Checkpoint::Record record{0, std::vector<float>(floats)};
@@ -131,7 +132,7 @@ Checkpoint::~Checkpoint() {
     if (stream_) std::fclose(stream_);
 }
 
-// Of file_: false where it is not for us.
+// Opens and locks file_; false if this program cannot use it.
 bool Checkpoint::open(const Head& head) {
     do {
         if (stream_) std::fclose(stream_);
@@ -147,7 +148,7 @@ bool Checkpoint::open(const Head& head) {
         std::fclose(std::exchange(stream_, nullptr));
         return false;
     }
-    // A record that was being written when the program ended is written over.
+    // A record that was incomplete when the program ended is overwritten.
     const long whole = holds == Holds::this_picture ? readRecords(stream_, floats_, earlier_) : 0;
     if (std::fseek(stream_, whole, SEEK_SET) != 0 ||
         (whole == 0 && (std::fwrite(&head, sizeof head, 1, stream_) != 1 || std::fflush(stream_) != 0))) {
@@ -159,8 +160,8 @@ bool Checkpoint::open(const Head& head) {
     return true;
 }
 
-// A program that writes the same picture appends to its file meanwhile: what is whole is taken, and its file
-// left to it.
+// Another program that draws the same picture may be appending to its file at the same time: its complete
+// records are taken, and its file is left to it.
 void Checkpoint::merge(const fs::path& stem, const Head& head) {
     std::set<std::uint64_t> have;
     for (const Record& record : earlier_) have.insert(record.number);
@@ -200,7 +201,7 @@ void Checkpoint::keep(std::uint64_t number, std::span<const float> values) {
         fail(file_);
 }
 
-// While it is still locked: who waits for the lock then sees that it is gone.
+// The file is removed while it is locked, so that a program waiting for the lock sees that it is gone.
 void Checkpoint::remove() {
     const std::lock_guard lock(mutex_);
     if (!stream_) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done of a long picture, kept in a file as it is done.
+// Keeps finished parts of a long picture in a file, so that an interrupted program can go on from there.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace diptych::reference {
 
-// Records of floats, numbered, each with a checksum: however the program ends, what is whole in the file
-// counts. From any thread.
+// Numbered records of floats, each with a checksum: however the program ends, the complete records in the
+// file can be used. Functions may be called from any thread.
 class Checkpoint {
 public:
     struct Record {
@@ -20,13 +20,13 @@ public:
         std::vector<float> values;
     };
 
-    // The file is called STEM-HASH, where HASH is the first half of `key` in hexadecimal digits: another
-    // picture has another file. It is locked as long as the Checkpoint lives. Where another program holds the
-    // lock, or where the file is of another picture all the same, it is left alone, and the file is
-    // STEM-HASH-2, then -3. What other files of the same picture hold counts as well, whoever writes them;
-    // those whose programs have ended are merged into this one and removed. `floats`: of a record. Throws
-    // std::runtime_error naming the file where it cannot be written. A file system without locks has none:
-    // two programs then share a file.
+    // The file's name is STEM-HASH, where HASH is the first half of `key` in hexadecimal digits, so that
+    // different pictures have different files. The file is locked as long as the Checkpoint lives. If
+    // another program holds the lock, or if the file is of another picture nevertheless, it is left alone
+    // and the name is STEM-HASH-2, then -3. Records in other files of the same picture are used as well,
+    // whichever program writes them; files whose programs have ended are merged into this one and removed.
+    // `floats`: in a record. Throws std::runtime_error naming the file if it cannot be written. On a file
+    // system without locks, two programs share a file.
     Checkpoint(const std::filesystem::path& stem, std::uint64_t key, std::size_t floats);
     ~Checkpoint();  // the file stays
     Checkpoint(const Checkpoint&) = delete;
@@ -34,13 +34,13 @@ public:
 
     const std::filesystem::path& file() const { return file_; }
 
-    // Records that were kept before, each number once.
+    // The records that were found, each number once.
     std::vector<Record> takeEarlier() { return std::move(earlier_); }
 
     void keep(std::uint64_t number,
-              std::span<const float> values);  // fewer than `floats` are filled up with 0
+              std::span<const float> values);  // a record shorter than `floats` is filled up with 0
 
-    // The picture is whole elsewhere: the file is removed, and nothing is kept any more.
+    // Removes the file and stops keeping records: the picture has been written elsewhere.
     void remove();
 
 private:
@@ -55,8 +55,8 @@ private:
     std::vector<Record> earlier_;
 };
 
-// Files that are called as those of Checkpoints of this stem, whatever their picture, and that no program
-// writes to now: what commands left that did not end. In the order of their names.
+// Checkpoint files of this stem, of any picture, that no program is writing to: left by commands that were
+// interrupted. Sorted by name.
 std::vector<std::filesystem::path> abandonedCheckpoints(const std::filesystem::path& stem);
 
 }  // namespace diptych::reference

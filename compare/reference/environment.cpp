@@ -17,7 +17,8 @@ std::size_t at(int i) {
     return static_cast<std::size_t>(i);
 }
 
-// The first entry beyond u of the last one, and how far u is on the way to it.
+// Inverts a cumulative distribution: the entry that contains u times the total, and u's position within it,
+// 0 to 1.
 struct Found {
     std::size_t index;
     double within;
@@ -32,13 +33,13 @@ Found find(const double* cumulative, std::size_t count, double u) {
             width > 0 ? std::clamp((target - before) / width, 0.0, 1.0) : 0.5};
 }
 
-// Some 11 degrees a side.
+// Blocks of at least some 11 degrees a side.
 constexpr int mostAcross = 32, mostDown = 16;
 
 }  // namespace
 
-// The weight of a pixel is the mean of what bilinear interpolation shows within it: nowhere where there is
-// light it is 0.
+// A pixel's weight is the mean over the pixel of the bilinearly interpolated brightness, so that it is never
+// 0 where there is light.
 EnvironmentLight::EnvironmentLight(const Environment& environment, double factor)
     : image_(environment.radiance),
       factor_(factor),
@@ -87,7 +88,7 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, double factor
         }
 }
 
-// Columns go round; rows beyond a pole are those before it, half a turn on.
+// Columns wrap around; a row beyond a pole is the row as far before the pole, rotated by half a turn.
 glm::dvec3 EnvironmentLight::texel(int x, int y) const {
     const int width = image_.width, height = image_.height;
     if (y < 0 || y >= height) {
@@ -122,7 +123,7 @@ EnvironmentLight::Pixel EnvironmentLight::pixelOf(const glm::dvec3& d) const {
             std::clamp(static_cast<int>(y), 0, image_.height - 1)};
 }
 
-// The block whose first pixel is the last at or before it.
+// The block that contains the pixel: the last that begins at or before it.
 std::size_t EnvironmentLight::blockOf(Pixel pixel) const {
     const int i = ((pixel.x + 1) * across_ - 1) / image_.width,
               j = ((pixel.y + 1) * down_ - 1) / image_.height;
@@ -143,7 +144,7 @@ glm::dvec3 EnvironmentLight::Sampler::operator()(const glm::dvec2& u) const {
     const Found row = find(block.rows.data(), block.rows.size(), u.y);
     const Found column =
         find(block.columns.data() + row.index * at(block.width), at(block.width), chosen.within);
-    // Within a row by solid angle, which is even in the cosine.
+    // Uniform in solid angle within the row, that is in the cosine of the polar angle.
     const double y = block.y + static_cast<double>(row.index),
                  x = block.x + static_cast<double>(column.index) + column.within;
     const double top = std::cos(pi * y / light_.image_.height),

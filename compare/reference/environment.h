@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The light of a lat-long environment, every direction of it.
+// Light from a lat-long environment, sampled over all directions.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -20,39 +20,39 @@ public:
     bool black() const { return !(brightness_ > 0) || factor_ == 0; }
     glm::dvec3 radiance(const glm::dvec3& direction) const;  // W/(sr m^2); direction unit
 
-    // Draws directions by brightness times what a surface makes of it: by a weight for each block of the
-    // picture. (After Clarberg et al. 2005, "Wavelet Importance Sampling", which multiplies to the last
-    // pixel.)
+    // Samples directions with a density proportional to brightness times a weight for each block of the
+    // picture, which describes how the surface reflects it. (After Clarberg et al. 2005, "Wavelet Importance
+    // Sampling", which multiplies down to the pixel.)
     class Sampler {
     public:
-        // Of light from no further than `reach` (of unit vectors) about a direction, 0 or more; above 0
-        // wherever some of that light counts.
+        // The weight of light from directions within distance `reach` (of unit vectors) of `middle`, at
+        // least 0; it must be above 0 wherever some of that light is reflected.
         using Weight = std::function<double(const glm::dvec3& middle, double reach)>;
         Sampler(const EnvironmentLight& light, const Weight& weight);
 
-        // u in [0, 1)^2. No light where all() is 0.
+        // u in [0, 1)^2. Must not be called if all() is 0.
         glm::dvec3 operator()(const glm::dvec2& u) const;
         double density(const glm::dvec3& direction) const;  // 1/sr
         double all() const { return cumulative_.back(); }
 
     private:
         const EnvironmentLight& light_;
-        std::vector<double> cumulative_;  // by block
+        std::vector<double> cumulative_;  // over the blocks
     };
 
 private:
-    // A rectangle of pixels with their cumulative weights: of its rows, and of each row's pixels.
+    // A rectangle of pixels with cumulative weights: of its rows, and of the pixels within each row.
     struct Block {
         int x, y, width, height;
         glm::dvec3 middle;  // a direction
-        double reach;       // to the furthest of it
+        double reach;       // largest distance of a direction of the block from `middle`
         std::vector<double> rows, columns;
     };
     struct Pixel {
         int x, y;
     };
     glm::dvec3 texel(int x, int y) const;
-    glm::dvec3 directionOf(double x, double y) const;  // in pixels
+    glm::dvec3 directionOf(double x, double y) const;  // x, y in pixels
     Pixel pixelOf(const glm::dvec3& direction) const;
     std::size_t blockOf(Pixel pixel) const;
 

@@ -27,26 +27,27 @@ struct Geometry::Embree {
 
 namespace {
 
-// What a filter is told of the ray that asks.
-struct Asking {
-    RTCIntersectContext context;  // first: Embree hands back a pointer to it
+// Data of one ray query, passed through Embree to the filter.
+struct RayQuery {
+    // Must come first: Embree passes back a pointer to it, which is cast to RayQuery.
+    RTCIntersectContext context;
     const Geometry* geometry;
     const Ray* ray;
     const Geometry::Counts* counts;
-    Hit hit;  // the last that counted
+    Hit hit;  // the last accepted
 };
 
-// Embree's candidate, in double; one that does not count is passed by. Embree has the nearest in single
-// precision: what it accepted last is the nearest.
+// Tests Embree's candidate again in double, and rejects hits that do not count. Embree orders candidates in
+// single precision; the last one it accepted is the nearest.
 void filter(const RTCFilterFunctionNArguments* arguments) {
-    auto& asking = *reinterpret_cast<Asking*>(arguments->context);
+    auto& query = *reinterpret_cast<RayQuery*>(arguments->context);
     const TriangleId id{RTCHitN_geomID(arguments->hit, 1, 0), RTCHitN_primID(arguments->hit, 1, 0)};
-    const Ray& ray = *asking.ray;
+    const Ray& ray = *query.ray;
     const auto reject = [&] { arguments->valid[0] = 0; };
     if (id == ray.without) return reject();
-    const std::optional<Hit> hit = asking.geometry->onPlane(id, ray.origin, ray.direction);
-    if (!hit || !(hit->t > ray.from) || !(hit->t < ray.to) || !(*asking.counts)(*hit)) return reject();
-    asking.hit = *hit;
+    const std::optional<Hit> hit = query.geometry->onPlane(id, ray.origin, ray.direction);
+    if (!hit || !(hit->t > ray.from) || !(hit->t < ray.to) || !(*query.counts)(*hit)) return reject();
+    query.hit = *hit;
 }
 
 void check(RTCDevice device, const char* step) {
@@ -64,7 +65,7 @@ RTCRay single(const Ray& ray) {
     r.dir_x = static_cast<float>(ray.direction.x);
     r.dir_y = static_cast<float>(ray.direction.y);
     r.dir_z = static_cast<float>(ray.direction.z);
-    // A little more at both ends: the filter knows them in double.
+    // Slightly longer at both ends, because the filter compares the exact range in double.
     r.tnear = static_cast<float>(ray.from > 0 ? ray.from * (1 - 1e-5) : 0);
     r.tfar =
         std::isinf(ray.to) ? std::numeric_limits<float>::infinity() : static_cast<float>(ray.to * (1 + 1e-5));
@@ -165,7 +166,7 @@ std::optional<Hit> Geometry::onPlane(const TriangleId& id, const glm::dvec3& ori
     const double square = twice * twice;
     hit.barycentric = {glm::dot(glm::cross(within, b), normal) / square,
                        glm::dot(glm::cross(a, within), normal) / square};
-    // Front faces are counter-clockwise, but where the transform mirrors.
+    // Front faces are counter-clockwise, or clockwise if the transform mirrors.
     const bool mirrored = glm::determinant(glm::dmat3(instance(id).world_from_object)) < 0;
     hit.geometric_normal = normal * ((mirrored ? -1 : 1) / twice);
     hit.front = (along < 0) != mirrored;
@@ -173,23 +174,23 @@ std::optional<Hit> Geometry::onPlane(const TriangleId& id, const glm::dvec3& ori
 }
 
 std::optional<Hit> Geometry::nearest(const Ray& ray, const Counts& counts) const {
-    Asking asking{{}, this, &ray, &counts, {}};
-    rtcInitIntersectContext(&asking.context);
-    asking.context.filter = filter;
+    RayQuery query{{}, this, &ray, &counts, {}};
+    rtcInitIntersectContext(&query.context);
+    query.context.filter = filter;
     RTCRayHit request{};
     request.ray = single(ray);
     request.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree_->scene, &asking.context, &request);
+    rtcIntersect1(embree_->scene, &query.context, &request);
     if (request.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return asking.hit;
+    return query.hit;
 }
 
 bool Geometry::meets(const Ray& ray, const Counts& counts) const {
-    Asking asking{{}, this, &ray, &counts, {}};
-    rtcInitIntersectContext(&asking.context);
-    asking.context.filter = filter;
+    RayQuery query{{}, this, &ray, &counts, {}};
+    rtcInitIntersectContext(&query.context);
+    query.context.filter = filter;
     RTCRay request = single(ray);
-    rtcOccluded1(embree_->scene, &asking.context, &request);
+    rtcOccluded1(embree_->scene, &query.context, &request);
     return request.tfar < 0;
 }
 

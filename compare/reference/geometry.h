@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which triangle a ray meets, which Embree says, and where, which is worked out in double.
+// Ray casting: Embree finds which triangle a ray meets, and the position on it is computed in double.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -23,43 +23,45 @@ struct TriangleId {
     bool operator==(const TriangleId&) const = default;
 };
 
-// A place on a triangle. Positions are relative to the camera.
+// A point on a triangle. Positions are relative to the camera.
 struct Hit {
     TriangleId id;
-    double t = 0;               // along the ray, in lengths of its direction
-    glm::dvec2 barycentric{0};  // of the second and third corner
+    double t = 0;               // ray parameter, in lengths of the ray's direction
+    glm::dvec2 barycentric{0};  // weights of the second and third corner
     glm::dvec3 position{0};
-    glm::dvec3 geometric_normal{0};  // unit, to the front
-    bool front = true;               // the ray comes from there
+    glm::dvec3 geometric_normal{0};  // unit, on the front side
+    bool front = true;               // whether the ray comes from the front side
 };
 
 struct Ray {
     glm::dvec3 origin{0}, direction{0};  // any length
-    double from = 0, to = 0;             // t, both ends outside
-    TriangleId without = {};             // which it leaves
+    double from = 0, to = 0;             // range of t, exclusive at both ends
+    TriangleId without = {};             // the triangle that the ray leaves, which it cannot meet
 };
 
 class Geometry {
 public:
-    // `eye` becomes the origin. The pose and the scene outlive it. Not `deforming`, vertices stand where
-    // world_from_object puts them, as the paths draw them yet.
+    // `eye` becomes the origin of positions. The pose and the scene must outlive this. If not `deforming`,
+    // skins and morph targets are ignored and vertices are transformed by world_from_object alone, as the
+    // paths draw them so far.
     Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool deforming);
     ~Geometry();
     Geometry(const Geometry&) = delete;
     Geometry& operator=(const Geometry&) = delete;
 
-    // Whether a hit counts; one that does not lets the ray pass.
+    // Whether a hit is accepted; the ray passes through a rejected one.
     using Counts = std::function<bool(const Hit&)>;
     std::optional<Hit> nearest(const Ray& ray, const Counts& counts) const;
     bool meets(const Ray& ray, const Counts& counts) const;
 
     const Instance& instance(const TriangleId& id) const;
     const Primitive& primitive(const TriangleId& id) const;
-    std::array<std::uint32_t, 3> vertices(const TriangleId& id) const;  // into its primitive
-    std::array<glm::dvec3, 3> corners(const TriangleId& id) const;      // from the camera
-    // Its instance's vertices, in the world; nullptr where world_from_object moves all of them alike.
+    std::array<std::uint32_t, 3> vertices(const TriangleId& id) const;  // indices into its primitive
+    std::array<glm::dvec3, 3> corners(const TriangleId& id) const;      // relative to the camera
+    // The posed vertices of its instance, in world space; nullptr if world_from_object applies to all of
+    // them alike.
     const PosedVertices* posed(const TriangleId& id) const;
-    // Where the plane of the triangle is met; nothing where the ray runs along it.
+    // Intersection with the plane of the triangle; no value if the ray is parallel to it.
     std::optional<Hit> onPlane(const TriangleId& id, const glm::dvec3& origin,
                                const glm::dvec3& direction) const;
 
@@ -68,7 +70,7 @@ private:
     const Scene& scene_;
     const Pose& pose_;
     glm::dvec3 eye_;
-    std::vector<PosedVertices> posed_;  // by instance; empty where nothing deforms it
+    std::vector<PosedVertices> posed_;  // by instance; empty for instances without deformation
     std::unique_ptr<Embree> embree_;
 };
 

@@ -8,8 +8,8 @@
 
 namespace diptych::reference {
 
-// A hash of what decides a picture (FNV-1a of 64 bits; Fowler, Noll and Vo 1991): what is kept of another one
-// is not gone on from.
+// A hash of everything that decides a picture (FNV-1a of 64 bits; Fowler, Noll and Vo 1991). Kept parts of a
+// picture are only used if their key is the same.
 class Key {
 public:
     void add(std::span<const std::byte> bytes) {

@@ -17,7 +17,7 @@
 namespace diptych::reference {
 namespace {
 
-// Radiance that a point of a patch sends, with the solid angle that it stands for.
+// The radiance reflected from one point of a patch, times the solid angle of its area element.
 Reflected through(const Brdf& brdf, const Patch::Point& point) {
     const double square = glm::dot(point.place, point.place);
     if (!(square > 0) || point.area == 0) return {};
@@ -25,10 +25,10 @@ Reflected through(const Brdf& brdf, const Patch::Point& point) {
     return brdf(to_light) * (std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / square);
 }
 
-// A cell is split as long as the mirror image of the viewer could hide in it: as it is wider than the lobe
-// there. A turn of the light by an angle turns the half vector by that over 2 v.h. And as long as it is wide
-// itself: of a light that reaches far away, what is near is a small part of the cell and most of what
-// arrives.
+// Whether a cell may be too large for quadrature to find the specular lobe in it. It is split while it is
+// wider than the lobe at the mirrored direction (turning the light by an angle turns the half vector by that
+// angle over 2 v.h). It is also split while it covers a large angle itself: for a light that reaches far
+// away, the part that is close is a small part of the cell but gives most of the light.
 Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     const auto direction = [&](double u, double v) { return glm::normalize(patch.at(u, v).place); };
     const double u = (cell.u0 + cell.u1) / 2, v = (cell.v0 + cell.v1) / 2;
@@ -47,29 +47,29 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     const glm::dvec3 half = sum / length;
     const double turn = radius / (2 * std::max(glm::dot(brdf.toViewer(), half), 0.05));
     const double apart =
-        glm::length(glm::cross(brdf.normal(), half));  // sine of the angle from the lobe's middle
+        glm::length(glm::cross(brdf.normal(), half));  // sine of the angle between half vector and normal
     return split(turn > std::max(brdf.alpha(), apart - turn));
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Neither factor is SplitMix64's own step: streams of neighbours would be one another's, a number later.
 struct Leaves {
     const Patch* patch;
     std::vector<Leaf> leaves;
 };
 
-// The visible part of an integral that is known without shadows: in each leaf of it places, spread evenly. Of
-// the two unbiased ways to use one, f V and F - f (1 - V), the one is exact in full shade and the other in
-// full light; a pilot tells which is nearer to hand.
+// Estimates the visible part of an integral whose value F without shadows is known, from evenly distributed
+// points in each leaf. There are two unbiased estimators for a point with value f and visibility V: f V is
+// exact in full shadow, F - f (1 - V) in full light. A few pilot samples decide which one is used.
 class Shaded {
 public:
-    Shaded(const Brdf& brdf, const std::vector<Leaves>& leaves, bool far, const Visibility& open)
-        : brdf_(brdf), leaves_(leaves), far_(far), open_(open) {}
+    Shaded(const Brdf& brdf, const std::vector<Leaves>& leaves, bool far, const Visibility& visible)
+        : brdf_(brdf), leaves_(leaves), far_(far), visible_(visible) {}
 
-    // One place in each leaf, number `index` of a sequence that `seed` turns; `seen` counts those in the
-    // light.
-    Reflected estimate(std::uint64_t seed, std::uint64_t index, bool mostly_open, std::size_t& seen) const {
+    // Takes one point in each leaf, element `index` of a low-discrepancy sequence that `seed` rotates;
+    // `seen` counts the visible points.
+    Reflected estimate(std::uint64_t seed, std::uint64_t index, bool mostly_visible,
+                       std::size_t& seen) const {
         Reflected sum;
         std::uint64_t number = 0;
         for (const Leaves& part : leaves_)
@@ -81,10 +81,10 @@ public:
                 const Patch::Point point =
                     part.patch->at(c.u0 + (c.u1 - c.u0) * at.x, c.v0 + (c.v1 - c.v0) * at.y);
                 const double distance = glm::length(point.place);
-                const bool lit = distance > 0 && open_(point.place / distance, far_ ? infinity : distance);
+                const bool lit = distance > 0 && visible_(point.place / distance, far_ ? infinity : distance);
                 seen += lit;
                 const Reflected here = through(brdf_, point) * c.area();
-                if (mostly_open)
+                if (mostly_visible)
                     sum += lit ? leaf.value : leaf.value - here;
                 else if (lit)
                     sum += here;
@@ -107,19 +107,19 @@ private:
     const Brdf& brdf_;
     const std::vector<Leaves>& leaves_;
     bool far_;
-    const Visibility& open_;
+    const Visibility& visible_;
 };
 
-// Eight independent sequences, twice as long each time, until their means agree: estimate(round, index).
-// `whole`: what the confidence is relative to, where the mean is smaller. `piece`: the most that one sample
-// of an estimate stands for; what is hidden between N places that all say the same is with a confidence of 95
-// % less than 3 / N of it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything All Right?").
+// Eight independent estimates (estimate(round, index)), whose number of samples is doubled until their means
+// agree. `whole`: what the confidence is relative to if the mean is smaller. `piece`: the largest
+// contribution of one sample; if N samples all agree, what they may have missed is, with 95 % confidence,
+// less than 3 / N of it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything All Right?").
 template <class Estimate>
 Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first, double whole,
                        double piece) {
     constexpr std::size_t count = 8;
-    // To end where the rounds happen to agree is to trust them too early: of Student's 95 % 92 hold, with
-    // this 95.
+    // Stopping as soon as the rounds agree is biased towards stopping too early: of intervals by Student's
+    // 95 %, only 92 % would contain the true value; with this factor, 95 % do.
     constexpr double caution = 1.2;
     std::array<Reflected, count> sums;
     std::uint64_t done = 0;
@@ -138,7 +138,8 @@ Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint6
     }
 }
 
-// Directions that the specular lobe mirrors: half vectors by D (n.h), Walter et al. 2007, equation 35.
+// Samples directions of specular reflection, with half vectors distributed as D (n.h); Walter et al. 2007,
+// equation 35.
 class LobeSampler {
 public:
     explicit LobeSampler(const Brdf& brdf)
@@ -182,21 +183,22 @@ Lighting::Lighting(std::span<const Light> lights, const Environment* environment
     if (environment_ && environment_->black()) environment_.reset();
 }
 
-Shading Lighting::operator()(const Surface& surface, const Visibility& open, std::uint64_t seed) const {
+Shading Lighting::operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const {
     const Brdf brdf(surface);
     Shading sum;
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position);
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
-        if (reflected.size() > 0 && (!open || open(light.to_light, light.distance)))
+        if (reflected.size() > 0 && (!visible || visible(light.to_light, light.distance)))
             sum.reflected += reflected;
-        // What is not a number must show.
+        // NaN must not be hidden.
         if (std::isnan(reflected.size())) sum.reflected += reflected;
     }
     for (std::size_t i = 0; i < emitters_.size(); ++i)
-        sum += fromEmitter(emitters_[i], surface.position, brdf, open, streamOf(seed, i + 1));
-    if (environment_) sum += fromEnvironment(brdf, open, seed);
-    // A lightmap tells of no directions: its irradiance is taken as even, and the base alone is given it.
+        sum += fromEmitter(emitters_[i], surface.position, brdf, visible, streamOf(seed, i + 1));
+    if (environment_) sum += fromEnvironment(brdf, visible, seed);
+    // A lightmap has no directions: its irradiance is assumed uniform, and only the diffuse base reflects
+    // it.
     if (ambient_ + surface.lightmap != glm::dvec3(0))
         sum.ambient = diffuseAlbedo(surface) * (ambient_ + surface.lightmap);
     if (ambient_ != glm::dvec3(0)) sum.ambient += specularAlbedo(surface) * ambient_;
@@ -205,7 +207,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& open, std
 }
 
 Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
-                              const Visibility& open, std::uint64_t seed) const {
+                              const Visibility& visible, std::uint64_t seed) const {
     const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - place;
     const double window = rangeWindow(glm::length(centre), emitter.range);
     if (!(window > 0)) return {};
@@ -217,41 +219,42 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
         const auto integrand = [&](double u, double v) { return through(brdf, patch.at(u, v)); };
         const auto mustSplit = [&](const Cell& cell) { return mayHideLobe(brdf, patch, cell); };
         const Integral part =
-            Quadrature(integrand, mustSplit, quadratureError, open ? &leaves.back().leaves : nullptr)();
+            Quadrature(integrand, mustSplit, quadratureError, visible ? &leaves.back().leaves : nullptr)();
         whole.value += part.value;
         whole.error += part.error;
     }
     const glm::dvec3 radiance = emitter.radiance * window;
     const double brightest = std::max({radiance.r, radiance.g, radiance.b});
-    if (!open || !(whole.value.size() > 0)) return {whole.value * radiance, whole.error * brightest, {}};
+    if (!visible || !(whole.value.size() > 0)) return {whole.value * radiance, whole.error * brightest, {}};
 
-    const Shaded shaded(brdf, leaves, emitter.far, open);
+    const Shaded shaded(brdf, leaves, emitter.far, visible);
     const std::size_t places = shaded.places();
     std::size_t seen = 0, ignored = 0;
     constexpr std::uint64_t pilot = 2;
     for (std::uint64_t i = 0; i < pilot; ++i) shaded.estimate(~seed, i, false, seen);
-    const bool mostly_open = 2 * seen > pilot * places;
-    const Shading visible = untilConfident(
+    const bool mostly_visible = 2 * seen > pilot * places;
+    const Shading estimated = untilConfident(
         [&](std::size_t round, std::uint64_t index) {
-            return shaded.estimate(streamOf(seed, round), index, mostly_open, ignored);
+            return shaded.estimate(streamOf(seed, round), index, mostly_visible, ignored);
         },
         places, std::max<std::uint64_t>(1, 8 / places), whole.value.size(), shaded.largestLeaf());
-    return {visible.reflected * radiance, (visible.uncertainty + whole.error) * brightest, {}};
+    return {estimated.reflected * radiance, (estimated.uncertainty + whole.error) * brightest, {}};
 }
 
-// Two ways to draw a direction, weighted by the balance heuristic (Veach and Guibas 1995, "Optimally
-// Combining Sampling Techniques for Monte Carlo Rendering"): what is bright and reflected, by blocks of the
-// picture, and what the specular lobe, which may be narrower than a block, mirrors.
-Shading Lighting::fromEnvironment(const Brdf& brdf, const Visibility& open, std::uint64_t seed) const {
+// Directions are sampled in two ways, combined by the balance heuristic (Veach and Guibas 1995, "Optimally
+// Combining Sampling Techniques for Monte Carlo Rendering"): by blocks of the picture that are bright and
+// reflected, and by the specular lobe, which may be narrower than a block.
+Shading Lighting::fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const {
     const LobeSampler lobes(brdf);
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
-        // A block that the horizon cuts, or that a lobe grazes, has more to show than its middle.
+        // Within a block that the horizon crosses, or that a lobe touches, other directions may reflect more
+        // than the middle.
         const double cosine = std::max(glm::dot(brdf.normal(), middle) + reach, 0.0);
         return brdf(middle).size() + 0.02 * cosine;
     });
     const auto value = [&](const glm::dvec3& l) -> Reflected {
         const Reflected f = brdf(l);
-        if (!(f.size() > 0) || (open && !open(l, infinity))) return {};
+        if (!(f.size() > 0) || (visible && !visible(l, infinity))) return {};
         return f * environment_->radiance(l) * (1 / (lobes.density(l) + bright.density(l)));
     };
     std::array<std::array<glm::dvec2, 2>, 8> turns;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every light on one surface, in full: nothing is culled, packed or listed.
+// Lights a surface by every light in full: without culling, packing or light lists.
 #pragma once
 
 #include "compare/reference/area.h"
@@ -18,22 +18,23 @@
 
 namespace diptych::reference {
 
-// What integrals without shadows are taken to, relative to themselves: the change by the last halving of
-// their cells, which is a thousand times the error where the integrand is smooth.
+// Relative tolerance of integrals without shadows: the change by the last subdivision of their cells, which
+// is a thousand times the error where the integrand is smooth.
 inline constexpr double quadratureError = 2e-6;
-// What sampling goes on to, relative to what is sampled: half the 95 % confidence interval. And where it ends
-// all the same: the pixel's uncertainty says so. Of a light that no sample sees no uncertainty is claimed:
-// less than samplingError of it may come through a hole between them.
+// Sampling goes on until half the 95 % confidence interval is at most samplingError, relative to what is
+// sampled, or until mostSamples; the pixel's uncertainty tells what was reached. If no sample sees a light,
+// no uncertainty is stated: less than samplingError of the light may pass through a gap between the samples.
 inline constexpr double samplingError = 0.01;
 inline constexpr std::uint32_t mostSamples = 65536;
 
-// Whether light comes through from `distance` metres in a direction; infinite: from beyond everything.
+// Whether light arrives unoccluded from `distance` metres in the direction `to_light`; infinite: from
+// outside the scene.
 using Visibility = std::function<bool(const glm::dvec3& to_light, double distance)>;
 
 struct Shading {
-    Reflected reflected;     // of lights and environment, W/(sr m^2), towards the viewer
-    double uncertainty = 0;  // of its largest component, 95 % confidence, W/(sr m^2)
-    glm::dvec3 ambient{0};   // reflected of ambient light; emission is in neither
+    Reflected reflected;     // from lights and environment, towards the viewer, W/(sr m^2)
+    double uncertainty = 0;  // of the largest component of `reflected`, 95 % confidence, W/(sr m^2)
+    glm::dvec3 ambient{0};   // reflected from ambient light, W/(sr m^2); neither includes emission
 
     glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
     Shading& operator+=(const Shading& other) {
@@ -49,13 +50,13 @@ struct Shading {
 
 class Lighting {
 public:
-    // World lights and `environment`, which outlives this; `eye` becomes the origin; `ambient` radiance comes
-    // from everywhere.
+    // `lights` are in world space; `environment` must outlive this; `eye` becomes the origin of positions;
+    // `ambient` is radiance from all directions.
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0));
 
-    // `open` empty: nothing throws a shadow. `seed` names what is shaded, for sampling.
-    Shading operator()(const Surface& surface, const Visibility& open, std::uint64_t seed) const;
+    // `visible` empty: there are no shadows. `seed` identifies the shaded surface, for sampling.
+    Shading operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const;
 
 private:
     struct Punctual {
@@ -63,8 +64,8 @@ private:
         glm::dvec3 position;
     };
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
-                        const Visibility& open, std::uint64_t seed) const;
-    Shading fromEnvironment(const Brdf& brdf, const Visibility& open, std::uint64_t seed) const;
+                        const Visibility& visible, std::uint64_t seed) const;
+    Shading fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const;
 
     std::vector<Punctual> punctual_;
     std::vector<Emitter> emitters_;

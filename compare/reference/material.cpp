@@ -12,7 +12,7 @@
 namespace diptych::reference {
 namespace {
 
-// What a triangle's corners carry, mixed by barycentric coordinates.
+// Interpolates values of the triangle's corners by barycentric coordinates.
 template <class T>
 T mixed(const std::array<T, 3>& corner, const glm::dvec2& b) {
     return corner[0] * (1 - b.x - b.y) + corner[1] * b.x + corner[2] * b.y;
@@ -29,8 +29,8 @@ const Material& Materials::material(const Hit& hit) const {
     return scene_.materials[static_cast<std::size_t>(geometry_.primitive(hit.id).material)];
 }
 
-// The rays of the neighbours meet the triangle's plane (Igehy 1999, "Tracing Ray Differentials"); to first
-// order t changes by -n.(o' + t d') / n.d.
+// The footprint follows from the intersections of the neighbouring rays with the triangle's plane (Igehy
+// 1999, "Tracing Ray Differentials"); to first order, t changes by -n.(o' + t d') / n.d.
 Footprint Materials::footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const {
     const Primitive& primitive = geometry_.primitive(hit.id);
     const std::vector<glm::vec2>& set = primitive.texcoords[slot.texcoord == 1 ? 1 : 0];
@@ -92,14 +92,16 @@ double Materials::opacity(const Hit& hit, const PixelRay& ray) const {
     return std::clamp(baseColor(hit, &ray).a, 0.0, 1.0);
 }
 
-// glTF 2.0, 3.7.2.1 and 3.9.3: normals move by the inverse transpose, tangents with the surface; a bitangent
-// is w cross(normal, tangent). Both are mixed as they are, as MikkTSpace asks. A back face is turned round.
+// glTF 2.0, 3.7.2.1 and 3.9.3: normals are transformed by the inverse transpose, tangents as the surface;
+// the bitangent is w cross(normal, tangent). Both are interpolated without normalisation, as MikkTSpace
+// requires. On a back face the normal is flipped.
 glm::dvec3 Materials::shadingNormal(const Hit& hit, const PixelRay& ray) const {
     const Primitive& primitive = geometry_.primitive(hit.id);
     const glm::dmat3 world(geometry_.instance(hit.id).world_from_object);
     const glm::dvec3 facing =
         glm::dot(hit.geometric_normal, ray.direction) > 0 ? -hit.geometric_normal : hit.geometric_normal;
-    // The cofactors are the inverse transpose times the determinant, and are there where no inverse is.
+    // The cofactor matrix is the inverse transpose times the determinant; it also exists for singular
+    // matrices.
     const double handedness = glm::determinant(world) < 0 ? -1 : 1;
     const glm::dmat3 cofactors = glm::dmat3(glm::cross(world[1], world[2]), glm::cross(world[2], world[0]),
                                             glm::cross(world[0], world[1])) *
@@ -152,8 +154,8 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     // Irradiance over pi.
     if (m.lightmap_texture.texture >= 0)
         s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
-    // KHR_materials_ior: 0 stands for an infinite one. KHR_materials_specular: colour from rgb, strength from
-    // a.
+    // KHR_materials_ior: 0 stands for an infinite index. KHR_materials_specular: colour from RGB, strength
+    // from alpha.
     const double ior = m.ior, r = (1 - ior) / (1 + ior);
     const glm::dvec3 tint =
         glm::dvec3(m.specular_color) * glm::dvec3(lookUp(hit, m.specular_color_texture, true, &ray));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The surface at a place on a triangle, from the glTF's factors and textures: its own, not the paths'.
+// The material at a point of a triangle, computed from the glTF factors and textures independently of the
+// paths.
 #pragma once
 
 #include "compare/reference/geometry.h"
@@ -8,11 +9,11 @@
 
 namespace diptych::reference {
 
-// A ray of a picture and those of the next pixel to the right and below: origins from the camera, directions
-// a metre of depth long.
+// A camera ray, and its differences to the rays of the next pixel to the right and below. Origins are
+// relative to the camera; directions are one metre of depth long.
 struct PixelRay {
     glm::dvec3 origin{0}, direction{0};
-    glm::dvec3 origin_dx{0}, direction_dx{0}, origin_dy{0}, direction_dy{0};  // differences
+    glm::dvec3 origin_dx{0}, direction_dx{0}, origin_dy{0}, direction_dy{0};  // differences to the neighbours
 };
 
 class Materials {
@@ -20,14 +21,16 @@ public:
     Materials(const Scene& scene, const Geometry& geometry)
         : scene_(scene), geometry_(geometry), textures_(scene) {}
 
-    // Whether a ray of the picture ends there: not on the back of what has none, not where a mask is cut out.
+    // Whether a camera ray ends at the hit: not on the back of a single-sided material, nor where a mask
+    // cuts it out.
     bool isThere(const Hit& hit, const PixelRay* ray) const;
-    // A shadow comes from both sides of everything but of what blends; masks are read at a point.
+    // Whether the hit occludes a light. Both sides of a triangle do, unless its material blends; masks are
+    // read without filtering.
     bool throwsShadow(const Hit& hit) const;
 
     Surface surface(const Hit& hit, const PixelRay& ray) const;
 
-    // Base colour's alpha where the material blends; 1 where it does not.
+    // The base colour's alpha if the material blends, otherwise 1.
     double opacity(const Hit& hit, const PixelRay& ray) const;
 
 private:

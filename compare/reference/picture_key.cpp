@@ -76,7 +76,8 @@ void addScene(Key& key, const Request& request) {
 
 }  // namespace
 
-// Everything that decides a pixel. The version goes up where the reference itself changes what it draws.
+// Everything that decides a pixel. The version number must be increased whenever the reference itself draws
+// differently.
 std::uint64_t keyOf(const Request& request) {
     constexpr int version = 4;
     Key key;

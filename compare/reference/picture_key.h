@@ -7,8 +7,8 @@ namespace diptych::reference {
 
 struct Request;
 
-// A hash of everything that decides a pixel of the picture, the program's version among it: what is kept of
-// another one is not gone on from.
+// A hash of everything that decides a pixel of the picture, including the program's version. Kept parts of a
+// picture are only used if their key is the same.
 std::uint64_t keyOf(const Request& request);
 
 }  // namespace diptych::reference

@@ -25,7 +25,8 @@ Incident incident(const Light& light, const glm::dvec3& light_position, const gl
                     distance};
     if (light.kind == LightKind::spot) {
         const double outer = std::cos(double{light.outer_cone}), inner = std::cos(double{light.inner_cone});
-        // 0.001 is KHR_lights_punctual's own: a cone with a hard edge keeps a finite slope.
+        // The constant 0.001 is KHR_lights_punctual's: it keeps the slope finite for a cone with a hard
+        // edge.
         const double inside =
             (-glm::dot(result.to_light, light.direction) - outer) / std::max(0.001, inner - outer);
         result.irradiance *= std::pow(std::clamp(inside, 0.0, 1.0), 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adaptive integration over rectangles of parameters.
+// Adaptive integration over rectangles of two parameters.
 #pragma once
 
 #include "compare/reference/surface.h"
@@ -27,11 +27,11 @@ struct Cell {
 
 struct Integral {
     Reflected value;
-    double error = 0;  // what is not known of value.size(): differences that the limits left standing
+    // Of value.size(): differences that remained when the limits on cells or depth were reached.
+    double error = 0;
 };
 
-// The tensor product of Gauss and Legendre's five points: exact for polynomials up to degree 9 in each
-// parameter.
+// Gauss-Legendre quadrature with 5 x 5 points: exact for polynomials up to degree 9 in each parameter.
 template <class Integrand>
 Reflected gauss(const Integrand& f, const Cell& cell) {
     constexpr std::array<double, 5> node{-0.906179845938663993, -0.538469310105683091, 0,
@@ -47,13 +47,13 @@ Reflected gauss(const Integrand& f, const Cell& cell) {
     return sum * (du * dv);
 }
 
-// A cell that must be split before it is asked, and which way: a lobe that no point of a cell meets would not
-// be missed by it.
+// Whether, and in which direction, a cell must be split before the integrand is evaluated: a narrow lobe
+// between all points of a cell would not be noticed.
 enum class Split { none, u, v };
 
-// Splits a cell into quarters until these together say what it says alone, to within `relative` of the
-// whole's size and half of that at every level below; `mustSplit(cell)` is a Split. `leaves`, where given,
-// receives the cells at the end and their integrals.
+// Splits a cell into quarters until the sum of their integrals differs from its own by no more than
+// `relative` times the whole integral, a tolerance that is halved at every level below; `mustSplit(cell)`
+// returns a Split. `leaves`, if given, receives the final cells and their integrals.
 struct Leaf {
     Cell cell;
     Reflected value;

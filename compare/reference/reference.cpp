@@ -31,7 +31,7 @@ glm::dvec3 specularColor(const Surface& s) {
 
 // ---- channels ----------------------------------------------------------------------------------------
 
-// What a pixel shows. Without a surface it is background.
+// The result for one pixel. Without a surface it is background.
 struct Pixel {
     std::optional<Surface> surface;
     Shading shading;
@@ -39,9 +39,9 @@ struct Pixel {
     double depth = 0;
 };
 
-// The numbers of a channel (shared/contract/debug_mode.h).
+// The components of a channel (shared/contract/debug_mode.h).
 glm::dvec3 channelValue(int mode, const Pixel& pixel) {
-    // Light is the mean over a pixel, even where its centre misses everything.
+    // Light is the mean over the pixel's area, even if the centre shows background.
     switch (static_cast<gpu::uint>(mode)) {
         case gpu::DEBUG_lit:
             return pixel.lit;
@@ -89,7 +89,7 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
 }
 
-// The way back, from a path's capture.
+// Decodes surfaces from a path's captured channels.
 class Captured {
 public:
     explicit Captured(const std::map<int, Image>& channels) : channels_(channels) {}
@@ -101,7 +101,7 @@ public:
         Surface s;
         s.position = value(gpu::DEBUG_position, pixel);
         s.to_viewer = rays.toViewer(s.position);
-        // A unit vector in float32 is off by up to 1e-7, which 1 - (n.h)^2 at a highlight does not forgive.
+        // A unit vector in float32 is off by up to 1e-7, which would matter for 1 - (n.h)^2 at a highlight.
         s.normal = unitOr(value(gpu::DEBUG_normals, pixel), s.to_viewer);
         s.geometric_normal = unitOr(value(gpu::DEBUG_geometric_normal, pixel), s.to_viewer);
         s.albedo = value(gpu::DEBUG_albedo, pixel);
@@ -112,8 +112,8 @@ public:
         s.lightmap = value(gpu::DEBUG_lightmap, pixel);
         s.dielectric_f90 = value(gpu::DEBUG_dielectric_f90, pixel).x;
         s.material = static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
-        // The channel is the mix with the metal; a whole metal has no dielectric to find again, and needs
-        // none.
+        // The channel holds the mix of the dielectric's and the metal's F0. For a metallic of 1 the
+        // dielectric's cannot be recovered, and is not needed.
         if (s.metallic < 1)
             s.dielectric_f0 =
                 glm::max((value(gpu::DEBUG_specular, pixel) - s.albedo * s.metallic) / (1 - s.metallic),
@@ -146,24 +146,24 @@ public:
           lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
                     request.environment_factor, eye_, request.ambient) {}
 
-    Pixel paint(int x, int y) const {
+    Pixel render(int x, int y) const {
         const std::uint64_t seed =
             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(request_.view.width) +
             static_cast<std::uint64_t>(x);
-        return request_.mode == ReferenceMode::surface ? paintCaptured(x, y, seed) : paintScene(x, y, seed);
+        return request_.mode == ReferenceMode::surface ? renderCaptured(x, y, seed) : renderScene(x, y, seed);
     }
 
 private:
-    // How far from a place a shadow begins, relative to its distance from the camera: well above what double
-    // loses, well below what is modelled. A captured place was a float32 depth.
+    // Where a shadow ray begins, relative to the point's distance from the camera: far above rounding errors
+    // in double, far below modelled detail. A captured position is only as exact as a float32 depth.
     static constexpr double exactOffset = 1e-9, capturedOffset = 1e-5;
-    // And how far before a light it ends, relative to the way: a lamp that lies on a ceiling is not in it,
-    // though the ceiling's float32 vertices may round to below it.
+    // How far before the light a shadow ray ends, relative to its length, so that a lamp on a ceiling is not
+    // occluded by the ceiling, whose float32 vertices may round to below the lamp.
     static constexpr double lightOffset = 1e-5;
 
-    // Light that comes from behind the triangle does not reach it, whatever the shading normal says.
-    Visibility openFrom(const glm::dvec3& place, const glm::dvec3& geometric_normal,
-                        const TriangleId& without, double offset) const {
+    // Light from behind the triangle does not reach it, whatever the shading normal is.
+    Visibility visibilityFrom(const glm::dvec3& place, const glm::dvec3& geometric_normal,
+                              const TriangleId& without, double offset) const {
         if (!request_.shadows) return {};
         const double from = offset * glm::length(place);
         return [this, place, geometric_normal, without, from](const glm::dvec3& to_light, double distance) {
@@ -184,22 +184,22 @@ private:
         return geometry_.nearest(search, [&](const Hit& hit) { return materials_.isThere(hit, &ray); });
     }
 
-    Pixel paintCaptured(int x, int y, std::uint64_t seed) const {
+    Pixel renderCaptured(int x, int y, std::uint64_t seed) const {
         const Captured captured(*request_.surfaces);
         Pixel pixel;
         if (!captured.isSurface(seed)) return pixel;
         Surface s = captured.surface(seed, rays_);
         pixel.depth = captured.depth(seed);
-        Visibility open;
+        Visibility visible;
         if (request_.shadows) {
-            // The place itself is found again, where the ray sees what the path saw there.
+            // Finds the exact position again, if the camera ray meets a surface at the captured depth.
             const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5), 0);
             if (hit && std::abs(hit->t - pixel.depth) <= 1e-4 * pixel.depth)
-                open = openFrom(hit->position, s.geometric_normal, hit->id, exactOffset);
+                visible = visibilityFrom(hit->position, s.geometric_normal, hit->id, exactOffset);
             else
-                open = openFrom(s.position, s.geometric_normal, {}, capturedOffset);
+                visible = visibilityFrom(s.position, s.geometric_normal, {}, capturedOffset);
         }
-        pixel.shading = lighting_(s, open, seed);
+        pixel.shading = lighting_(s, visible, seed);
         pixel.lit = pixel.shading.all() + s.emission;
         pixel.surface = s;
         return pixel;
@@ -210,14 +210,15 @@ private:
         Surface s = materials_.surface(hit, ray);
         s.to_viewer = rays_.toViewer(s.position);
         pixel.depth = hit.t;
-        pixel.shading = lighting_(s, openFrom(s.position, s.geometric_normal, hit.id, exactOffset), seed);
+        pixel.shading =
+            lighting_(s, visibilityFrom(s.position, s.geometric_normal, hit.id, exactOffset), seed);
         pixel.lit = pixel.shading.all() + s.emission;
         pixel.surface = s;
         return pixel;
     }
 
-    // What the ray meets, front to back: what blends lets the rest through (Porter and Duff 1984,
-    // "Compositing Digital Images": over). Channels but the lit ones are of the first.
+    // The surfaces along the ray, front to back, blended "over" (Porter and Duff 1984, "Compositing Digital
+    // Images"). Channels other than those of light are the first surface's.
     Pixel alongRay(const PixelRay& ray, std::uint64_t seed) const {
         Pixel pixel;
         double through = 1, from = 0;
@@ -240,8 +241,8 @@ private:
         return pixel;
     }
 
-    // Several samples: light is their mean over the pixel, the other channels are its centre's.
-    Pixel paintScene(int x, int y, std::uint64_t seed) const {
+    // With several samples, light is their mean over the pixel; the other channels are the centre's.
+    Pixel renderScene(int x, int y, std::uint64_t seed) const {
         Pixel centre = alongRay(rays_.through(x + 0.5, y + 0.5), seed);
         if (request_.samples == 1) return centre;
         Pixel mean;
@@ -268,7 +269,7 @@ private:
 
 // ---- the picture -------------------------------------------------------------------------------------
 
-// A square of the picture: what is done at once and kept at once.
+// Side of the square tiles that are drawn and kept as units, in pixels.
 constexpr int tileSide = 16;
 
 class Drawing {
@@ -306,7 +307,8 @@ public:
                     put(record.number, record.values);
                     there[record.number] = true;
                 }
-        // Scattered over the picture, so that what is done tells how long the rest will take.
+        // Tiles are drawn in an order scattered over the picture, so that the finished part predicts the
+        // remaining time.
         std::vector<std::uint64_t> order;
         std::uint64_t step =
             std::max<std::uint64_t>(1, static_cast<std::uint64_t>(0.618 * static_cast<double>(tiles)));
@@ -315,10 +317,10 @@ public:
             if (!there[tile]) order.push_back(tile);
 
         if (!order.empty()) {
-            const PixelRenderer painter(request_);
+            const PixelRenderer renderer(request_);
             std::atomic<std::size_t> done{0};
             tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
-                const std::vector<float> values = renderTile(painter, order[i]);
+                const std::vector<float> values = renderTile(renderer, order[i]);
                 put(order[i], values);
                 if (checkpoint) checkpoint->keep(order[i], values);
                 if (request_.progress)
@@ -339,10 +341,10 @@ private:
             for (int x = x0; x < std::min(x0 + tileSide, request_.view.width); ++x) visit(x, y);
     }
 
-    std::vector<float> renderTile(const PixelRenderer& painter, std::uint64_t tile) const {
+    std::vector<float> renderTile(const PixelRenderer& renderer, std::uint64_t tile) const {
         std::vector<float> values;
         eachPixel(tile, [&](int x, int y) {
-            const Pixel pixel = painter.paint(x, y);
+            const Pixel pixel = renderer.render(x, y);
             for (const DebugMode* mode : drawn_) {
                 const glm::dvec3 value = channelValue(mode->number, pixel);
                 for (int c = 0; c < mode->width; ++c) values.push_back(static_cast<float>(value[c]));
@@ -365,7 +367,7 @@ private:
 
     const Request& request_;
     const int across_, down_;
-    int floats_ = 0;  // of a pixel
+    int floats_ = 0;  // number of floats for each pixel
     std::vector<const DebugMode*> drawn_;
     Picture picture_;
 };

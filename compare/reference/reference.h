@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The truth that paths are held against: direct light in double precision, written from the definitions. No
-// Vulkan, no shader, no formula of theirs.
+// The reference renderer that paths are compared with: direct light in double precision, written from the
+// definitions. It uses no Vulkan, no shader and none of the paths' code.
 #pragma once
 
 #include "compare/reference/request.h"
@@ -12,17 +12,18 @@
 namespace diptych::reference {
 
 struct Picture {
-    std::map<int, Image> channels;  // by debug mode, all of them; the background as a Frame has it
-    // Of lit, in its unit: half the 95 % confidence interval of what was sampled and what quadrature left
-    // open. Empty where nothing was.
+    std::map<int, Image> channels;  // by debug mode number, all that it can make; background as in a Frame
+    // Of lit, in its unit: half the 95 % confidence interval of what was sampled, plus the error that
+    // quadrature left. Empty if it is 0 everywhere.
     Image uncertainty;
 };
 
-// What mode surface shades, as a path without any encoding captures it at one sample.
+// The channels that mode surface takes as its input: as captured by a path without any encoding, at one
+// sample.
 std::vector<int> surfaceChannels();
 
-// Multithreaded; the same picture whatever the number of threads and however often it was interrupted. Throws
-// std::runtime_error, one line, where what is done cannot be kept.
+// Draws the picture, multithreaded. The result does not depend on the number of threads or on interruptions.
+// Throws std::runtime_error, one line, if finished tiles cannot be kept.
 Picture draw(const Request& request);
 
 }  // namespace diptych::reference

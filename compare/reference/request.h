@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the reference is asked to draw.
+// The input of the reference renderer.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -24,21 +24,22 @@ struct Request {
     const Scene& scene;
     const Pose& pose;
     const View& view;
-    std::span<const Light> lights;  // world; the environment is the scene's
+    std::span<const Light> lights;  // in world space; the environment is the scene's
     double environment_factor = 1;
-    glm::dvec3 ambient{0};  // radiance from everywhere, W/(sr m^2); occlusion dims it
+    glm::dvec3 ambient{0};  // radiance from all directions, W/(sr m^2); attenuated by occlusion
     bool shadows = false;
-    // Skins and morph targets move what mode scene draws; in mode surface shadows fall from meshes as the
-    // paths draw them, undeformed.
+    // In mode scene, skins and morph targets deform meshes; in mode surface, shadows are cast by undeformed
+    // meshes, as the paths draw them.
     ReferenceMode mode = ReferenceMode::surface;
-    int samples = 1;                                 // per pixel, mode scene
-    const std::map<int, Image>* surfaces = nullptr;  // mode surface: every channel of surfaceChannels()
-    // Called once, for where tiles of `floats` numbers are kept as they are done, of the picture that `key`
-    // stands for: the caller owns it, and removes it when the picture is safe. Empty: nowhere. `program`:
-    // what another version has kept is not gone on from.
+    int samples = 1;                                 // per pixel; mode scene only
+    const std::map<int, Image>* surfaces = nullptr;  // mode surface only: all channels of surfaceChannels()
+    // Called once, with the key of the picture and the number of floats in a tile; returns where finished
+    // tiles are kept. The caller owns the Checkpoint, and removes it once the picture has been written.
+    // Empty: nothing is kept. `program` is this program's version: tiles kept by another version are not
+    // used.
     std::function<Checkpoint&(std::uint64_t key, std::size_t floats)> keep = {};
     std::string_view program = {};
-    // From any thread: the share that is done.
+    // Called from any thread with the fraction that is done.
     std::function<void(double fraction)> progress = {};
 };
 

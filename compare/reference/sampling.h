@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sampling until a stated confidence.
+// Sampling until a stated confidence is reached.
 #pragma once
 
 #include "compare/reference/surface.h"
@@ -10,9 +10,9 @@
 
 namespace diptych::reference {
 
-// Numbers in [0, 1) that are the same for the same seed: every pixel, light and round has its own, so that a
-// picture does not depend on the number of threads or on where it was taken up again. (Steele, Lea and Flood
-// 2014, "Fast Splittable Pseudorandom Number Generators": SplitMix64.)
+// Pseudorandom numbers in [0, 1), determined by the seed. Every pixel, light and round has a seed of its
+// own, so that a picture does not depend on the number of threads or on where it was resumed. (Steele, Lea
+// and Flood 2014, "Fast Splittable Pseudorandom Number Generators": SplitMix64.)
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -22,25 +22,26 @@ private:
     std::uint64_t state_;
 };
 
-// The seed of one of many streams under a seed; no two are the same but by chance.
+// The seed of stream `number` under `seed`; two streams are equal only by chance.
 std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number);
 
-// Point `index` of the R2 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"),
-// turned by `shift` on the torus (Cranley and Patterson 1976): any run of indices covers the square evenly.
+// Point `index` of the R2 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
+// Sequences"), shifted by `shift` on the torus (Cranley and Patterson 1976): every run of consecutive
+// indices covers the square evenly.
 glm::dvec2 evenly(std::uint64_t index, const glm::dvec2& shift);
 
-// Rounds that are independent and estimate the same: their mean, and how far it is from the truth with a
-// confidence of 95 %, by Student's distribution.
+// Independent estimates of the same value: their mean, and its 95 % confidence interval by Student's
+// distribution.
 class Rounds {
 public:
     void add(const Reflected& estimate);
     Reflected mean() const { return mean_; }
-    double halfWidth() const;  // of mean().size(), W/(sr m^2); infinite below two rounds
+    double halfWidth() const;  // half the interval of mean().size(), W/(sr m^2); infinite below two estimates
 
 private:
     std::uint32_t count_ = 0;
     Reflected mean_;
-    glm::dvec3 squares_{0};  // sum of squared deviations of the two lobes' sum (Welford 1962)
+    glm::dvec3 squares_{0};  // sums of squared deviations (Welford 1962) of the sum of both lobes
 };
 
 }  // namespace diptych::reference

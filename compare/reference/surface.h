@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the reference shades, and what comes of it: double precision, world axes with the camera as origin,
+// The reference's surface and reflected light: double precision, world axes with the camera as origin,
 // metres, linear Rec.709.
 #pragma once
 
@@ -15,19 +15,19 @@ struct Surface {
     glm::dvec3 position{0};
     glm::dvec3 to_viewer{0, 0, 1};         // unit
     glm::dvec3 normal{0, 0, 1};            // unit, shading
-    glm::dvec3 geometric_normal{0, 0, 1};  // unit, of the triangle, towards the viewer
+    glm::dvec3 geometric_normal{0, 0, 1};  // unit, of the triangle, on the viewer's side
     glm::dvec3 albedo{0};                  // base colour
     double metallic = 0, roughness = 1;    // perceptual roughness
     double occlusion = 1;
     glm::dvec3 emission{0};       // W/(sr m^2)
     glm::dvec3 lightmap{0};       // irradiance / pi, W/(sr m^2)
-    glm::dvec3 dielectric_f0{0};  // of the dielectric's layer; the mix with the metal is the BRDF's
+    glm::dvec3 dielectric_f0{0};  // F0 of the dielectric layer alone; the BRDF mixes it with the metal's
     double dielectric_f90 = 1;
     int material = -1;
     glm::dvec2 texcoord{0};
 };
 
-// By the two lobes: radiance, W/(sr m^2), or what becomes it when multiplied.
+// A quantity for each of the two lobes: radiance, W/(sr m^2), or a factor of it.
 struct Reflected {
     glm::dvec3 diffuse{0}, specular{0};
 
@@ -43,7 +43,7 @@ struct Reflected {
         return {a.diffuse * b, a.specular * b};
     }
 
-    // The largest component of the sum, by magnitude: what errors are held against.
+    // The largest component of the sum, by magnitude: errors are relative to it.
     double size() const {
         const glm::dvec3 sum = glm::abs(diffuse + specular);
         return std::max({sum.x, sum.y, sum.z});

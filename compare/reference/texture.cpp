@@ -14,7 +14,7 @@
 namespace diptych::reference {
 namespace {
 
-// IEC 61966-2-1.
+// sRGB decoding, IEC 61966-2-1.
 double linear(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
@@ -28,7 +28,7 @@ double decoded(std::uint8_t code, bool srgb) {
     return srgb ? colors[code] : code / 255.0;
 }
 
-// The texel that a coordinate beyond the edge stands for; glTF 2.0, 3.8.4.
+// The texel used for a coordinate beyond the edge; glTF 2.0, 3.8.4.
 int wrapped(int i, int size, Wrap wrap) {
     if (wrap == Wrap::clamp_to_edge) return std::clamp(i, 0, size - 1);
     const int period = wrap == Wrap::repeat ? size : 2 * size;
@@ -54,7 +54,8 @@ glm::dvec4 nearestTexel(const Pyramid& pyramid, const Sampler& sampler, const gl
                          wrapped(static_cast<int>(std::floor(uv.y * height)), height, sampler.wrap_t));
 }
 
-// Coordinates so far out that they have no fraction left: kept, as the picture repeats anyway.
+// Limits coordinates so large that they have no fractional part: any texel is then as good, as the picture
+// repeats.
 glm::dvec2 bounded(const glm::dvec2& uv) {
     return glm::clamp(uv, glm::dvec2(-1e8), glm::dvec2(1e8));
 }
@@ -67,7 +68,8 @@ Pyramid::Pyramid(const TextureImage& image, bool srgb) : image_(image), srgb_(sr
         Level level{std::max((w + 1) / 2, 1), std::max((h + 1) / 2, 1), {}};
         level.rgba.reserve(std::size_t{4} * static_cast<std::size_t>(level.width) *
                            static_cast<std::size_t>(level.height));
-        // Texel x of this level covers from x w / W to (x + 1) w / W of the one below.
+        // Texel x of this level (width w from W texels) covers the texels x W / w to (x + 1) W / w of the
+        // level before.
         const auto shares = [](int i, int from, int to) {
             const double begin = static_cast<double>(i) * from / to,
                          end = static_cast<double>(i + 1) * from / to;
@@ -137,11 +139,12 @@ glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footpri
     const Sampler& sampler = texture.sampler;
     if (!(longest > 1))
         return sampler.magnify_linear ? bilinear(levels, 0, sampler, uv) : nearestTexel(levels, sampler, uv);
-    // As many places along each side as make squares of them, eight at least; one seen at a grazing angle is
-    // long and narrow, and must not be blurred across.
+    // As many points along each side as make their shares square, but at least eight. A footprint seen at a
+    // grazing angle is long and narrow, and must not be blurred across its short side.
     constexpr double least = 8, most = 64;
     const double across = std::abs(x.x * y.y - x.y * y.x) / longest;
-    const double share = std::max(across / least, longest / most);  // texels of level 0
+    // Side of a point's share, in texels of level 0.
+    const double share = std::max(across / least, longest / most);
     const auto places = [&](const glm::dvec2& side) {
         return static_cast<int>(std::clamp(std::ceil(glm::length(side) / share), least, most));
     };

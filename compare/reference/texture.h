@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a texture looks like over a pixel's footprint.
+// Textures filtered over a pixel's footprint.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -15,18 +15,18 @@
 
 namespace diptych::reference {
 
-// Where in a texture, and how it moves from a pixel to the next: texture coordinates per pixel.
+// A texture coordinate, and its change from a pixel to the next.
 struct Footprint {
     glm::dvec2 uv{0}, dx{0}, dy{0};
 };
 
-// Averages of 2^k x 2^k texels, linear, in float32; level 0 is the image itself. An image of odd size keeps
-// its last texels: each texel of a level covers the same share of the picture.
+// Averages of 2^k x 2^k texels, linear, in float32; level 0 is the image itself. Sizes are rounded up, and
+// every texel of a level covers the same share of the picture.
 class Pyramid {
 public:
     Pyramid(const TextureImage& image, bool srgb);
 
-    // RGBA of a texel, linear (0 to 1 but of floats), with coordinates inside the level.
+    // RGBA of a texel, linear (0 to 1, except for images of floats); x and y must be inside the level.
     glm::dvec4 texel(int level, int x, int y) const;
     int width(int level) const;
     int height(int level) const;
@@ -39,18 +39,18 @@ private:
         int width, height;
         std::vector<float> rgba;
     };
-    std::vector<Level> levels_;  // from 1
+    std::vector<Level> levels_;  // from level 1 on
 };
 
-// The scene's textures, decoded as they are first asked for; from any thread.
+// The scene's textures, decoded at their first use; may be used from any thread.
 class Textures {
 public:
     explicit Textures(const Scene& scene) : scene_(scene) {}
 
-    // The mean over the parallelogram of the footprint: where it is smaller than a texel, what the sampler's
-    // magnification says; else the box filter, an area mean of 8 x 8 places and up to 64 along its longer
-    // side, each looked up bilinearly in the level whose texels are as large as a place's share. sRGB colours
-    // are decoded first. RGBA, 0 to 1.
+    // The mean over the parallelogram of the footprint. A footprint smaller than a texel uses the sampler's
+    // magnification filter. Otherwise it is a box filter: the mean of 8 x 8 points, up to 64 along the
+    // longer side, each read bilinearly from the level whose texels have the size of a point's share. sRGB
+    // is decoded before filtering. Returns RGBA, 0 to 1.
     glm::dvec4 operator()(const Texture& texture, bool srgb, const Footprint& footprint) const;
 
 private:

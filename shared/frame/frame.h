@@ -95,10 +95,11 @@ struct Frame {
     std::vector<std::string> notes;  // what users must know: what was drawn otherwise than requested
 };
 
-// A Frame of our reference: drawn now, or read from a file that we wrote. Another renderer's file is none.
+// Whether it is a Frame of this program's reference: drawn now, or read from a file that this program wrote.
+// A file of another renderer is not.
 bool isReferenceFrame(const Frame& frame);
 
-// What readers of such a Frame must know of its relative_uncertainty, as a note of the Frame.
+// The note of such a Frame that tells its relative_uncertainty to users.
 std::string uncertaintyNote(double relative);
 
 }  // namespace diptych

@@ -40,17 +40,17 @@ Image8 readPng(const std::filesystem::path& file);
 Image8 readPng(std::span<const std::byte> bytes, const std::string& name,
                std::uint64_t most = limits::imageBytes());
 
-// What the header of a PNG says of its pixels as RGBA; of 16 bits a component, or 8.
+// The size of a PNG as RGBA, from its header: 16 bits a component if `deep`, otherwise 8.
 struct PngRgba {
     std::uint32_t width = 0, height = 0;
     bool deep = false;
     std::size_t rowBytes() const { return std::size_t{width} * (deep ? 8 : 4); }
 };
 
-// The pixels themselves, without a copy of their rows: RGBA as they are stored, row 0 on top, 16 bits in the
-// machine's order, into room for expected.height rows of expected.rowBytes(). Gammas and colour profiles are
-// ignored; what has no alpha is opaque. Throws std::runtime_error without a name where the file does not
-// decode or is not as expected.
+// Decodes the pixels without a copy of the rows: RGBA as stored, row 0 on top, 16 bit components in the
+// machine's byte order, into memory of expected.height rows of expected.rowBytes() bytes. Gammas and colour
+// profiles are ignored; a picture without alpha is opaque. Throws std::runtime_error without the file's name
+// if the file does not decode or differs from `expected`.
 void readPngRgba(std::span<const std::byte> bytes, const PngRgba& expected, unsigned char* pixels);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Source: PNG specification (ISO/IEC 15948), by chapter.
+// Source: PNG specification (ISO/IEC 15948); numbers in comments are its chapters.
 #include "shared/image/file_bytes.h"
 #include "shared/image/png.h"
 #include "shared/image/png_decoder.h"
@@ -27,7 +27,7 @@ namespace {
 
 // ---- what stands before the pixels -------------------------------------------------------------------
 
-// 4.3, 11.3.3: what the values mean. Profiles are not unpacked; that one is there is told.
+// 4.3, 11.3.3: the meaning of the values. Profiles are not decompressed; that there is one is noted.
 struct Encoding {
     std::uint32_t gamma = 0;  // in 1/100000, as the file has it; 0: none
     bool srgb = false, profile = false;
@@ -39,7 +39,7 @@ Encoding encodingOf(std::span<const std::byte> file) {
         std::memcpy(&value, file.data() + at, sizeof value);
         return std::endian::native == std::endian::little ? __builtin_bswap32(value) : value;
     };
-    constexpr std::size_t signature = 8, around = 12;  // length, name and checksum of a chunk
+    constexpr std::size_t signature = 8, around = 12;  // length, name and checksum around a chunk's data
     Encoding encoding;
     for (std::size_t at = signature; file.size() - at >= around;) {
         const std::size_t size = word(at);
@@ -53,7 +53,7 @@ Encoding encodingOf(std::span<const std::byte> file) {
     return encoding;
 }
 
-// sRGB stands above gAMA (4.3); gammas near sRGB's own, 1/2.2, are what writers of sRGB put there.
+// sRGB takes precedence over gAMA (4.3); a gAMA close to 1/2.2 is what writers of sRGB store.
 void describe(PngPicture& picture, const Encoding& encoding) {
     constexpr std::uint32_t linear = 100000, srgb = 45455, rounding = 100;
     const bool stated = encoding.gamma != 0 && !encoding.srgb;
@@ -68,7 +68,7 @@ void describe(PngPicture& picture, const Encoding& encoding) {
 
 // ---- the pixels --------------------------------------------------------------------------------------
 
-// 11.2.2: depth and colour stand in IHDR, the first chunk, which libpng has found to be sound.
+// 11.2.2: depth and colour are in IHDR, the first chunk, which libpng has checked.
 std::int64_t storedBits(std::span<const std::byte> file) {
     constexpr std::size_t depth = 24, color = 25;
     constexpr std::array<std::int64_t, 7> components{1, 0, 3, 1, 2, 0, 4};
@@ -76,7 +76,7 @@ std::int64_t storedBits(std::span<const std::byte> file) {
            components.at(std::to_integer<std::size_t>(file[color]));
 }
 
-// Filtered rows are deflated: a byte for the filter and whole bytes of pixels each.
+// The compressed data are rows: one byte for the filter and the pixels, padded to whole bytes.
 void checkDeflated(std::int64_t width, std::int64_t height, std::int64_t bits, std::size_t size) {
     const auto rows = static_cast<double>(height * (1 + (width * bits + 7) / 8));
     if (rows > limits::deflate_ratio * static_cast<double>(size)) failToHold(width, height, size);
