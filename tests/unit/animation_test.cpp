@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Keyframes at a time, by hand, and what they make of nodes, lights and cameras.
+// Keyframe interpolation against values computed by hand, and the resulting poses of nodes, lights and
+// cameras.
 #include "shared/scene/motion/animation.h"
 
 #include "shared/scene/motion/pose.h"
@@ -22,7 +23,7 @@ Keyframes keys(Interpolation interpolation, std::vector<float> times, std::vecto
     return {interpolation, std::move(times), std::move(values), width};
 }
 
-// A turn about +Z as x, y, z, w.
+// A rotation about +Z as x, y, z, w.
 std::vector<float> turn(double degrees) {
     const double half = degrees * degree / 2;
     return {0, 0, static_cast<float>(std::sin(half)), static_cast<float>(std::cos(half))};
@@ -39,7 +40,7 @@ std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
     return a;
 }
 
-// Degrees of a half angle whose sine and cosine are float32.
+// Degrees; so small that sine and cosine of the half angle are just representable in float32.
 constexpr double floatTurn = 2e-5;
 
 // ---- between keys ------------------------------------------------------------------------------------
@@ -64,7 +65,7 @@ TEST(Animation, LinearBetweenKeysAndClampedBeyond) {
     EXPECT_EQ(sampled(keys(Interpolation::linear, {2}, {7}, 1), weights, 1), (Values{7})) << "one key";
 }
 
-// A mean of the quaternions that is made unit would be at 26.6 degrees after a third of 0 to 90.
+// Interpolating the quaternions linearly and normalising would give 26.6 degrees after a third of 0 to 90.
 TEST(Animation, RotationsTurnEvenly) {
     const Keyframes k = keys(Interpolation::linear, {0, 3}, joined(turn(0), turn(90)), 4);
     for (const double t : {0.0, 0.5, 1.0, 2.0, 3.0, 4.0})
@@ -75,7 +76,7 @@ TEST(Animation, RotationsTurnEvenly) {
     EXPECT_NEAR(degreesAboutZ(sampled(none, rotation, 0.5)), 40, floatTurn);
 }
 
-// -q is the same rotation as q: from 350 to 370 degrees is a turn by 20, whichever sign stands in the file.
+// -q is the same rotation as q: from 350 to 370 degrees is a rotation by 20, whichever sign the file has.
 TEST(Animation, RotationsTakeTheShorterWay) {
     for (const double to : {10.0, 370.0}) {
         const Keyframes k = keys(Interpolation::linear, {0, 1}, joined(turn(-10), turn(to)), 4);
@@ -92,7 +93,7 @@ TEST(Animation, CubicSplinesScaleTheirTangentsByTheInterval) {
     EXPECT_EQ(sampled(k, weights, 1), (std::vector<double>{1}));
     EXPECT_EQ(sampled(k, weights, 3), (std::vector<double>{2}));
     EXPECT_EQ(sampled(k, weights, 4), (std::vector<double>{2}));
-    // Two components: tangents of a key stand before and after all of its values.
+    // With two components: a key's tangents come before and after all of its values.
     const Keyframes two =
         keys(Interpolation::cubic_spline, {0, 1}, {0, 0, 1, 10, 8, 0, 0, 8, 1, 10, 0, 0}, 2);
     EXPECT_EQ(sampled(two, weights, 0.5), (std::vector<double>{2, 9})) << "1 + 8/8 and 10 - 8/8";
@@ -104,7 +105,7 @@ TEST(Animation, CubicSplinesOfRotationsAreMadeUnit) {
     values = joined(joined(joined(values, flat), turn(120)), flat);
     Keyframes k = keys(Interpolation::cubic_spline, {0, 1}, values, 4);
     EXPECT_NEAR(degreesAboutZ(sampled(k, rotation, 0.5)), 60, floatTurn);
-    // Twice as long in the file: the same rotation at the key.
+    // A quaternion of length 2 in the file gives the same rotation at the key.
     for (float& v : k.values) v *= 2;
     EXPECT_NEAR(degreesAboutZ(sampled(k, rotation, 1)), 120, floatTurn);
     std::fill(k.values.begin(), k.values.end(), 0.0f);
@@ -119,7 +120,7 @@ struct MovedFile : GltfFile {
         json["nodes"] = {{{"children", {1}}, {"translation", {0, 10, 0}}},
                          {{"mesh", 0}, {"translation", {1, 0, 0}}, {"scale", {2, 2, 2}}}};
     }
-    // Linear, with keys at 0 s and 1 s.
+    // Linear interpolation, with keys at 0 s and 1 s.
     void channel(int node, const char* path, const std::vector<float>& values, const char* type,
                  std::size_t width, std::size_t animation = 0) {
         const int times = accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
@@ -140,7 +141,8 @@ void expectNear(const glm::dvec3& got, const glm::dvec3& expected, double tolera
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], tolerance) << what << " component " << c;
 }
 
-// What no channel moves stays: the parent's translation, the child's own scale of 2. Children follow.
+// Parts without a channel stay: the parent's translation, the child's own scale of 2. Children move with
+// parents.
 TEST(Animation, NodesMoveWithTheirParents) {
     MovedFile f;
     f.channel(0, "rotation", joined(turn(0), turn(90)), "VEC4", 4);
@@ -154,7 +156,7 @@ TEST(Animation, NodesMoveWithTheirParents) {
     EXPECT_EQ(placeOf(scene, 7, {0, 1, 0}), placeOf(scene, 1, {0, 1, 0})) << "the last key stays";
 }
 
-// The node stands otherwise at rest: a picture at 0 s is the first key's.
+// The node's transform at rest differs: a picture at 0 s shows the first key.
 TEST(Animation, ItBeginsWithTheFirstKey) {
     MovedFile f;
     f.channel(0, "translation", {0, 0, 5, 0, 0, 9}, "VEC3", 3);
@@ -181,7 +183,7 @@ TEST(Animation, LightsAndCamerasMove) {
                           {"camera", 0},
                           {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
     f.channel(0, "translation", {0, 10, 0, 0, 20, 0}, "VEC3", 3);
-    // A turn by 90 degrees about +X takes -Z to +Y.
+    // A rotation by 90 degrees about +X takes -Z to +Y.
     const float half = static_cast<float>(std::sqrt(0.5));
     f.channel(1, "rotation", {0, 0, 0, 1, half, 0, 0, half}, "VEC4", 4);
     const Scene scene = f.load();
@@ -194,7 +196,7 @@ TEST(Animation, LightsAndCamerasMove) {
     expectNear(-glm::dvec3(end.cameras[0].world_from_camera[2]), {0, 1, 0}, 1e-7, "the camera");
 }
 
-// What an animation carries out of float32's reach is not drawn then, and is again when it comes back.
+// An object that an animation moves beyond maxCoordinate is not drawn at that time, but is again later.
 TEST(Animation, WhatIsMovedBeyondReachIsNotInThePose) {
     MovedFile f;
     f.channel(0, "scale", {1, 1, 1, 1e18f, 1e18f, 1e18f}, "VEC3", 3);

@@ -59,13 +59,13 @@ std::string joined(const Faults& faults) {
     return all;
 }
 
-// A module may include itself and modules on lower floors; where `only` is not empty, no others than those.
+// A module may include itself and modules on lower floors; if `only` is not empty, only the modules in it.
 struct Module {
     std::string path;
     int floor;
     std::vector<std::string> only{};
 };
-// The scene knows no Vulkan and no Settings.
+// The scene library does not depend on Vulkan or Settings.
 const std::vector<std::string> belowScene{
     "shared/contract",     "shared/text",        "shared/image",
     "shared/scene/model",  "shared/scene/image", "shared/scene/motion",
@@ -113,7 +113,7 @@ const std::vector<Module> modules = {
     {"tests", 90},
 };
 
-// The innermost module that holds the file; nullptr: none.
+// The innermost module that contains the file; nullptr: none.
 const Module* moduleOf(const std::string& path) {
     const Module* best = nullptr;
     for (const Module& module : modules)
@@ -122,7 +122,7 @@ const Module* moduleOf(const std::string& path) {
     return best;
 }
 
-// Includes between quotes that climb a floor, cross to a stranger, or leave the contract.
+// Quoted includes that lead to a higher floor, to another module of the same floor, or out of the contract.
 Faults climbingIncludes(const Files& files) {
     static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     Faults faults;
@@ -172,14 +172,14 @@ TEST(Architecture, APlantedClimbIsFound) {
     EXPECT_EQ(plant("compare/reference/planted.cpp", "shared/vulkan/device.h"), 1u);
     EXPECT_EQ(plant("shaders/lib/planted.glsl", "shaders/pass/surface.vert"), 1u);
     EXPECT_EQ(plant("shared/draw/planted.h", "compare/render/renderer.h"), 1u);
-    // and what goes down is left alone
+    // includes that lead downwards are allowed
     EXPECT_EQ(plant("shared/contract/planted.h", "types.h"), 0u);
     EXPECT_EQ(plant("compare/render/planted.cpp", "deferred/deferred.h"), 0u);
     EXPECT_EQ(plant("shared/draw/planted.h", "shared/light/lights.h"), 0u);
 }
 
-// A header and its source are one unit: units that include each other in a circle can be understood, tested
-// and built only together. One line a circle, with a unit of it.
+// A header and its source are one unit. Units with circular includes could only be understood, tested and
+// built together. One line for each cycle, naming one of its units.
 Faults circularIncludes(const Files& files) {
     static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     const auto unitOf = [](const std::string& path) {
@@ -200,7 +200,7 @@ Faults circularIncludes(const Files& files) {
         }
     }
     Faults faults;
-    std::map<std::string, int> state;  // 1: on the way from the start, 2: done
+    std::map<std::string, int> state;  // 1: on the current walk, 2: done
     const std::function<void(const std::string&)> visit = [&](const std::string& unit) {
         state[unit] = 1;
         for (const std::string& next : uses[unit])
@@ -233,8 +233,8 @@ TEST(Architecture, APlantedCircleIsFound) {
     EXPECT_EQ(circularIncludes(direct).size(), 1u);
 }
 
-// The reference is an independent truth: of the contract it may name the channels and nothing else, and what
-// it asks of other modules is where they say what a scene is, not how the paths draw it.
+// The reference must be independent of the paths: of the contract it may use only the channels, and of other
+// modules only what describes the scene, not how the paths draw it.
 Faults borrowedByTheReference(const Files& files) {
     static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     static const std::regex contract("gpu::(?!DEBUG_|uint\\b)\\w+");
@@ -280,8 +280,8 @@ TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
     EXPECT_EQ(plant("#include \"shared/scene/model/scene.h\""), 0u);
 }
 
-// pi, 2 pi, pi/2, pi/4, 1/pi by their digits, and the macro that is no standard C++. Hand-computed values in
-// tests may hold them.
+// pi, 2 pi, pi/2, pi/4, 1/pi written as digits, and the macro M_PI, which is not standard C++. Values
+// computed by hand in tests may contain them.
 Faults otherPis(const Files& files) {
     static const std::regex pi("3\\.1415|6\\.2831|1\\.5707|0\\.7853|0\\.3183|M_PI");
     Faults faults;
@@ -331,7 +331,7 @@ TEST(Architecture, AMissingLicenceIsFound) {
     EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
 }
 
-// Files are read by libpng in one place, with one set of limits. Tests make PNG files of their own with it.
+// libpng reads files in one place, with one set of limits. Tests may use it to make PNG files.
 Faults otherUsersOfLibpng(const Files& files) {
     static const std::regex include(
         "(^|\n)[ \t]*#[ \t]*include[ \t]*[<\"](libpng[0-9]*/)?png(conf)?\\.h[>\"]");
@@ -366,7 +366,7 @@ TEST(Architecture, APlantedUseOfLibpngIsFound) {
     EXPECT_EQ(plant("CMakeLists.txt", "find_package(PNG REQUIRED)"), 0u);
 }
 
-// Folders of the machine that a file was written on have no place in it.
+// Absolute paths of the machine on which a file was written.
 Faults pathsOfAMachine(const Files& files) {
     static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
     Faults faults;
@@ -386,7 +386,7 @@ TEST(Architecture, APlantedFolderIsFound) {
     EXPECT_TRUE(pathsOfAMachine({{"README.md", "see https://example.org/homework/a"}}).empty());
 }
 
-// clang-format, which keeps C++ within 110 columns, does not read GLSL.
+// clang-format limits C++ to 110 columns, but does not handle GLSL.
 Faults longShaderLines(const Files& files) {
     Faults faults;
     for (const auto& [path, text] : files) {
@@ -470,7 +470,7 @@ TEST(Architecture, APlantedFaultOfTheDocumentationIsFound) {
     EXPECT_EQ(documentationFaults(files), Faults{"shaders/lib has no README.md"});
 }
 
-// A forgotten channel fails by name.
+// A channel that has no shader code fails by name.
 Faults channelsWithoutShader(const std::string& shader) {
     Faults faults;
     for (const DebugMode& mode : debugModes())

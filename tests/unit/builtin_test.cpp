@@ -35,8 +35,8 @@ std::size_t triangles(const Scene& scene) {
     return count;
 }
 
-// What scene.h promises of every primitive, and that normals, winding, texture coordinates and tangents tell
-// of the same surface.
+// Checks what scene.h promises of every primitive, and that normals, winding, texture coordinates and
+// tangents are consistent with each other.
 void expectWhole(const Primitive& p, const std::string& what) {
     ASSERT_EQ(p.normals.size(), p.positions.size()) << what;
     ASSERT_EQ(p.tangents.size(), p.positions.size()) << what;
@@ -173,7 +173,8 @@ TEST(Builtin, SpheresHasItsPublishedNumbers) {
     const Primitive& ball = scene.meshes[1].primitives[0];
     EXPECT_EQ(ball.positions.size(), 561u);
     EXPECT_EQ(ball.indices.size(), 3u * 960u);
-    // The first triangle is b c d of the cell (0, 0), then the next cell's; (a, b, d) comes from row 1 on.
+    // The first triangle is (b, c, d) of cell (0, 0), followed by the next cell's; (a, b, d) exists from row
+    // 1 on.
     EXPECT_EQ((std::vector<std::uint32_t>(ball.indices.begin(), ball.indices.begin() + 6)),
               (std::vector<std::uint32_t>{0, 33, 34, 1, 34, 35}));
     EXPECT_EQ((std::vector<std::uint32_t>(ball.indices.begin() + 96, ball.indices.begin() + 102)),
@@ -214,8 +215,8 @@ TEST(Builtin, TheGalleryHoldsWhatANewcomerShouldSee) {
         }
 }
 
-// A white Lambertian plane has irradiance pi under a constant radiance of 1, whichever way it faces. 64 suns
-// sample the cosine at 64 points; their error falls as N^-3/4 and is below 3 % of it.
+// A white Lambertian plane has irradiance pi under a constant radiance of 1, in any orientation. 64 suns
+// sample the cosine at 64 points; the error falls as N^-3/4 and is below 3 % here.
 TEST(Builtin, TheFurnaceIsEvenlyLit) {
     const Scene scene = makeBuiltin("furnace");
     const Primitive directions = sphere(1, 24, 12);
@@ -292,7 +293,7 @@ TEST(Textures, AreTheSameBytesOnEveryMachine) {
     EXPECT_EQ(squares.rgba[0], 1);
     EXPECT_EQ(squares.rgba[8], 5);          // the third texel of the first row
     EXPECT_EQ(squares.rgba[4 * 4 * 2], 5);  // the first texel of the third row
-    // FNV-1a over all bytes: any other value means that a machine or a change drew other textures, and that
+    // FNV-1a over all bytes: another value means that this machine or a change makes other textures, so that
     // pictures are no longer comparable with older ones.
     const auto fingerprint = [](const TextureImage& image) {
         std::uint32_t hash = 2166136261u;
@@ -305,8 +306,8 @@ TEST(Textures, AreTheSameBytesOnEveryMachine) {
 }
 
 TEST(Textures, NormalMapsRiseTowardsTheTop) {
-    // A ramp that rises to the right and, steeper, to the top: normals lean to the left and, more so,
-    // downwards.
+    // A ramp that rises to the right and, more steeply, to the top: normals tilt to the left and, more
+    // strongly, downwards.
     HeightField ramp{16, {}};
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) ramp.height.push_back(1000 * x + 2000 * (15 - y));

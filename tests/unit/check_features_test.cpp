@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which features of a scene a person must look at, and what is said of each.
+// Which features of a scene a person must check by eye, and how each is described.
 #include "compare/checks/check_features.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
@@ -46,7 +46,7 @@ TEST(CheckFeatures, AFrameShowsItsSceneAsItWasDrawn) {
     EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), Boxes{});
 }
 
-// The matrix as KHR_texture_transform writes it.
+// As the matrix of KHR_texture_transform.
 TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
     Scene scene = plainScene();
     const auto transformed = [&](double x, double y, double degrees, double sx, double sy) {
@@ -77,7 +77,7 @@ TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
         << "nothing reads the emissive slot";
 }
 
-// An edge mode shows only where a coordinate passes the edge.
+// A wrap mode is only visible where a texture coordinate lies beyond the edge.
 TEST(CheckFeatures, SamplersAreToldWhereTheyShow) {
     Scene scene = plainScene();
     TextureSlot& slot = scene.materials[0].base_color_texture;
@@ -126,7 +126,7 @@ TEST(CheckFeatures, WhiteVertexColoursShowNothing) {
     EXPECT_NE(what(scene, "vertex colours"), "");
 }
 
-// Alpha is factor x texel x vertex: 128 / 255 is just above a half.
+// alpha is factor x texel x vertex colour: 128 / 255 is just above one half
 TEST(CheckFeatures, MasksThatCutNothingOutSaySo) {
     Scene scene = plainScene();
     Material& m = scene.materials[0];

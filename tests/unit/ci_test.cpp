@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The workflow files of .ci/ that users copy: their commands parse, and what they keep is what is written.
+// The workflow files in .ci/ that users copy: their commands must parse, and the files that they keep must
+// be written.
 #include "compare/cli/command_line.h"
 #include "tests/unit/files.h"
 
@@ -13,7 +14,7 @@ using namespace cli;
 
 namespace {
 
-// Every line that calls compare, from its first word on.
+// Every line that calls compare, split into words.
 std::vector<std::vector<std::string>> callsIn(const std::string& text) {
     std::vector<std::vector<std::string>> calls;
     std::istringstream lines(text);

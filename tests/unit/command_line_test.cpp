@@ -46,7 +46,7 @@ TEST(CommandLine, EverySettingIsAnOptionOfEveryRenderingCommand) {
         });
 }
 
-// The options of the contract that are no settings.
+// Options that are not Settings.
 TEST(CommandLine, TheOtherSharedOptionsParse) {
     for (const std::string& command : rendering) {
         const Options options = parseCommandLine(
@@ -199,7 +199,8 @@ TEST(CommandLine, WhatDiffCompares) {
     EXPECT_EQ(o.tolerances, "t.json");
 }
 
-// Without a tolerance only the same picture passes, whichever way the figure points.
+// Without a tolerance only identical pictures pass, whether larger or smaller values of the metric are
+// better.
 TEST(CommandLine, TheUsualToleranceOfDiffIsIdentity) {
     const auto toleranceOf = [](const char* metric) {
         return parseCommandLine({"diff", "a", "b", "--metric", metric}).diff.tolerance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is printed to be typed again means the same when it is.
+// Commands that are printed for users to type have the same meaning when they are parsed again.
 #include "compare/run/command_text.h"
 #include "compare/cli/command_line.h"
 
@@ -15,7 +15,7 @@ using namespace cli;
 
 namespace {
 
-// The words that a shell makes of a line.
+// Splits a line into words as a shell does.
 std::vector<std::string> wordsOfShell(const std::string& line) {
     const std::string script = "set -- " + line + "\nfor word; do printf '%s\\0' \"$word\"; done";
     std::string quoted = "'";
@@ -39,7 +39,8 @@ Options parsedAgain(const std::string& line) {
     return parseCommandLine(words);
 }
 
-// One changed at a time and all together; values that a shell or a parser of options could misread.
+// Settings with one value changed at a time, and all together; with values that a shell or an option parser
+// could misread.
 std::vector<Settings> severalSettings() {
     std::vector<Settings> all(1);
     const auto add = [&](auto change) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the user may say of a comparison of two paths: rules, pixels that count, noise; and a picture of
-// earlier.
+// Options of comparing two paths: rules, masks, noise; and comparison with an earlier picture.
 #include "compare/verdict/comparison.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
@@ -31,8 +30,7 @@ bool says(const std::vector<std::string>& lines, const std::string& words) {
     return std::ranges::any_of(lines, [&](const std::string& l) { return l.find(words) != l.npos; });
 }
 
-// Two paths whose lit differs by a relative 0.25 at the only pixel that shows a surface, and nothing explains
-// it.
+// Two paths whose lit differs by a relative 0.25 at the only covered pixel, which no encoding explains.
 std::vector<Frame> framesApart() {
     std::vector<Frame> frames = bothFrames("one.glb");
     frames[0].channels.at(lit).at(1, 2) = 1;
@@ -75,7 +73,7 @@ TEST(CompareOptions, ColoursHaveAFlip) {
         EXPECT_EQ(channel.flip.has_value(), channel.mode->kind == ChannelKind::color) << channel.mode->name;
 }
 
-// A run of a path that differs from the other by 0.3 at 2 pixels.
+// A second run of a path that differs from the first by 0.3 at 2 pixels.
 std::vector<Frame> noisyFrames() {
     std::vector<Frame> frames = framesApart();
     frames[0].noise[lit] = {2, 0.3};
@@ -120,7 +118,7 @@ TEST(CompareOptions, ABaselineIsHeldAgainstBothPaths) {
     EXPECT_FALSE(report.passed()) << "the other path";
 }
 
-// FLIP, means and SSIM stay finite, and yet no bound on them lets a NaN against a number pass.
+// FLIP, means and SSIM stay finite for NaN, but no bound on them may let a NaN against a number pass.
 TEST(Measurement, NothingPassesANan) {
     const Image a(16, 16, 3, 0.5f);
     Image b = a;

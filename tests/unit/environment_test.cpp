@@ -17,7 +17,7 @@ namespace {
 const std::filesystem::path environments =
     std::filesystem::path(DIPTYCH_SOURCE_DIR "/../shared") / "assets/environments";
 
-// 4 x 2, every component another number that RGBE holds as well.
+// 4 x 2 pixels; all components are different numbers, which RGBE can hold exactly.
 Image numbered() {
     Image image(4, 2, 3);
     for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = 1 + static_cast<float>(i) / 32;
@@ -54,7 +54,7 @@ TEST(Environment, ExrAndRadianceHoldTheSamePixels) {
     }
 }
 
-// Whichever comes first in the file, the colours without a layer are the picture.
+// The channels without a layer name are the picture, wherever they are in the file.
 TEST(Environment, TheUnnamedLayerIsReadOrTheFirstWithColours) {
     const std::filesystem::path in = folder();
     const Image image = numbered(), other(4, 2, 3, 9), depth(4, 2, 1, 5);
@@ -123,7 +123,7 @@ TEST(Environment, WhatCannotBeOneIsNamed) {
     }
 }
 
-// Their own list names size and maximum.
+// The expected sizes and maxima come from the pictures' own list.
 TEST(Environment, RealOnes) {
     if (!std::filesystem::exists(environments))
         GTEST_SKIP() << "NO ASSETS at " << environments << ": real files are not tried";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// EXR files of several parts: what their layers are called, where they stand, what is refused of them and
-// why.
+// EXR files of several parts: the names of their layers, the positions of their pixels, and which files are
+// refused and why.
 #include "shared/image/exr.h"
 #include "tests/unit/exr_maker.h"
 
@@ -37,7 +37,8 @@ Names layerNames(const PictureFile& file) {
     return names;
 }
 
-// Component i of the layer is what the maker wrote as channel `made[i]` of the part; 0 outside of its data.
+// Checks that component i of the layer is what the maker wrote as channel `made[i]` of the part, and 0
+// outside of its data window.
 void expectMade(const PictureLayer& layer, int part, const std::vector<int>& made, const Imath::Box2i& data,
                 const Imath::Box2i& display) {
     SCOPED_TRACE(layer.name);
@@ -94,7 +95,7 @@ TEST(ExrParts, EveryPartIsReadAndItsLayersAreNamedByBoth) {
 }
 
 TEST(ExrParts, EveryCompressionInLinesAndTilesOfSeveralParts) {
-    // Integers below 2048 in half: exact in all but those that lose something.
+    // Integers below 2048 in half: exact with all compressions that are lossless for them.
     for (const Imf::Compression compression :
          {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
           Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION})
@@ -127,7 +128,7 @@ TEST(ExrParts, LevelZeroOfMipAndRipMaps) {
     }
 }
 
-// Each where it belongs: inside, over an edge, around everything, and outside.
+// Data windows inside the display window, across its edge, around it, and outside.
 TEST(ExrParts, DataWindowsOfTheirOwn) {
     const Imath::Box2i display = box(-3, -2, 6, 5);
     for (const Imath::Box2i& data :
@@ -158,7 +159,7 @@ TEST(ExrParts, OneAskedForIsAsTheOnlyOne) {
     EXPECT_EQ(faultOf(file, "ids"), "a.exr: part \"ids\": holds deep samples, which are not read");
 }
 
-// The right end of the last part's display window, which OpenEXR writes alike in all.
+// Changes the right end of the last part's display window, which OpenEXR writes the same for all parts.
 std::string withLastDisplay(std::string file, std::int32_t right) {
     const std::size_t at = file.rfind("displayWindow\0box2i\0"s) + 14 + 6 + 4 + 8;
     std::memcpy(file.data() + at, &right, 4);
@@ -204,7 +205,7 @@ TEST(ExrParts, ClaimsCountTogether) {
               "a.exr: part \"beauty\": claims 9 x 6 pixels of 28 bytes: 0 MiB are read at most");
     EXPECT_EQ(faultOf(file, "normals", 648), "reads") << "only what is asked for counts";
 
-    // 1 GiB of zeros may stand around small pixels, but not around each part's.
+    // 1 GiB of zeros is allowed around small pixels, but once, not for each part.
     std::vector<MadePart> small;
     for (const char* name : {"a", "b", "c"}) {
         small.push_back({name, {{"R", Imf::HALF}, {"G", Imf::HALF}}});
@@ -214,7 +215,7 @@ TEST(ExrParts, ClaimsCountTogether) {
               "a.exr: part \"c\": and the parts before it claim 1098 MiB: 1024 MiB are read at most");
 }
 
-// The 32 bit number `index` of the part's attribute, counted by the headers in the file, replaced.
+// Replaces the 32 bit number `index` of the part's attribute; `part` counts the headers in the file.
 std::string with(std::string file, int part, const std::string& attribute, std::size_t index,
                  std::int32_t value) {
     std::size_t at = file.find(attribute + '\0');
@@ -238,7 +239,7 @@ TEST(ExrParts, LiesOfALaterPartAreNamedByIt) {
     EXPECT_EQ(faultOf(kind), "a.exr: part \"normals\": is of type \"?scnlineimage\"");
     EXPECT_EQ(faultOf(file.substr(0, file.rfind("displayWindow") + 3)),
               "a.exr: its header holds a name without an end");
-    // Pixels that are not there: the library's words, under the part's name.
+    // If pixels are missing, the library's message is prefixed by the part's name.
     const std::string cut = faultOf(file.substr(0, file.size() - 40));
     EXPECT_TRUE(cut.starts_with("a.exr: part \"normals\": ")) << cut;
     EXPECT_EQ(cut.find('\n'), cut.npos);
@@ -249,7 +250,7 @@ TEST(ExrParts, SubsampledPartsAreRefusedByName) {
         return exrOf(
             {color, {"fog", {{"Y", Imf::HALF}, {name, Imf::HALF}}, box(0, 0, 7, 5), box(0, 0, 8, 5)}});
     };
-    // The library's writers want the sampling at the pixels, too: it is changed in what they have written.
+    // The library also checks the sampling when it writes pixels, so the written file is changed afterwards.
     const auto halved = [&](const std::string& name) {
         std::string file = sampled(name);
         const std::size_t at = file.find(name + "\0\1\0\0\0"s) + name.size() + 1 + 8;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR files of others: every compressor, tiles, crops, numbers; and files whose headers lie.
+// EXR files of other programs: every compressor, tiles, crops, integers; and files with wrong headers.
 #include "shared/image/exr.h"
 #include "shared/image/exr_header.h"
 #include "tests/unit/files.h"
@@ -35,7 +35,7 @@ std::string faultOf(const std::string& file, std::uint64_t most = limits::imageB
     return "reads";
 }
 
-// Channels i (half), j (float), k (uint) of 0.5, 0.25 and 3 in every pixel, from the top left of the window.
+// The pixels of channels i (half), j (float), k (uint): 0.5, 0.25 and 3, from the top left of the window.
 struct Pixels {
     explicit Pixels(const Imath::Box2i& window)
         : a(area(window), half(0.5f)), b(area(window), 0.25f), c(area(window), 3u) {
@@ -92,7 +92,7 @@ void expectFull(const Image& image, int width, int height) {
     }
 }
 
-// Constant pixels: the most that any compressor makes of a byte, and exact with those that lose something.
+// Constant pixels reach the highest compression ratios, and are exact even with lossy compressors.
 TEST(ExrOfOthers, EveryCompressorInLinesAndTiles) {
     for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression)
         for (const int tile : {0, 16, 200}) {
@@ -109,7 +109,8 @@ TEST(ExrOfOthers, EveryCompressorInLinesAndTiles) {
 }
 
 TEST(ExrOfOthers, ACropStandsWhereItBelongs) {
-    // Data from (-1, 2) to (2, 4) on a display from (1, 1) to (4, 3): columns 1 to 2, rows 2 to 3 are seen.
+    // The data window is (-1, 2) to (2, 4), the display window (1, 1) to (4, 3): columns 1 to 2 and rows 2
+    // to 3 overlap.
     const Imath::Box2i display(Imath::V2i(1, 1), Imath::V2i(4, 3)), data(Imath::V2i(-1, 2), Imath::V2i(2, 4));
     const std::string file = written(header(display, data, Imf::ZIP_COMPRESSION));
     const Image image = readExr(bytesIn(file), "a.exr").layers[0].image;
@@ -124,7 +125,7 @@ TEST(ExrOfOthers, ACropStandsWhereItBelongs) {
     for (const float value : unseen[0].image.data) EXPECT_EQ(value, 0);
 }
 
-// float32 holds integers up to 2^24, and of the larger ones some.
+// float32 represents all integers up to 2^24, and only some of the larger ones.
 TEST(ExrOfOthers, NumbersThatFloat32WouldRoundAreKept) {
     const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(2, 0));
     const auto fileOf = [&](const std::vector<unsigned>& ids) {
@@ -184,8 +185,8 @@ TEST(ExrOfOthers, ComponentsStandInTheirOrderHoweverTheyAreSpelled) {
                   "m.depth:", "m.depth.Z", "n:", "n.x", "n.y", "n.z", "t:", "t.U",   "t.V",     "t.weight"}));
 }
 
-// The library is handed no attribute but the pixels' own; what claims a length of its own inside is not among
-// them.
+// Only the attributes that the pixels need are passed to the library; none that contains lengths of its own
+// is among them.
 TEST(ExrOfOthers, OtherAttributesAreLeftOutOfTheHeader) {
     Imf::Header head = header(whole, whole, Imf::ZIP_COMPRESSION);
     head.insert("layers", Imf::StringVectorAttribute({"one", "two"}));
@@ -202,7 +203,8 @@ TEST(ExrOfOthers, OtherAttributesAreLeftOutOfTheHeader) {
         << "pixels stay where the offsets say";
 }
 
-// A small file of ours with the 32 bit number behind `attribute`, its type and its size replaced.
+// A small file written by this program, with the type, the size and the 32 bit number after `attribute`
+// replaced.
 std::string with(std::string file, const std::string& attribute, const std::string& type, std::size_t index,
                  std::int32_t value) {
     const std::size_t at = file.find(attribute + '\0' + type + '\0');

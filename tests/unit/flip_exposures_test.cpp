@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// At which exposures HDR-FLIP looks, and what of it.
+// The exposures that HDR-FLIP chooses, and their effect.
 #include "compare/metrics/flip.h"
 #include "tests/unit/test_pictures.h"
 

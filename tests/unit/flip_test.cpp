@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FLIP against what its authors' program gives, and against what any FLIP must hold to.
+// FLIP against figures of its authors' program, and against properties that any implementation must have.
 #include "compare/metrics/flip.h"
 
 #include "compare/metrics/fast_math.h"
@@ -35,8 +35,8 @@ std::string errorOf(const Image& reference, const Image& test, const HdrFlipOpti
     return "";
 }
 
-// The authors' program 1.6 prints six digits; its conversion to XYZ uses a white rounded to nine, which moves
-// black against white by 4e-6.
+// The authors' program 1.6 prints six digits; its conversion to XYZ uses a white point rounded to nine
+// digits, which changes black against white by 4e-6.
 constexpr double digits = 1e-5;
 
 TEST(Flip, FlatPicturesAreAsTheAuthorsProgramHasThem) {
@@ -51,7 +51,7 @@ TEST(Flip, FlatPicturesAreAsTheAuthorsProgramHasThem) {
     }
 }
 
-// Pictures for which the authors' program's figures are known, beside the repository.
+// Pictures for which the figures of the authors' program are known, in a folder beside the repository.
 const fs::path published = fs::path(DIPTYCH_SOURCE_DIR) / "../shared/flip";
 
 Image displayValues(const fs::path& file) {
@@ -73,7 +73,7 @@ TEST(Flip, TreeIsAsTheAuthorsProgramHasIt) {
     EXPECT_NEAR(r.mean, 0.133276, digits);
     EXPECT_NEAR(r.weighted_median, 0.333201, digits);
     EXPECT_NEAR(r.max, 0.983034, digits);
-    // What one viewer's distance changes, the tolerance sees.
+    // The tolerance is small enough to notice a change of the viewing distance.
     EXPECT_GT(std::abs(ldrFlip(reference, test, {.pixels_per_degree = 66}).mean - 0.133276), 10 * digits);
 }
 
@@ -98,7 +98,7 @@ TEST(Flip, ThePictureItselfIsExactlyZero) {
     const Image display = noise(300, 140, 1), linear = noise(300, 140, 2, 0, 1000);
     EXPECT_EQ(ldrFlip(display, display).max, 0);
     EXPECT_EQ(hdrFlip(linear, linear).max, 0);
-    // Equal in value, not in bits: what is the same is not left out by comparing bits alone.
+    // 0 and -0 are equal as values but not in their bits: comparing bits alone would miss that.
     Image zero = display, minus = display;
     set(zero, 150, 70, 0.0f);
     set(minus, 150, 70, -0.0f);
@@ -110,8 +110,8 @@ TEST(Flip, ThePictureItselfIsExactlyZero) {
 }
 
 TEST(Flip, APartHasTheErrorsOfTheWholeAwayFromItsBorder) {
-    // 10 pixels around are what the widest filter sees at 67 pixels per degree. Tiles lie elsewhere in the
-    // part.
+    // The widest filter reaches 10 pixels at 67 pixels per degree. In the crop, tiles are at other
+    // positions.
     const Image a = noise(700, 300, 3), b = noise(700, 300, 4);
     const Image whole = ldrFlip(a, b).error,
                 cut = ldrFlip(part(a, 101, 53, 411, 199), part(b, 101, 53, 411, 199)).error;
@@ -126,7 +126,7 @@ TEST(Flip, APartHasTheErrorsOfTheWholeAwayFromItsBorder) {
 }
 
 TEST(Flip, ADifferenceIsSeenWhereverItIs) {
-    // In tiles left out as the same none may be lost: the corners of tiles and of the picture.
+    // Equal tiles are skipped, but no difference in a tile's or the picture's corner may be.
     const Image a = noise(600, 260, 5);
     for (const auto& [x, y] : {std::pair{0, 0}, {599, 259}, {199, 86}, {200, 87}, {299, 130}, {410, 129}}) {
         Image b = a;
@@ -162,13 +162,14 @@ TEST(Flip, ANanIsOnePixelsError) {
     EXPECT_EQ(r.nonfinite_test, 2u);
     EXPECT_EQ(r.nonfinite_different, 2u);
     EXPECT_EQ(r.pixels, 60u * 50u);
-    // Negative control: a value that is wrong, but finite, is seen around it.
+    // Negative control: a wrong finite value changes the pixels around it.
     set(b, 30, 25, 0.0f);
     EXPECT_GT(ldrFlip(a, b).error.at(31, 25), 0);
 }
 
 TEST(Flip, NeighboursOfHolesAreMeasuredWithoutThem) {
-    // A flat pair has one error; holes, the borders' and a wide one too, leave it at that.
+    // Two flat pictures differ by the same error everywhere; holes, also at the border and wide ones, must
+    // not change it.
     Image a = grey(0.5f), b = grey(0.6f);
     const float expected = ldrFlip(a, b).error.at(20, 15);
     set(a, 10, 10, nan);

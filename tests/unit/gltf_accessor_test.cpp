@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every shape, type, layout and mode in which glTF stores numbers, each with values known by hand.
+// Every shape, type, layout and mode in which glTF stores numbers, with values known by hand.
 #include "shared/scene/gltf/accessor.h"
 #include "tests/unit/gltf_maker.h"
 
@@ -16,7 +16,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-// A number as a component type stores it: `real` of 1.0 for floats, of the largest integer otherwise.
+// A number as a component type stores it: `real` itself for floats; for normalized integers `real` times the
+// largest integer.
 void append(std::string& data, int type, double real, bool normalized) {
     const auto put = [&](auto value) { data.append(reinterpret_cast<const char*>(&value), sizeof value); };
     const auto integer = [&](auto sample) {
@@ -87,8 +88,8 @@ TEST(GltfAccessor, MatrixColumnsAreAligned) {
     }
 }
 
-// KHR_mesh_quantization's table of types, each read where it lies: one vertex after the other, all attributes
-// of a vertex side by side, from an offset that is no multiple of anything.
+// The types that KHR_mesh_quantization allows, interleaved: all attributes of a vertex side by side, from an
+// offset without alignment.
 TEST(GltfAccessor, EveryAttributeTypeInterleaved) {
     struct Row {
         const char* name;
@@ -109,7 +110,7 @@ TEST(GltfAccessor, EveryAttributeTypeInterleaved) {
     for (const char* shape : {"VEC3", "VEC4"})
         for (const int type : {UBYTE, USHORT, FLOAT}) rows.push_back({"COLOR_0", shape, type, type != FLOAT});
 
-    // Vertex by vertex; 0 and 1 are exact in every type, normalized or not.
+    // For each vertex; 0 and 1 are exact in every type, normalized or not.
     const double values[3][4] = {{0, 0, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
     for (const Row& row : rows) {
         GltfFile f = GltfFile::triangle();
@@ -119,7 +120,7 @@ TEST(GltfAccessor, EveryAttributeTypeInterleaved) {
         const auto width = static_cast<std::size_t>(row.shape[3] - '0');
         const double normal[4] = {0, 0, 1, 1};
         for (const auto& vertex : values) {
-            for (const double v : vertex) append(f.data, FLOAT, v, false);  // what lies between
+            for (const double v : vertex) append(f.data, FLOAT, v, false);  // padding between the attributes
             for (std::size_t c = 0; c < width; ++c) append(f.data, row.type, vertex[c], row.normalized);
             for (std::size_t c = 0; c < 3; ++c) append(f.data, FLOAT, normal[c], false);
             f.data.resize(begin + (f.data.size() - begin + 3) / 4 * 4, 'x');
@@ -167,7 +168,7 @@ TEST(GltfAccessor, EveryAttributeTypeInterleaved) {
     }
 }
 
-// Two triangles of a unit square, whatever lists them: every mode with every index type and with none.
+// Two triangles of a unit square, in every mode with every index type and without indices.
 TEST(GltfAccessor, EveryModeWithEveryIndexType) {
     const std::array<glm::vec3, 4> square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
     const std::vector<int> orders[] = {{0, 1, 2, 0, 2, 3}, {0, 1, 3, 2}, {0, 1, 2, 3}};  // list, strip, fan
@@ -191,7 +192,7 @@ TEST(GltfAccessor, EveryModeWithEveryIndexType) {
                     using T = decltype(sample);
                     const std::vector<T> values(order.begin(), order.end());
                     if (!sparse) return f.accessor(values, type, "SCALAR", 1);
-                    // No bufferView: zeros, but for all the others.
+                    // Without a bufferView, all but the sparse elements are zero.
                     std::vector<std::uint8_t> places;
                     for (std::size_t i = 1; i < values.size(); ++i)
                         places.push_back(static_cast<std::uint8_t>(i));

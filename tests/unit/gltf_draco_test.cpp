@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_draco_mesh_compression: streams of the library's own encoder, read back through the loader.
+// KHR_draco_mesh_compression: streams of the library's own encoder, decoded by the loader.
 #include "shared/scene/gltf/gltf.h"
 #include "tests/unit/draco_maker.h"
 
@@ -18,7 +18,7 @@ namespace {
 std::vector<std::array<float, 9>> cornersOf(const Primitive& p) {
     std::vector<std::array<float, 9>> result;
     for (std::size_t i = 0; i < p.indices.size(); i += 3) {
-        // A triangle begins anywhere: here at its least corner.
+        // Triangles may begin at any corner: here at the least one.
         std::array<std::array<float, 3>, 3> t;
         for (std::size_t c = 0; c < 3; ++c) {
             const glm::vec3 v = glm::round(p.positions[p.indices[i + c]]);
@@ -31,7 +31,8 @@ std::vector<std::array<float, 9>> cornersOf(const Primitive& p) {
     return result;
 }
 
-// The n x n squares, every triangle once and no other, with the attributes of where its corners are.
+// Checks for the n x n squares: every triangle exactly once, with the attributes that belong to its corners'
+// positions.
 void expectSurface(const Primitive& p, int n, float positionError, float texcoordError) {
     Primitive expected;
     for (const auto& t : trianglesOf(n))
@@ -46,7 +47,7 @@ void expectSurface(const Primitive& p, int n, float positionError, float texcoor
         for (int c = 0; c < 2; ++c) ASSERT_NEAR(p.texcoords[0][v][c], texcoordAt(at)[c], texcoordError);
         ASSERT_EQ(p.texcoords[1][v], glm::vec2(countsAt(at)));
         ASSERT_EQ(p.colors[v], glm::vec4(colorAt(at)) / 255.0f);
-        ASSERT_NEAR(p.normals[v].z, 1, 1e-6f);  // octahedral or exact, it is made unit
+        ASSERT_NEAR(p.normals[v].z, 1, 1e-6f);  // normalised by the loader, whether octahedral or exact
     }
 }
 
@@ -60,7 +61,7 @@ std::string lineOf(GltfFile& f) {
     return "";
 }
 
-// What damaged bytes of the stream end in: a scene or one line. Returns the line.
+// Loads damaged bytes, which must result in a scene or a one-line error. Returns that line.
 std::string lineOfDamage(const std::string& binary) {
     try {
         parseGltf({binary.begin(), binary.end()}, "damaged");
@@ -102,7 +103,7 @@ TEST(GltfDraco, MetadataIsPassedOver) {
     }
 }
 
-// The stream has one square, the accessors' own data another: each primitive gets its own.
+// The stream holds one square and the accessors' own data another: each primitive gets its own.
 TEST(GltfDraco, SharedAccessorsStayAsTheyAre) {
     GltfFile f = GltfFile::triangle();
     const DracoStream s = encoded(1, {draco::MESH_SEQUENTIAL_ENCODING});
@@ -128,7 +129,7 @@ TEST(GltfDraco, AttributesBesideTheStreamStay) {
     for (const glm::vec2& t : f.only(scene).texcoords[1]) EXPECT_EQ(t, glm::vec2(0.25f));
 }
 
-// A strip's stream holds the triangles that it is made of.
+// The stream of a strip holds the triangles that it consists of.
 TEST(GltfDraco, StripsAreTriangles) {
     GltfFile f = compressed(encoded(2));
     f.primitive()["mode"] = 5;
@@ -150,7 +151,7 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
     ASSERT_TRUE(draco::Encoder().EncodePointCloudToBuffer(cloud, &points).ok());
 
     struct Fault {
-        const char* line;  // after "mesh 0, primitive 0: KHR_draco_mesh_compression: "
+        const char* line;  // the text after "mesh 0, primitive 0: KHR_draco_mesh_compression: "
         std::function<void(GltfFile&)> change;
     };
     const auto count = [](std::size_t accessor, int value) {
@@ -197,13 +198,13 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
     }
 }
 
-// A few bytes may claim any number of vertices: it is not believed.
+// A few bytes may claim any number of vertices, which must not be trusted.
 TEST(GltfDraco, ClaimsBeyondTheFileAreRefused) {
     GltfFile f = compressed(encoded(2));
     f.json["accessors"][5]["count"] = 30000000;
     EXPECT_EQ(lineOf(f).find("its compressed geometry asks for 960000"), 0u);
     GltfFile strip = compressed(encoded(2));
-    strip.primitive().erase("indices");  // nothing says how many triangles there are
+    strip.primitive().erase("indices");  // without indices nothing tells the number of triangles
     EXPECT_EQ(lineOf(strip), "");
     strip.data.replace(13, 1, "\xff\xff\xff\x7f");
     strip.json["bufferViews"][0]["byteLength"] = strip.data.size();
@@ -211,8 +212,8 @@ TEST(GltfDraco, ClaimsBeyondTheFileAreRefused) {
         << lineOf(strip);
 }
 
-// Predicted texture coordinates come with one bit each. The library walks through as many bits as the stream
-// says, up to 2^31: wherever that number stands, a large one must be seen before.
+// Predicted texture coordinates have one bit each. The library loops over as many bits as the stream says,
+// up to 2^31: wherever that number is, a large one must be detected before.
 TEST(GltfDraco, MoreOrientationsThanTexcoordsAreRefused) {
     const DracoStream s = encoded(4, {draco::MESH_EDGEBREAKER_ENCODING, 0, 10});
     GltfFile f = compressed(s);
@@ -228,7 +229,7 @@ TEST(GltfDraco, MoreOrientationsThanTexcoordsAreRefused) {
     EXPECT_EQ(seen, 1);
 }
 
-// Damage ends in a scene or in one line; AddressSanitizer sees the rest.
+// Damaged streams result in a scene or in a one-line error; AddressSanitizer checks memory.
 TEST(GltfDraco, DamagedStreamsAreSceneOrLine) {
     std::mt19937 random(11);
     int scenes = 0, lines = 0;
@@ -245,7 +246,7 @@ TEST(GltfDraco, DamagedStreamsAreSceneOrLine) {
                 }
                 ++(lineOfDamage(other).empty() ? scenes : lines);
             }
-            for (std::size_t length = 1; length < f.data.size(); ++length) {  // cut short anywhere
+            for (std::size_t length = 1; length < f.data.size(); ++length) {  // truncated at any length
                 f.json["bufferViews"][0]["byteLength"] = length;
                 lineOf(f);
             }
@@ -254,11 +255,12 @@ TEST(GltfDraco, DamagedStreamsAreSceneOrLine) {
     EXPECT_GT(lines, 0);
 }
 
-// Draco's library holds another tinygltf, whose structs are others. It must not be the one that is called.
+// Draco's library contains another tinygltf with other structs, which must not be called instead.
 TEST(GltfDraco, TinygltfIsItsOwnLibrary) {
     std::ifstream stream(DIPTYCH_PROGRAM, std::ios::binary);
     const std::string program{std::istreambuf_iterator<char>(stream), {}};
     ASSERT_FALSE(program.empty());
     EXPECT_NE(program.find("libtinygltf.so"), program.npos);
-    EXPECT_EQ(program.find("object not found in .gltf"), program.npos);  // what its code says
+    // Text in the code of Draco's tinygltf.
+    EXPECT_EQ(program.find("object not found in .gltf"), program.npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the loader says, word by word: file, object, fault.
+// The loader's error messages, word by word: file, object, fault.
 #include "tests/unit/gltf_maker.h"
 
 #include <sys/stat.h>
@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// One change to a valid file, and the whole line after the file's name.
+// A change to a valid file, and the whole message after the file's name.
 struct Fault {
     const char* line;
     std::function<void(GltfFile&)> change;
@@ -160,12 +160,12 @@ TEST(GltfErrors, Documents) {
               "is not JSON: number overflow parsing '1e999'");
 }
 
-// A parser that recurses would need a stack frame a level: a million levels are refused before any parser of
-// objects sees them.
+// A recursive parser would need a stack frame for each level: a million levels are refused before such a
+// parser sees them.
 TEST(GltfErrors, NestingIsBoundedBeforeParsing) {
     GltfFile f = GltfFile::triangle();
     f.json["extras"] = deep(127);
-    f.json["nodes"][0]["name"] = "[[[{{{\\\"[[[";  // no nesting inside strings
+    f.json["nodes"][0]["name"] = "[[[{{{\\\"[[[";  // brackets in strings are not nesting
     EXPECT_EQ(f.error(), "");
     f.json["extras"] = deep(128);
     EXPECT_EQ(f.error(), (testFolder() / "scene.gltf").string() + ": its JSON nests deeper than 128");
@@ -175,7 +175,7 @@ TEST(GltfErrors, NestingIsBoundedBeforeParsing) {
     EXPECT_EQ(linesFor("{\"extras\":" + objects), "its JSON nests deeper than 128");
 }
 
-// Symbolic links are followed inside the folder and refused where they lead out of it.
+// Symbolic links are followed if they stay in the folder, and refused if they lead out of it.
 TEST(GltfErrors, LinksStayInTheFolder) {
     namespace fs = std::filesystem;
     const fs::path folder = testFolder() / "scene", outside = testFolder() / "outside";

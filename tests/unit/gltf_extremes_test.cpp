@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Geometry that is broken, huge, tiny, far away or everywhere: it ends in a picture of what is sound, a
-// note, or one line.
+// Geometry that is broken, huge, tiny, far away or overlapping: loading results in a scene of the valid
+// parts, a note, or a one-line error.
 #include "shared/scene/model/tangents.h"
 #include "shared/scene/motion/bounds.h"
 #include "tests/unit/gltf_maker.h"
@@ -79,7 +79,7 @@ TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepairedWithACount) {
     EXPECT_TRUE(mentions(scene.notes, "COLOR_0: 2 are not finite: white"));
 }
 
-// What is beyond is not called infinite.
+// Values beyond maxCoordinate are not called infinite.
 TEST(GltfExtremes, AttributesBeyondWhatIsDrawnAreNamedSo) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["attributes"]["TEXCOORD_0"] =
@@ -90,7 +90,7 @@ TEST(GltfExtremes, AttributesBeyondWhatIsDrawnAreNamedSo) {
     EXPECT_TRUE(mentions(scene.notes, "TEXCOORD_0: 2 are beyond 1e+18: 0, 0"));
 }
 
-// Nothing depends on vertices that no triangle touches, not even their being finite.
+// Vertices that no triangle uses have no effect, even if they are not finite.
 TEST(GltfExtremes, UntouchedVerticesAreNotKept) {
     GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, NaN, 1, 0, 0, 2, 0, 9, 9, 9});
     f.primitive()["attributes"]["NORMAL"] = f.accessor(flatNormals(6), FLOAT, "VEC3", 3);
@@ -101,7 +101,7 @@ TEST(GltfExtremes, UntouchedVerticesAreNotKept) {
     EXPECT_TRUE(scene.notes.empty());
 }
 
-// A few indices into a large accessor are looked up one by one, sparse elements too.
+// A few indices into a large accessor are read one by one, also for sparse elements.
 TEST(GltfExtremes, AFewVerticesOfManyAreFound) {
     GltfFile f = GltfFile::triangle();
     std::vector<float> positions(3 * 1000);
@@ -121,7 +121,7 @@ TEST(GltfExtremes, AFewVerticesOfManyAreFound) {
     EXPECT_EQ(f.only(scene).indices, (std::vector<std::uint32_t>{2, 1, 0, 1, 2, 0}));
 }
 
-// A file of a few kilobytes that asks for gigabytes.
+// A file of a few kilobytes that would decode to gigabytes.
 TEST(GltfExtremes, WhatDecodesToTooMuchIsRefusedBeforehand) {
     GltfFile f = GltfFile::triangle();
     f.json["accessors"].push_back({{"componentType", FLOAT}, {"count", 3000000}, {"type", "VEC3"}});
@@ -134,7 +134,7 @@ TEST(GltfExtremes, WhatDecodesToTooMuchIsRefusedBeforehand) {
               error.npos)
         << error;
 
-    // The same accessor, a triangle of it a thousand times, is little.
+    // A thousand primitives that use one triangle each of the same accessor need little memory.
     const int indices = f.accessor<std::uint32_t>({0, 2999999, 7}, UINT, "SCALAR", 1);
     for (Json& primitive : f.json["meshes"][0]["primitives"]) primitive["indices"] = indices;
     const Scene scene = f.load();
@@ -174,7 +174,8 @@ TEST(GltfExtremes, NotesOnMaterialsSkinsAndAnimationsAreFewToo) {
 TEST(GltfExtremes, MeshesThatNothingDrawsAreNotRead) {
     GltfFile f = GltfFile::triangle();
     f.json["meshes"].push_back(f.json["meshes"][0]);
-    f.json["meshes"][1]["primitives"][0]["indices"] = 0;  // floats: would be refused
+    // An accessor of floats, which would be refused as indices.
+    f.json["meshes"][1]["primitives"][0]["indices"] = 0;
     const Scene scene = f.load();
     ASSERT_EQ(scene.meshes.size(), 2u);
     EXPECT_TRUE(scene.meshes[1].primitives.empty());
@@ -201,7 +202,7 @@ TEST(GltfExtremes, WhatLiesBeyondFloatIsLeftOutWithACount) {
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     f.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
     const Json lit = {{"KHR_lights_punctual", {{"light", 0}}}};
-    // The child of a node scaled by 1e30 twice over leaves float32; its mesh, light and camera go.
+    // Two nested scales of 1e30 leave float32: the mesh, light and camera of the child are left out.
     f.json["nodes"] = {{{"mesh", 0}},
                        {{"scale", {1e30, 1e30, 1e30}}, {"children", {2}}},
                        {{"scale", {1e30, 1e30, 1e30}}, {"children", {3}}},
@@ -219,7 +220,7 @@ TEST(GltfExtremes, WhatLiesBeyondFloatIsLeftOutWithACount) {
     EXPECT_TRUE(mentions(scene.notes, "1 camera is not finite"));
 }
 
-// Not the node is too far, but what it scales: vertices at 1, 1e19 m away.
+// The node is not too far away, but its scaled vertices are: 1 becomes 1e19 m.
 TEST(GltfExtremes, TheMeshCountsNotOnlyItsNode) {
     GltfFile f = strip({0, 0, 0, 1e10f, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});
     f.json["nodes"][0]["scale"] = {1e9, 1, 1};
@@ -275,8 +276,8 @@ TEST(GltfExtremes, AHundredThousandNodesAreDrawn) {
 
 // ---- what could be quadratic -------------------------------------------------------------------------
 
-// Each of 200 000 loose triangles around one vertex has a tangent of its own there: searched one by one
-// they would take minutes, here the test's own time limit.
+// 200 000 separate triangles meet in one vertex, each with another tangent there: comparing each with all
+// would take minutes, beyond the test's time limit.
 TEST(GltfExtremes, ManyTangentsAtOneVertexTakeLinearTime) {
     constexpr std::uint32_t count = 200000;
     Primitive p;
@@ -286,7 +287,7 @@ TEST(GltfExtremes, ManyTangentsAtOneVertexTakeLinearTime) {
         const double a = 6.283185307179586 * i / count, b = a + 1e-6;
         for (const double angle : {a, b}) {
             p.positions.push_back({std::cos(angle), std::sin(angle), 0});
-            // Its own picture: u along the spoke, so that the tangent turns with it.
+            // UV coordinates of its own, u along the spoke, so that the tangent rotates with it.
             p.texcoords[0].push_back(angle == a ? glm::vec2(1, 0) : glm::vec2(1, -1));
         }
         p.indices.insert(p.indices.end(), {0, 2 * i + 1, 2 * i + 2});

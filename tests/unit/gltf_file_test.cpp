@@ -6,7 +6,7 @@
 using namespace diptych;
 using Json = nlohmann::json;
 
-TEST(GltfDoor, BinaryHoldsTheSame) {
+TEST(GltfLoading, BinaryHoldsTheSame) {
     GltfFile f = GltfFile::triangle();
     std::ofstream(testFolder() / "scene.GLB", std::ios::binary) << f.binary();
     const Scene scene = loadScene((testFolder() / "scene.GLB").string());
@@ -14,7 +14,7 @@ TEST(GltfDoor, BinaryHoldsTheSame) {
 }
 
 // Each change makes one number of a valid file wrong; the error names file, object and fault on one line.
-TEST(GltfDoor, WrongNumbersAreRefusedByName) {
+TEST(GltfLoading, WrongNumbersAreRefusedByName) {
     struct Case {
         const char* expected;
         std::function<void(GltfFile&)> change;
@@ -25,7 +25,8 @@ TEST(GltfDoor, WrongNumbersAreRefusedByName) {
         {"accessor 0: count is 9223372036854775807, not at most 9007199254740992",
          [](GltfFile& f) { f.json["accessors"][0]["count"] = 9223372036854775807; }},
         {"accessor 0: count is 6148914691236517206, not at most",
-         [](GltfFile& f) { f.json["accessors"][0]["count"] = 6148914691236517206; }},  // x 12 wraps
+         // Times 12 overflows 64 bits.
+         [](GltfFile& f) { f.json["accessors"][0]["count"] = 6148914691236517206; }},
         {"accessor 0: 3 vertices", [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }},
         {"accessor 0: byteOffset is 18446744073709551600, not at most",
          [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 18446744073709551600u; }},
@@ -100,7 +101,7 @@ TEST(GltfDoor, WrongNumbersAreRefusedByName) {
     }
 }
 
-TEST(GltfDoor, UrisStayInTheFolder) {
+TEST(GltfLoading, UrisStayInTheFolder) {
     std::ofstream(testFolder().parent_path() / "outside.bin", std::ios::binary) << std::string(36, '\0');
     for (const char* uri :
          {"../outside.bin", "%2e%2e/outside.bin", "a/../../outside.bin", "/etc/passwd", "file:///etc/passwd",
@@ -118,9 +119,9 @@ TEST(GltfDoor, UrisStayInTheFolder) {
     }
 }
 
-// Every prefix of a binary file, and every file with one wrong byte in its lengths, ends in an error or a
-// scene.
-TEST(GltfDoor, TruncatedBinariesAreRefused) {
+// Every prefix of a binary file, and every file with one wrong byte in its lengths, results in a scene or an
+// error.
+TEST(GltfLoading, TruncatedBinariesAreRefused) {
     const std::string whole = GltfFile::triangle().binary();
     EXPECT_EQ(loadBytes(whole), "");
     for (std::size_t size = 0; size < whole.size(); size += size < 40 ? 1 : 37)
@@ -134,7 +135,7 @@ TEST(GltfDoor, TruncatedBinariesAreRefused) {
         }
 }
 
-TEST(GltfDoor, MissingBuffersAreNamed) {
+TEST(GltfLoading, MissingBuffersAreNamed) {
     GltfFile f = GltfFile::triangle();
     f.written();
     f.json["buffers"][0]["uri"] = "gone.bin";
@@ -148,7 +149,7 @@ TEST(GltfDoor, MissingBuffersAreNamed) {
     }
 }
 
-TEST(GltfDoor, DataUrisAreRead) {
+TEST(GltfLoading, DataUrisAreRead) {
     GltfFile f = GltfFile::triangle();
     f.written();
     f.data.clear();
@@ -165,8 +166,8 @@ TEST(GltfDoor, DataUrisAreRead) {
     }
 }
 
-// JSON Schema's integers: 3.0 is one.
-TEST(GltfDoor, WholeNumbersMayBeWrittenWithAPoint) {
+// In JSON Schema, 3.0 is an integer.
+TEST(GltfLoading, WholeNumbersMayBeWrittenWithAPoint) {
     GltfFile f = GltfFile::triangle();
     f.json["accessors"][0]["count"] = 3.0;
     f.json["nodes"][0]["mesh"] = 0.0;
@@ -174,7 +175,7 @@ TEST(GltfDoor, WholeNumbersMayBeWrittenWithAPoint) {
     EXPECT_EQ(f.only(scene).positions.size(), 3u);
 }
 
-TEST(GltfDoor, NamesHoldNoControlCharacters) {
+TEST(GltfLoading, NamesHoldNoControlCharacters) {
     GltfFile f = GltfFile::triangle();
     f.json["nodes"][0]["name"] = "a\nb\x1b[2J\u00e4";
     f.json["meshes"][0]["name"] = std::string(1000, 'x');
@@ -183,7 +184,7 @@ TEST(GltfDoor, NamesHoldNoControlCharacters) {
     EXPECT_EQ(scene.meshes[0].name, std::string(200, 'x') + "...");
 }
 
-TEST(GltfDoor, UnknownOptionalExtensionsAreNoted) {
+TEST(GltfLoading, UnknownOptionalExtensionsAreNoted) {
     GltfFile f = GltfFile::triangle();
     f.json["extensionsUsed"] = {"EXT_one", "KHR_texture_transform"};
     f.json["nodes"][0]["extensions"]["EXT_two"] = {{"deep", {1, 2, 3}}};
@@ -193,8 +194,8 @@ TEST(GltfDoor, UnknownOptionalExtensionsAreNoted) {
                                                      "EXT_two: left out, it is not read"}));
 }
 
-// The default scene, or the one that is asked for by index or name.
-TEST(GltfDoor, OneOfSeveralScenes) {
+// The default scene, or the one chosen by index or name.
+TEST(GltfLoading, OneOfSeveralScenes) {
     GltfFile f = GltfFile::triangle();
     f.json["nodes"] = {{{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}}, {{"name", "c"}}};
     f.json["scenes"] = {
@@ -219,7 +220,7 @@ TEST(GltfDoor, OneOfSeveralScenes) {
     EXPECT_EQ(f.load().nodes.size(), 3u) << "all where there is no scene";
 }
 
-TEST(GltfDoor, OtherFilesAreRefusedInOneLine) {
+TEST(GltfLoading, OtherFilesAreRefusedInOneLine) {
     EXPECT_THROW(loadScene("scene.obj"), std::runtime_error);
     EXPECT_THROW(loadScene("no/such/scene.gltf"), std::runtime_error);
     for (const char* text :
@@ -230,11 +231,11 @@ TEST(GltfDoor, OtherFilesAreRefusedInOneLine) {
     }
 }
 
-// A buffer holds its byteLength and no more, however large the file is.
-TEST(GltfDoor, OnlyWhatABufferNamesIsRead) {
+// Only byteLength bytes of a buffer's file are read, however large the file is.
+TEST(GltfLoading, OnlyWhatABufferNamesIsRead) {
     GltfFile f = GltfFile::triangle();
     f.written();
-    // A hole of 3 GiB behind the data: read whole, sixteen of them would not fit in memory.
+    // A sparse file with 3 GiB behind the data: sixteen of them read whole would not fit in memory.
     std::filesystem::resize_file(testFolder() / "a buffer.bin", std::uint64_t(3) << 30);
     const Json buffer = f.json["buffers"][0];
     for (int i = 1; i < 16; ++i) f.json["buffers"].push_back(buffer);
@@ -244,8 +245,8 @@ TEST(GltfDoor, OnlyWhatABufferNamesIsRead) {
     std::filesystem::remove(testFolder() / "a buffer.bin");
 }
 
-// Two image files that are together a little more than is read; the large one is a hole.
-TEST(GltfDoor, ImageFilesHaveALimitTogether) {
+// Two image files that together are slightly larger than the limit; the large one is a sparse file.
+TEST(GltfLoading, ImageFilesHaveALimitTogether) {
     GltfFile f = GltfFile::triangle();
     f.written();
     for (const auto& [name, bytes] : {std::pair{"hole.png", std::uint64_t(2) << 30}, {"byte.png", 1}}) {
@@ -263,7 +264,7 @@ TEST(GltfDoor, ImageFilesHaveALimitTogether) {
     std::filesystem::remove(testFolder() / "hole.png");
 }
 
-TEST(GltfDoor, ObjectsAndValuesHaveALimit) {
+TEST(GltfLoading, ObjectsAndValuesHaveALimit) {
     const auto times = [](std::size_t n, const std::string& item) {
         std::string text = item;
         text.reserve(n * (item.size() + 1));
@@ -280,8 +281,8 @@ TEST(GltfDoor, ObjectsAndValuesHaveALimit) {
     for (const char* name : {"objects.gltf", "values.gltf"}) std::filesystem::remove(testFolder() / name);
 }
 
-// Lines are for people: what a file repeats without end is cut and counted.
-TEST(GltfDoor, LinesAndNotesHaveAnEnd) {
+// Repeated messages and notes are limited in length and number.
+TEST(GltfLoading, LinesAndNotesHaveAnEnd) {
     GltfFile f = GltfFile::triangle();
     for (int i = 0; i < 1000; ++i) f.json["extensionsUsed"].push_back("EXT_" + std::to_string(i));
     const std::vector<std::string> notes = f.load().notes;

@@ -38,7 +38,7 @@ TEST(GltfGeometry, EveryIndexType) {
     }
 }
 
-// glTF 2.0, 3.7.2.1: a strip turns every other triangle, a fan turns around vertex 0; all keep facing +Z.
+// glTF 2.0, 3.7.2.1: a strip flips every other triangle, a fan goes around vertex 0; all must face +Z.
 TEST(GltfGeometry, StripsAndFansBecomeTriangles) {
     for (const int mode : {5, 6}) {
         GltfFile f = GltfFile::triangle();
@@ -73,7 +73,7 @@ TEST(GltfGeometry, PointsLinesAndEmptyPrimitivesAreLeftOutWithANote) {
     EXPECT_EQ(worldBounds(scene, pose).radius(), 0);
 }
 
-// Colours as every type and width that glTF allows: (1, 0.2, 0) and, where there is one, alpha 0.6.
+// Colours in every type and width that glTF allows: (1, 0.2, 0) and, with four components, alpha 0.6.
 TEST(GltfGeometry, VertexColorsOfEveryType) {
     for (const bool alpha : {false, true})
         for (const int type : {FLOAT, UBYTE, USHORT}) {
@@ -127,7 +127,7 @@ TEST(GltfGeometry, StridesAndOffsetsAreFollowed) {
     GltfFile f = GltfFile::triangle();
     f.data.clear();
     const std::vector<float> interleaved{9, 0, 0, 0, 8, 1,
-                                         0, 0, 8, 0, 1, 0};  // a word, then x y z and a word
+                                         0, 0, 8, 0, 1, 0};  // four bytes, then x y z and four bytes
     f.data.append(reinterpret_cast<const char*>(interleaved.data()), 48);
     f.json["bufferViews"][0] = {{"buffer", 0}, {"byteOffset", 4}, {"byteLength", 44}, {"byteStride", 16}};
     f.json["accessors"][0]["byteOffset"] = 0;
@@ -170,7 +170,7 @@ TEST(GltfGeometry, TangentsAreMadeForNormalTexturesOnly) {
         f.primitive()["attributes"]["NORMAL"] =
             f.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
         f.primitive()["attributes"]["TEXCOORD_1"] =
-            f.accessor<float>({0, 0, 0, 1, 1, 0}, FLOAT, "VEC2", 2);  // u upwards, v rightwards
+            f.accessor<float>({0, 0, 0, 1, 1, 0}, FLOAT, "VEC2", 2);  // u grows upwards, v to the right
         f.json["images"] = {{{"uri", twoPixels}}};
         f.json["textures"] = {{{"source", 0}}};
         f.json["materials"] = {Json::object()};
@@ -198,7 +198,7 @@ TEST(GltfGeometry, TangentsOfTheFileAreUsedOnlyWithItsNormals) {
         << "one without a direction is replaced";
 }
 
-// One texel all over is easily taken for an untextured surface.
+// A textured surface without texture coordinates shows one texel and looks untextured.
 TEST(GltfGeometry, MissingTextureCoordinatesAreNoted) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["material"] = 0;

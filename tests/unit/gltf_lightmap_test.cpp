@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lightmaps in a material's extras.
+// Lightmaps in the extras of materials.
 #include "shared/image/exr.h"
 #include "tests/unit/gltf_material_maker.h"
 
@@ -59,7 +59,7 @@ TEST(GltfLightmap, AnUnlitMaterialHasNone) {
     EXPECT_EQ(materialOf(material).lightmap_texture.texture, -1);
 }
 
-// Floats, in a file beside the glTF: two pixels, of which one is dark by mistake.
+// A float picture beside the glTF: two pixels, one of which has a negative component.
 TEST(GltfLightmap, OpenExrIsReadAsLinearLightAndOnlyThere) {
     Image light(2, 1, 3, 0.25f);
     light.at(0, 0, 1) = 40;

@@ -13,7 +13,7 @@ TEST(GltfMaterial, MaterialsTexturesSamplersAndTransforms) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["material"] = 0;
     f.json["images"] = {{{"uri", "missing.png"}},
-                        {{"uri", twoPixels}, {"name", "two"}}};  // the first is read by nothing
+                        {{"uri", twoPixels}, {"name", "two"}}};  // nothing reads the first image
     f.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9985}}};
     f.json["textures"] = {{{"source", 0}}, {{"source", 1}, {"sampler", 0}}, {{"source", 1}}};
     const double quarter = std::acos(0.0);
@@ -90,7 +90,7 @@ TEST(GltfMaterial, WhatIsDrawnOtherwiseIsNoted) {
     EXPECT_TRUE(mentions(scene.notes, "KHR_materials_clearcoat"));
 }
 
-// Base colour, alpha and double-sidedness stay; the rest is ignored, its images are not even opened.
+// Base colour, alpha and sides are kept; the rest is ignored, and its images are not even opened.
 TEST(GltfMaterial, UnlitKeepsBaseColourAlphaAndSidesAlone) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["material"] = 0;
@@ -155,7 +155,7 @@ TEST(GltfMaterial, AnEmptyMaterialIsTheDefault) {
     }
 }
 
-// Numbers outside of what glTF allows are taken as the nearest inside, with a note that says so.
+// Numbers outside the range that glTF allows are clamped, with a note.
 TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
     struct Case {
         Json material;
@@ -206,7 +206,7 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
          [](const Material& m) { return m.emissive.g; },
          0,
          "material 0: emissiveStrength -1 is outside 0 to "},
-        // Printed with few digits it would be 1.
+        // with few digits it would be printed as 1
         {{{"pbrMetallicRoughness", {{"metallicFactor", 1.00000001}}}},
          [](const Material& m) { return m.metallic; },
          1,
@@ -223,7 +223,7 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
     }
 }
 
-// What glTF leaves unbounded stays as it is, without a note.
+// Numbers that glTF does not bound are kept, without a note.
 TEST(GltfMaterial, FactorsWithoutBoundStay) {
     const Scene scene = withMaterial({{"normalTexture", {{"index", 0}, {"scale", -3}}},
                                       {"alphaMode", "MASK"},

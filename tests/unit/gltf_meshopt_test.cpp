@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXT_meshopt_compression: streams of the library's own encoder, read back through the loader.
+// EXT_meshopt_compression: streams of the library's own encoder, decoded by the loader.
 #include "shared/scene/gltf/compression.h"
 #include "shared/scene/gltf/gltf.h"
 #include "shared/scene/gltf/value.h"
@@ -39,8 +39,8 @@ Bytes sequence(const std::vector<std::uint32_t>& indices, std::size_t vertices) 
     return out;
 }
 
-// An accessor over a compressed bufferView of `count` elements. The view itself lies in buffer 1, which is
-// a fallback; vertices get their stride, indices may have none.
+// An accessor over a compressed bufferView of `count` elements. The view itself lies in buffer 1, the
+// fallback; vertices get their stride, indices may have none.
 int accessor(GltfFile& f, const Bytes& stream, std::size_t count, std::size_t stride, const char* mode,
              const char* filter, int componentType, const char* type, bool normalized = false) {
     while (f.data.size() % 4) f.data += '\0';
@@ -71,7 +71,7 @@ Json& extensionOf(GltfFile& f, std::size_t view) {
     return f.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
 }
 
-// The file with its fallback buffer, which has no bytes.
+// Writes the file with its fallback buffer, which has no bytes.
 std::string written(GltfFile& f) {
     const std::string file = f.written();
     f.json["buffers"].push_back(
@@ -90,10 +90,11 @@ std::string lineOf(GltfFile& f) {
     return "";
 }
 
-// A height field of n x n vertices: of more than one block of the encoder's 256 elements.
+// A height field of n x n vertices, more than one of the encoder's blocks of 256 elements.
 struct Grid {
     static constexpr std::uint32_t n = 20;
-    std::vector<float> positions, normals;  // vertices of flat triangles would be taken apart
+    // Smooth normals, since the vertices of flat triangles would be split.
+    std::vector<float> positions, normals;
     std::vector<std::uint32_t> indices;
     Grid() {
         for (std::uint32_t y = 0; y < n; ++y)
@@ -137,11 +138,12 @@ TEST(GltfMeshopt, PositionsAndTrianglesAreThoseOfTheUncompressedFile) {
         const Scene scene = loadScene(written(f));
         EXPECT_EQ(f.only(scene).positions, plain.only(expected).positions);
         ASSERT_EQ(f.only(scene).indices.size(), grid.indices.size());
-        // The encoder turns triangles; the corners stay in order.
+        // The encoder may rotate a triangle's corners, but keeps their cyclic order.
         for (std::size_t i = 0; i < grid.indices.size(); i += 3) {
             std::vector<std::uint32_t> t(&f.only(scene).indices[i], &f.only(scene).indices[i] + 3);
             std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-            const std::vector<std::uint32_t> e(&grid.indices[i], &grid.indices[i] + 3);  // least first
+            // Rotated to begin with the least.
+            const std::vector<std::uint32_t> e(&grid.indices[i], &grid.indices[i] + 3);
             EXPECT_EQ(t, e) << "triangle " << i / 3;
         }
     }
@@ -162,7 +164,7 @@ TEST(GltfMeshopt, IndicesOfAStripKeepTheirOrder) {
     }
 }
 
-// Unit vectors on the octahedron's corners are exact; (0.6, 0, 0.8) lies between two of its steps.
+// Unit vectors at the octahedron's corners are exact; (0.6, 0, 0.8) lies between two codes.
 TEST(GltfMeshopt, OctahedralNormalsOf8And16Bits) {
     const std::vector<float> normals{0, 0, 1, 0, 0, -1, 0, 0, 0.6f, 0, 0.8f, 0};
     for (const std::size_t stride : {4, 8}) {
@@ -183,7 +185,7 @@ TEST(GltfMeshopt, OctahedralNormalsOf8And16Bits) {
     }
 }
 
-// Positions of small whole numbers have few bits: the exponential filter keeps them exactly.
+// Positions that are small integers have few bits, which the exponential filter keeps exactly.
 TEST(GltfMeshopt, ExponentialPositions) {
     GltfFile f = GltfFile::triangle();
     const std::vector<float> positions{0, 0, 0, 1.5f, 0, 0, 0, -1024, 0.25f};
@@ -195,7 +197,7 @@ TEST(GltfMeshopt, ExponentialPositions) {
     EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {1.5f, 0, 0}, {0, -1024, 0.25f}}));
 }
 
-// Rotations, as shorts: half a step of 1/sqrt(2)/32767 and a rounding to whole numbers are within 2.
+// Rotations as shorts: half a step of 1/sqrt(2)/32767 and rounding to integers stay within 2.
 TEST(GltfMeshopt, Quaternions) {
     const float h = std::sqrt(0.5f);
     const std::vector<float> rotations{0, 0, 0, 1, h, 0, 0, h, 0.5f, -0.5f, 0.5f, 0.5f};
@@ -223,7 +225,7 @@ TEST(GltfMeshopt, Quaternions) {
     std::int16_t read[12];
     std::memcpy(read, model.buffers[1].data.data(), sizeof read);
     for (std::size_t q = 0; q < 3; ++q) {
-        // A rotation is also its negative.
+        // q and -q are the same rotation.
         const float sign =
             std::signbit(rotations[4 * q + 3]) != std::signbit(float(read[4 * q + 3])) ? -1 : 1;
         for (std::size_t c = 0; c < 4; ++c)
@@ -239,7 +241,7 @@ TEST(GltfMeshopt, WhatIsWrongIsSaidInOneLine) {
     const auto set = [](std::size_t view, const char* key, Json value) {
         return [=](GltfFile& f) { extensionOf(f, view)[key] = value; };
     };
-    // View 0 is not compressed, view 1 holds positions, view 2 indices.
+    // View 0 is not compressed, view 1 holds positions, view 2 holds indices.
     const Fault faults[] = {
         {"bufferView 1: EXT_meshopt_compression: byteStride 6, not a multiple of 4 up to 256",
          set(1, "byteStride", 6)},
@@ -286,7 +288,7 @@ TEST(GltfMeshopt, StreamsThatAreTooShortOrTooLong) {
     }
 }
 
-// A thousand views of one stream would be a thousand times its size.
+// A thousand views of one stream would decode to a thousand times its size.
 TEST(GltfMeshopt, OneStreamForManyViewsIsBounded) {
     GltfFile f = GltfFile::triangle();
     const std::size_t count = 1 << 18;
@@ -297,7 +299,7 @@ TEST(GltfMeshopt, OneStreamForManyViewsIsBounded) {
     EXPECT_EQ(lineOf(f).find("its compressed geometry asks for 3148873728 bytes, more than the "), 0u);
 }
 
-// Damage ends in a scene or in one line; AddressSanitizer sees the rest.
+// Damaged streams result in a scene or in a one-line error; AddressSanitizer checks memory.
 TEST(GltfMeshopt, DamagedStreamsAreSceneOrLine) {
     const Grid grid;
     GltfFile f = GltfFile::triangle();

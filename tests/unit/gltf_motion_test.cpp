@@ -14,7 +14,8 @@ namespace {
 
 const float NaN = std::numeric_limits<float>::quiet_NaN();
 
-// The triangle with two morph targets, one of positions, one of normals and (sparse, from nothing) positions.
+// The triangle with two morph targets: one of positions, one of normals and of sparse positions without a
+// bufferView.
 struct MorphedFile : GltfFile {
     MorphedFile() : GltfFile(triangle()) {
         primitive()["attributes"]["NORMAL"] = accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, FLOAT, "VEC3", 3);
@@ -35,7 +36,7 @@ struct MorphedFile : GltfFile {
     }
 };
 
-// One channel of node 0; times 0, 1, 2.
+// One channel of node 0, with keys at 0, 1 and 2 s.
 struct AnimatedFile : MorphedFile {
     AnimatedFile() { json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}}; }
     void channel(const char* path, const char* interpolation, int output, int input = -1) {
@@ -74,7 +75,7 @@ TEST(GltfMotion, MorphTargetsHaveTheirDeltas) {
     EXPECT_EQ(p.positions[1], glm::vec3(1, 0, 0)) << "as they are without them";
 }
 
-// A corner that flat normals gave a vertex of its own takes its deltas along.
+// A corner that gets a vertex of its own for its flat normal keeps its morph deltas.
 TEST(GltfMotion, DeltasFollowTheirVertices) {
     MorphedFile f;
     f.primitive()["attributes"].erase("NORMAL");
@@ -181,15 +182,16 @@ TEST(GltfMotion, WhatMovesNothingOfTheSceneIsIgnored) {
     AnimatedFile f;
     f.channel("translation", "LINEAR", f.vectors(3));
     f.json["nodes"].push_back({{"name", "elsewhere"}});
-    f.json["animations"][0]["channels"][0]["target"]["node"] = 1;  // in no scene
+    f.json["animations"][0]["channels"][0]["target"]["node"] = 1;  // a node of no scene
     EXPECT_TRUE(f.load().animations.empty());
-    f.json["animations"][0]["channels"][0]["target"].erase("node");  // left to extensions (glTF 2.0, 5.6)
+    // A target without node is defined by extensions (glTF 2.0, 5.6).
+    f.json["animations"][0]["channels"][0]["target"].erase("node");
     const Scene scene = f.load();
     EXPECT_TRUE(scene.animations.empty());
     EXPECT_FALSE(mentions(scene.notes, "animation"));
 }
 
-// A scene at rest needs no animation: one that is faulty is left out with its fault.
+// Animations are not essential: a faulty channel is left out with a note on its fault.
 TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
     struct Case {
         const char* fault;

@@ -12,7 +12,7 @@
 using namespace diptych;
 using Json = nlohmann::json;
 
-// A child before its parent in the list, TRS and matrix, and what no scene reaches is not drawn.
+// A child before its parent in the list, TRS and matrix; nodes that no scene reaches are not drawn.
 TEST(GltfNode, NodesAreChainedInAnyOrder) {
     GltfFile f = GltfFile::triangle();
     const double s = std::sqrt(0.5);
@@ -91,7 +91,7 @@ TEST(GltfNode, LightsOfEveryKindDirectionalFirst) {
     EXPECT_TRUE(std::isinf(point.range));
 }
 
-// To the bit: its origin and its -Z, whatever a light of extras may have beside them.
+// Bit for bit at the node's origin, along its -Z, though lights of extras may have a position of their own.
 TEST(GltfNode, LightsStandAtTheOriginOfTheirNode) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-100, 100);
@@ -128,8 +128,7 @@ TEST(GltfNode, Cameras) {
     EXPECT_EQ(pose.cameras[1].far, 9);
 }
 
-// What the specification forbids is repaired where one can know what was meant; else there is one camera
-// less.
+// What the specification forbids is repaired if the intention is clear; otherwise the camera is left out.
 TEST(GltfNode, CamerasThatCannotBeAreRepairedOrLeftOut) {
     constexpr double none = std::numeric_limits<double>::infinity();
     struct Case {
@@ -213,7 +212,7 @@ TEST(GltfNode, LightsThatCannotBeAreRepaired) {
         f.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
         const Json lit = {{"KHR_lights_punctual", {{"light", 0}}}};
         f.json["nodes"][0] = {{"mesh", 0}, {"children", {1}}, {"extensions", lit}};
-        f.json["nodes"][1] = {{"extensions", lit}};  // the same once more, but one note
+        f.json["nodes"][1] = {{"extensions", lit}};  // the same light again, but only one note
         const Scene scene = f.load();
         EXPECT_EQ(scene.notes, std::vector<std::string>{c.note});
         EXPECT_EQ(c.value(scene.lights.at(1)), c.expected) << c.note;
@@ -233,8 +232,8 @@ TEST(GltfNode, TransformsThatCannotBeAreNoted) {
     EXPECT_EQ(scene.nodes[0].parent_from_node, glm::dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 7, 8, 9, 1));
 }
 
-// Products of float32 matrices end in 0 0 0 0.99999994, a spot without a penumbra has one angle: both are
-// right.
+// Products of float32 matrices may end in 0 0 0 0.99999994, and a spot without a penumbra has two equal
+// angles: both are accepted.
 TEST(GltfNode, RoundedMatricesAndHardSpotsAreRight) {
     GltfFile f = GltfFile::triangle();
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What people's files hold beside the specification: it is drawn, and noted.
+// Deviations from the specification that are common in real files: the scene is drawn, with a note.
 #include "tests/unit/gltf_maker.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using Lines = std::vector<std::string>;
 
 const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-// The file as it stands, its buffers' uris included.
+// Loads the file with its buffers' uris unchanged.
 Scene loadAsIs(const GltfFile& f) {
     std::ofstream(testFolder() / "as_is.gltf") << f.json.dump();
     return loadScene((testFolder() / "as_is.gltf").string());
@@ -122,7 +122,7 @@ TEST(GltfRepair, BrokenThingsThatNothingDrawsAreNoted) {
     }
 }
 
-// The same faults where the scene cannot be drawn without what is broken.
+// The same faults in parts that the scene needs.
 TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
     struct Case {
         const char* line;
@@ -146,7 +146,7 @@ TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
              f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
              f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
          }},
-        // In a file without scenes every node is drawn.
+        // In a file without scenes all nodes are drawn.
         {"node 1: mesh 9, but the file has 1",
          [](GltfFile& f) {
              f.json["nodes"].push_back({{"mesh", 9}});
@@ -162,7 +162,7 @@ TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
     }
 }
 
-// Whoever needs what is broken is broken, too: an animation over a broken accessor over a broken view.
+// What depends on a broken part is broken as well: an animation over a broken accessor over a broken view.
 TEST(GltfRepair, WhatNeedsABrokenThingIsLeftOutWithIt) {
     GltfFile f = GltfFile::triangle();
     const int times = f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
@@ -214,7 +214,7 @@ TEST(GltfRepair, NullIsAbsent) {
     f.primitive()["indices"] = nullptr;
     f.primitive()["attributes"]["NORMAL"] = nullptr;
     f.primitive()["extensions"]["KHR_draco_mesh_compression"] = nullptr;
-    f.json["extras"] = nullptr;  // says nothing
+    f.json["extras"] = nullptr;  // has no content
     const Scene scene = f.load();
     EXPECT_EQ(f.only(scene).positions, corners);
     EXPECT_EQ(scene.notes,
@@ -250,7 +250,8 @@ TEST(GltfRepair, ExtensionsAreNotedWhereverTheyStand) {
         {{"samplers", Json::array()},
          {"channels", {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", with("EXT_f")}}}}}}}};
     f.json["asset"]["extensions"] = with("EXT_g");
-    f.json["nodes"][0]["extensions"] = with("KHR_texture_transform");  // is read, but not there
+    // An extension that is read, but not in a node.
+    f.json["nodes"][0]["extensions"] = with("KHR_texture_transform");
     Lines expected;
     for (const char letter : std::string("abcdefg"))
         expected.push_back(std::string("EXT_") + letter + ": left out, it is not read");
@@ -307,7 +308,7 @@ TEST(GltfRepair, BytesBesideTheChunks) {
     EXPECT_EQ(f.only(scene).positions, corners);
 }
 
-// gltfpack -cf: the fallback's file is there for other readers, and often does not come along.
+// gltfpack -cf: the fallback buffer's file is only for other readers, and often missing.
 TEST(GltfRepair, FallbackBuffersMayBeMissing) {
     for (const bool uri : {true, false}) {
         GltfFile f = GltfFile::triangle();
@@ -324,7 +325,7 @@ TEST(GltfRepair, FallbackBuffersMayBeMissing) {
     }
 }
 
-// An empty view of an empty buffer is empty.
+// An empty view of an empty buffer is valid and empty.
 TEST(GltfRepair, EmptyBuffersAreNobodysFault) {
     GltfFile f = GltfFile::triangle();
     f.written();
@@ -344,7 +345,7 @@ TEST(GltfRepair, UrisOfEveryKindOfWriter) {
     write("sub/x.bin", f.data);
     write("sub/y z.bin", f.data);
     write("both one.bin", f.data);
-    write("both%20one.bin", std::string(36, 'x'));  // the decoded name comes first
+    write("both%20one.bin", std::string(36, 'x'));  // the decoded name is tried first
     const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";  // see DataUrisAreRead
     std::string percent = base64;
     for (std::size_t at; (at = percent.find("g")) != percent.npos;) percent.replace(at, 1, "%67");
@@ -368,14 +369,14 @@ TEST(GltfRepair, UrisOfEveryKindOfWriter) {
         EXPECT_EQ(f.only(scene).positions, corners) << uri;
         EXPECT_EQ(scene.notes, note.empty() ? Lines{} : Lines{note}) << uri;
     }
-    // + / and = percent-encoded: three bytes 0xfb 0xef 0xff are "++//", one 0xfb is "+w==".
+    // +, / and = percent-encoded: the three bytes 0xfb 0xef 0xff are "++//", the byte 0xfb alone is "+w==".
     f.json["buffers"].push_back({{"byteLength", 4}, {"uri", "data:;base64,%2B%2b%2F%2f%2Bw%3D%3D"}});
     EXPECT_EQ(loadAsIs(f).notes.size(), 1u) << "only that of buffer 0";
     f.json["buffers"][1]["byteLength"] = 5;
     EXPECT_TRUE(mentions(loadAsIs(f).notes, "buffer 1: holds 4 bytes of the 5 that its byteLength names"));
 }
 
-// No spelling leads out of the folder.
+// No way of writing a path leads out of the folder.
 TEST(GltfRepair, OddUrisStayInTheFolder) {
     GltfFile f = GltfFile::triangle();
     f.written();

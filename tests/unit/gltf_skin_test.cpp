@@ -31,7 +31,7 @@ struct SkinnedFile : GltfFile {
     void setWeights(const std::vector<float>& weights) {
         primitive()["attributes"]["WEIGHTS_0"] = accessor(weights, FLOAT, "VEC4", 4);
     }
-    // Both joints' inverse bind matrices: nothing but a translation.
+    // Sets both joints' inverse bind matrices, to translations.
     void setInverseBinds(const glm::vec3& first, const glm::vec3& second) {
         std::vector<float> values;
         for (const glm::vec3& t : {first, second})
@@ -56,27 +56,28 @@ TEST(GltfSkin, SkinsJointsAndWeights) {
     EXPECT_EQ(skin.joint_from_mesh[1][3], glm::vec4(0, -6, 0, 1));
     EXPECT_EQ(scene.nodes[0].skin, 0);
     EXPECT_EQ(scene.nodes[1].skin, -1);
-    // Flat normals give every corner a vertex of its own, here in the order of the file's.
+    // With flat normals every corner has a vertex of its own, here in the file's order.
     const JointSet& set = f.only(scene).joint_sets.at(0);
     ASSERT_EQ(set.joints.size(), 3u);
     EXPECT_EQ(set.joints[1], glm::u16vec4(1, 0, 0, 0));
     EXPECT_EQ(set.weights[2], glm::vec4(0.25f, 0.75f, 0, 0));
 }
 
-// The node's own translation by 100 counts nothing: vertices stand where joint 0 (y = 5) and its inverse bind
+// The node's own translation by 100 has no effect: vertices are where joint 0 (y = 5) and its inverse bind
 // matrix (y - 4) put them.
 TEST(GltfSkin, SkinnedMeshesStandInBindPose) {
     SkinnedFile f;
     f.setInverseBinds({0, -4, 0}, {0, -5, 0});
     const Scene scene = f.load();
     EXPECT_EQ(poseAt(scene, 0).instances.at(0).world_from_object[3], glm::dvec4(0, 1, 0, 1));
-    f.json["nodes"][1]["scale"] = {1, 0, 1};  // a joint that flattens: the node's own transform is better
+    // A joint of scale 0 in y: the node's own transform is used instead.
+    f.json["nodes"][1]["scale"] = {1, 0, 1};
     const Scene flat = f.load();
     EXPECT_EQ(poseAt(flat, 0).instances.at(0).world_from_object[3], glm::dvec4(100, 0, 0, 1));
 }
 
-// A real one: modelled with +Z up, on its feet only through its joints. The extent is the assets' own
-// table's.
+// A real model: made with +Z up, it stands upright only through its joints. The extent is from the assets'
+// own table.
 TEST(GltfSkin, CesiumManStandsOnItsFeet) {
     const auto file =
         std::filesystem::path(DIPTYCH_SOURCE_DIR "/../shared") / "assets/scenes/cesium_man/CesiumMan.gltf";
@@ -84,7 +85,7 @@ TEST(GltfSkin, CesiumManStandsOnItsFeet) {
     const Scene scene = loadScene(file.string());
     EXPECT_EQ(scene.skins.at(0).joints.size(), 19u);
     EXPECT_EQ(scene.animations.at(0).channels.size(), 57u) << "three parts of 19 joints";
-    // At rest in bind pose, not in his animation's first step.
+    // In bind pose, not at the first key of its animation.
     Scene resting = scene;
     resting.animations.clear();
     Pose bind = poseAt(resting, 0);
@@ -102,12 +103,12 @@ TEST(GltfSkin, WithoutInverseBindMatricesTheyAreTheIdentity) {
     EXPECT_EQ(poseAt(scene, 0).instances.at(0).world_from_object[3], glm::dvec4(0, 5, 0, 1));
 }
 
-// 64 + 191 + 0 = 255: as normalized bytes 64/255 and 191/255; unnormalized floats 1 and 3 are a quarter and
-// three.
+// Weights 64, 191, 0 add up to 255 and are 64/255 and 191/255 as normalized bytes; the floats 1 and 3 are
+// normalised to a quarter and three quarters.
 TEST(GltfSkin, WeightsAddUpToOneWhateverTheirType) {
     SkinnedFile f;
     f.setWeights({1, 3, 0, 0, 2, 0, 0, 0, 0, 0, 0, 5});
-    f.setJoints({0, 1, 9, 9, 1, 9, 9, 9, 9, 9, 9, 0});  // joint 9 is none, but moves nothing
+    f.setJoints({0, 1, 9, 9, 1, 9, 9, 9, 9, 9, 9, 0});  // joint 9 does not exist, but has weight 0
     Scene scene = f.load();
     EXPECT_EQ(f.only(scene).joint_sets[0].weights[0], glm::vec4(0.25f, 0.75f, 0, 0));
     EXPECT_EQ(f.only(scene).joint_sets[0].weights[1], glm::vec4(1, 0, 0, 0));
@@ -143,7 +144,7 @@ TEST(GltfSkin, EightInfluencesAreTwoSets) {
     EXPECT_EQ(p.joint_sets[1].weights[1].w, 0.75f);
 }
 
-// A sum that rounding to 8 bits explains is one.
+// A sum that differs from 1 by no more than rounding to 8 bits gets no note.
 TEST(GltfSkin, WeightsThatDoNotAddUpAreNoted) {
     SkinnedFile f;
     f.setWeights({0.25f, 0.75f, 0, 0, 0.25f, 0.744f, 0, 0, 1, 3, 0, 0});

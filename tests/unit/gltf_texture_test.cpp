@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What materials read: textures in their slots, samplers, transforms, images.
+// Textures that materials read: slots, samplers, transforms, images.
 #include "shared/image/limits.h"
 #include "tests/unit/gltf_material_maker.h"
 
@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The seven slots: how a file names each, and where it ends.
+// The seven slots: the name of each in a file, and its member in Material.
 struct SlotCase {
     const char* name;
     Json (*material)(Json info);
@@ -146,7 +146,7 @@ TEST(GltfTexture, EverySamplerMode) {
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(scene.textures[i].sampler, expected[i]) << i;
 }
 
-// Left open: repeat, linear, with mip levels.
+// If the file gives no filters: repeat, linear, with mip levels.
 TEST(GltfTexture, SamplersThatAreLeftOpen) {
     GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
     f.json["samplers"] = {Json::object(), {{"magFilter", 9728}}, {{"wrapT", 33071}}};
@@ -217,13 +217,13 @@ TEST(GltfTexture, BasisuAndWebpAreRefusedByNameWhereRequired) {
     }
 }
 
-// Where they are optional, a PNG or JPEG stands beside them; a material that has nothing else cannot be
-// drawn.
+// Where such an extension is optional, a PNG or JPEG is the fallback; a texture without fallback makes its
+// material undrawable.
 TEST(GltfTexture, FallbacksOfOtherImagesAreRead) {
     for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"}) {
         GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
         f.json["extensionsUsed"] = {name};
-        f.json["images"].push_back({{"uri", "picture.ktx2"}});  // nobody opens it
+        f.json["images"].push_back({{"uri", "picture.ktx2"}});  // never opened
         f.json["textures"][0]["extensions"] = {{name, {{"source", 1}}}};
         const Scene scene = f.load();
         EXPECT_TRUE(mentions(scene.notes, std::string(name) + ": left out, it is not read"));
@@ -243,11 +243,11 @@ TEST(GltfTexture, FallbacksOfOtherImagesAreRead) {
                          "material 0: emissiveTexture: texture 0 has no PNG or JPEG image: left out"));
 }
 
-// Each image is far below the limit; together they are not.
+// Each image is far below the limit, but all together exceed it.
 TEST(GltfTexture, AllImagesTogetherHaveALimit) {
     GltfFile f = withMaterial(Json::object(), 0);
-    // A JPEG's header claims 16384 x 16384 of one component, 1 GiB decoded; zeros after it make it long
-    // enough.
+    // A JPEG whose header claims 16384 x 16384 pixels of one component, 1 GiB decoded; zeros make the file
+    // long enough.
     std::vector<std::uint8_t> jpeg{0xff, 0xd8, 0xff, 0xc0, 0, 11, 8, 0x40, 0, 0x40, 0,  1, 1,
                                    0x11, 0,    0xff, 0xda, 0, 8,  1, 1,    0, 0,    63, 0};
     jpeg.resize(1 << 18);

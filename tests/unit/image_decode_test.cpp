@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images that libpng and libjpeg write here, of every kind that glTF may bring, come back as the numbers that
-// were stored.
+// Images of every kind that glTF may use, written by libpng and libjpeg, are decoded to the stored numbers.
 #include "shared/scene/image/decode.h"
 
 #include <gtest/gtest.h>
@@ -139,7 +138,7 @@ TEST(ImageDecode, EightBitsOfEveryColourType) {
                {1, 1, 1, 20, 2, 2, 2, 30, 3, 3, 3, 40, 4, 4, 4, 0});
 }
 
-// Grey of few bits is spread over 0 to 255: of 1 bit 255 a step, of 2 bits 85, of 4 bits 17.
+// Grey of few bits is expanded to 0 to 255: steps of 255 for 1 bit, 85 for 2 bits, 17 for 4 bits.
 TEST(ImageDecode, FewBits) {
     const auto grey = [](int a, int b) {
         Bytes out;
@@ -174,7 +173,7 @@ TEST(ImageDecode, PalettesWithAndWithoutAlpha) {
     expectRgba(build(1, {{0x40}, {0x80}}, true), {1, 2, 3, 7, 40, 50, 60, 8, 40, 50, 60, 8, 1, 2, 3, 7});
 }
 
-// tRNS of grey and of colour makes one value transparent, of 16 bits by all of them.
+// tRNS of grey and colour images makes one value transparent; 16 bit values must match in all bits.
 TEST(ImageDecode, OneTransparentColour) {
     const auto transparent = [](int grey, int red, int green, int blue) {
         return [=](png_structp png, png_infop info) {
@@ -225,8 +224,7 @@ TEST(ImageDecode, InterlacedImagesAreWhole) {
     EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12) + 1], 10);
 }
 
-// glTF 2.0, 3.8.3: gamma, chromaticities and profiles change nothing; texts and broken profiles are stepped
-// over.
+// glTF 2.0, 3.8.3: gamma, chromaticities and profiles have no effect; texts and broken profiles are skipped.
 TEST(ImageDecode, AncillaryChunksChangeNothing) {
     PngMaker plain{8, PNG_COLOR_TYPE_RGB, {{10, 20, 30, 40, 50, 60}}, 2, 1};
     const Bytes expected = decodeImage(plain.made()).rgba;
@@ -248,17 +246,16 @@ TEST(ImageDecode, AncillaryChunksChangeNothing) {
 
 // ---- JPEG --------------------------------------------------------------------------------------------
 
-// Of one colour, so that nothing but the rounding of the colour transform is lost.
+// Images of a single colour, so that only the rounding of the colour transform is lost.
 TEST(ImageDecode, JpegsOfEveryColourSpace) {
     for (const bool progressive : {false, true}) {
         expectColor(jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, progressive), 77, 77, 77);
         expectColor(jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, progressive), 200, 100, 50, 2);
         expectColor(jpeg(JCS_RGB, JCS_RGB, {200, 100, 50}, progressive), 200, 100, 50);
-        // Adobe's files store what is left of the light: 200 of 255 left by cyan, 128 by black: 200 x 128 /
-        // 255.
+        // Adobe's files store inverted inks: cyan leaves 200 of 255, black leaves 128: 200 x 128 / 255.
         expectColor(jpeg(JCS_CMYK, JCS_CMYK, {200, 255, 0, 128}, progressive), 100, 128, 0);
         expectColor(jpeg(JCS_CMYK, JCS_YCCK, {200, 255, 0, 128}, progressive), 100, 128, 0, 2);
-        // Without Adobe's marker the numbers are the ink itself.
+        // Without Adobe's marker the numbers are the inks themselves.
         expectColor(jpeg(JCS_CMYK, JCS_CMYK, {55, 0, 255, 127}, progressive, false), 100, 128, 0);
     }
 }
@@ -288,14 +285,14 @@ TEST(ImageDecode, OtherFilesAreNeither) {
               "is AVIF; PNG and JPEG are read");
     EXPECT_EQ(named("DDS "), "is DDS; PNG and JPEG are read");
     for (std::size_t size = 0; size < 12;
-         ++size) {  // cut short they are nothing in particular, or still named
+         ++size) {  // truncated signatures are unknown formats, longer ones are still named
         const std::string_view webp = "RIFF\x40\0\0\0WEBP"sv;
         EXPECT_EQ(failure(Bytes(webp.begin(), webp.begin() + static_cast<std::ptrdiff_t>(size))),
                   "is neither PNG nor JPEG");
     }
 }
 
-// Cut anywhere, a file ends in one line, and nothing is printed.
+// A file truncated anywhere results in a one-line error, and nothing is printed.
 TEST(ImageDecode, EveryTruncationIsRefused) {
     const Bytes files[] = {PngMaker{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
                            PngMaker{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}, 2, 2, true}.made(),
@@ -304,7 +301,7 @@ TEST(ImageDecode, EveryTruncationIsRefused) {
     testing::internal::CaptureStderr();
     for (const Bytes& file : files) {
         const bool png = file[0] == 0x89;
-        const std::size_t tail = png ? 12 + 4 : 0;  // IEND, and the checksum before it, are not waited for
+        const std::size_t tail = png ? 12 + 4 : 0;  // IEND, and the checksum before it, are not needed
         for (std::size_t size = 0; size + tail < file.size(); ++size) {
             const std::string why = failure(Bytes(file.begin(), file.begin() + static_cast<long>(size)));
             EXPECT_NE(why, "") << size << " of " << file.size();
@@ -317,7 +314,7 @@ TEST(ImageDecode, EveryTruncationIsRefused) {
               "does not decode: Premature end of JPEG file");
 }
 
-// Any byte changed ends in a picture of the size that it names, or in one line.
+// A file with any byte changed results in a picture of the size in its header, or in a one-line error.
 TEST(ImageDecode, AnyByteMayBeWrong) {
     const Bytes files[] = {
         PngMaker{8, PNG_COLOR_TYPE_PALETTE, {{0, 1}, {2, 0}}, 2, 2, true, withPalette}.made(),
@@ -341,7 +338,7 @@ TEST(ImageDecode, AnyByteMayBeWrong) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// Sizes are asked before anything is allocated.
+// Sizes are checked before anything is allocated.
 TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
     const auto sized = [](Bytes file, std::size_t at, std::vector<unsigned char> size) {
         std::copy(size.begin(), size.end(), file.begin() + static_cast<long>(at));
@@ -363,8 +360,8 @@ TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
               "claims 16384 x 16384 pixels, which its " + std::to_string(huge.size()) + " bytes cannot hold");
 }
 
-// A few bytes make a scan that runs over all pixels. Each of these says nothing new and breaks no rule; 4096
-// are followed in an image of up to a megapixel.
+// A few bytes make a scan that visits all pixels. These scans change nothing and break no rule; in an image
+// of up to a megapixel 4096 of them are accepted.
 TEST(ImageDecode, EndlessScansAreRefused) {
     static const jpeg_scan_info scans[] = {{1, {0}, 0, 0, 0, 0}, {1, {0}, 1, 63, 0, 0}};
     const Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, false, true, scans);

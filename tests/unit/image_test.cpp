@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files: what is written comes back, and nothing half-written ever stands under the final name.
+// Image files: what is written is read back, and no incomplete file ever has the final name.
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The message of what `act` throws; empty where it does not.
+// The message of the exception that `act` throws; empty if it throws none.
 template <class Act>
 std::string faultOf(Act&& act) {
     try {
@@ -99,7 +99,7 @@ TEST(Exr, BrokenFilesAreNamed) {
         const std::string fault = faultOf([&] { readExr(file); });
         EXPECT_NE(fault.find("a.exr"), std::string::npos) << size << " bytes: " << fault;
     }
-    // A header that claims 2^20 x 2^20 pixels: refused before any of them is asked for.
+    // A header that claims 2^20 x 2^20 pixels: refused before memory is allocated.
     std::string huge = whole;
     for (const char* window : {"dataWindow", "displayWindow"}) {
         const std::size_t box = huge.find(window) + std::string(window).size() + 1 + sizeof "box2i" + 4;
@@ -150,7 +150,7 @@ TEST(Png, BrokenFilesAreNamed) {
     EXPECT_NE(faultOf([&] { writePng(file, colors(2, 2, 1)); }).find("a.png"), std::string::npos);
 }
 
-// The header alone, with another size and the checksum that belongs to it.
+// Only the header, with another size and a matching checksum.
 std::string claiming(std::string png, std::uint32_t width, std::uint32_t height) {
     constexpr std::size_t chunk = 12, sum = 29;  // "IHDR" and 13 bytes, then their checksum
     const auto put = [&](std::size_t at, std::uint32_t value) {
@@ -213,7 +213,7 @@ TEST(AtomicFile, ALinkKeepsPointing) {
     EXPECT_EQ(contentsOf(here / "real"), "new");
 }
 
-// A disk that is full: /dev/full takes the bytes and says so only when they are flushed.
+// A full disk: /dev/full accepts bytes and fails only when they are flushed.
 TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesTheOldFile) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     const fs::path file = folder() / "a.txt";

@@ -75,8 +75,8 @@ TEST(Layers, NamesOfOthersAreGivenOurs) {
                   0u);
 }
 
-// How far a reference is known is no part of its picture. In a file of somebody else a layer may be called
-// so.
+// The reference's uncertainty layer is not a channel of the picture. In another program's file a layer of
+// that name is an ordinary layer.
 TEST(Layers, OurUncertaintyIsNoChannel) {
     PictureFile ours = file({layer("", {"R", "G", "B"}), layer("uncertainty", {"uncertainty.Y"})});
     EXPECT_EQ(namesOf(channelsOf(ours, {})), (std::vector<std::string>{"lit", "uncertainty"}));
@@ -104,7 +104,7 @@ TEST(Layers, WhatOnlyOneHasIsSaid) {
                                                        "c is in the test alone and was not compared"}));
 }
 
-// Grey, with alpha or without, is light: it meets colours.
+// Grey, with or without alpha, counts as light and can be compared with colour.
 TEST(Layers, GreyIsAColour) {
     const auto grey = channelsOf(file({layer("", {"Y", "A"})}), {});
     EXPECT_EQ(namesOf(grey), (std::vector<std::string>{"lit", "A"}));
@@ -176,7 +176,7 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
     options.ignore_edges = 1;
     EXPECT_EQ(thrown([&] { applySelection(all, 6, 2, options, {}, notes); }),
               "--ignore-edges: neither material_id nor Z is in both pictures, and they tell objects apart");
-    Image depth(6, 2, 1, 10.0f);  // 5 % further is another object
+    Image depth(6, 2, 1, 10.0f);  // 5 % further away is another object
     depth.at(0, 0) = 10.6f;
     depth.at(5, 1) = 10.4f;
     applySelection(all, 6, 2, options, {{}, {&depth, &depth}}, notes);
@@ -187,7 +187,7 @@ TEST(Selection, MaskIdsAndCrop) {
     const std::filesystem::path files = folder();
     Image8 mask{3, 2, 3, std::vector<std::uint8_t>(18, 0)};
     for (const std::size_t i : {0u, 4u}) mask.data[3 * i + 1] = 200;
-    mask.data[3 * 5] = 120;  // under one half
+    mask.data[3 * 5] = 120;  // below one half
     writePng(files / "mask.png", mask);
     Image ids(3, 2, 1);
     for (int i = 0; i < 6; ++i) ids.data[static_cast<std::size_t>(i)] = static_cast<float>(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cells that lists are made for, and the ranges that a cutoff gives.
+// The cells for which light lists are made, and the ranges that a cutoff gives.
 #include "shared/light/light_grid.h"
 #include "shared/light/cutoff.h"
 #include "shared/scene/builtin/builtin.h"

@@ -120,12 +120,12 @@ TEST(LightsJson, MarksOfAnyType) {
 
 TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
     const std::pair<const char*, glm::dvec3> cases[] = {
-        {R"("axis": [1, 0, 5])", {1, 0, 0}},  // what of it lies along the direction goes
+        {R"("axis": [1, 0, 5])", {1, 0, 0}},  // its part along the direction is removed
         {R"("axis": [0, -2, 1])", {0, -1, 0}},
         {R"("name": "none")", {1, 0, 0}},
-        {R"("direction": [1, 0, 0])", {0, 0, 1}},  // to the right, seen along the direction
+        {R"("direction": [1, 0, 0])", {0, 0, 1}},  // to the right when looking along the direction
         {R"("direction": [-1, 7, 0])", {0, 0, -1}},
-        {R"("direction": [0, 1, 0])", {1, 0, 0}},  // nothing is level to the right of these two
+        {R"("direction": [0, 1, 0])", {1, 0, 0}},  // these two directions have no horizontal right
         {R"("direction": [0, -1, 0])", {1, 0, 0}},
     };
     for (const auto& [words, axis] : cases) {
@@ -136,7 +136,7 @@ TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
     EXPECT_EQ(tube.axis, glm::dvec3(0, 0, 1));
 }
 
-// What counts for nothing in the type that is meant was meant otherwise.
+// A key that has no effect for the given type is probably a mistake in the type, so it is an error.
 TEST(LightsJson, EveryKeyBelongsToItsTypes) {
     const std::pair<const char*, std::set<std::string>> keys[] = {
         {R"("angle": 0.1)", {"directional"}},

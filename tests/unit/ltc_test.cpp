@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stored table of linearly transformed cosines against the lobe that it stands for.
+// The stored table of linearly transformed cosines against the BRDF lobe that it approximates.
 #include "shared/light/ltc.h"
 #include "shared/contract/constants.h"
 #include "shared/light/fit/fit.h"
@@ -16,7 +16,7 @@ namespace diptych::ltc {
 namespace {
 
 constexpr std::size_t last = gpu::LTC_CELLS - 1;
-// Mirrors, common roughnesses and the roughest, from the normal to grazing.
+// The smoothest, common and roughest roughnesses, from normal incidence to grazing.
 constexpr std::array<std::pair<std::size_t, std::size_t>, 8> some{
     {{0, 0}, {0, 40}, {13, 5}, {13, 31}, {30, 10}, {30, 50}, {last, 20}, {last, last}}};
 
@@ -27,8 +27,7 @@ Transform transformOf(const Lobe& lobe, const LtcCell& cell) {
     return ltc::transformOf(cell, lobe.alpha(), lobe.nDotV());
 }
 
-// The integral over the hemisphere, by directions spread evenly over its cosine-weighted disc's cells in
-// other ways than the fit's own: rings of the polar angle.
+// Integrates over the hemisphere by other directions than the fit: rings of the polar angle.
 template <class F>
 double hemisphere(const F& f) {
     constexpr int rings = 800, sectors = 800;
@@ -55,8 +54,8 @@ TEST(Ltc, EveryCellIsInItsRange) {
     }
 }
 
-// What is stored as the fit's error is the fit's error, and what is stored as magnitude and Fresnel the
-// lobe's, by another quadrature: where the lobe is wide enough for rings.
+// The stored error is that of the stored fit, and the stored magnitude and Fresnel terms are those of the
+// lobe, computed by another quadrature, for lobes wide enough for rings.
 TEST(Ltc, StoredFiguresAreTheLobes) {
     for (const auto& [i, j] : some) {
         const Lobe lobe = lobeOf(i, j);
@@ -77,7 +76,7 @@ TEST(Ltc, StoredFiguresAreTheLobes) {
     }
 }
 
-// Directional albedo at normal incidence with F = 1, as the shader's BRDF has it.
+// Directional albedo at normal incidence with F = 1, as in the shader's BRDF.
 TEST(Ltc, MagnitudeIsTheKnownDirectionalAlbedo) {
     EXPECT_NEAR(double{ltcTable().at(1.0, 1.0).magnitude}, 0.3069, 1e-4);
     EXPECT_NEAR(double{ltcTable().at(0.5, 1.0).magnitude}, 0.9158, 2e-4);
@@ -86,15 +85,15 @@ TEST(Ltc, MagnitudeIsTheKnownDirectionalAlbedo) {
 TEST(Ltc, ATransformedCosineIsADensity) {
     for (const auto& [i, j] : some) {
         const Lobe lobe = lobeOf(i, j);
-        if (lobe.alpha() < 0.2) continue;  // rings are too few for less
+        if (lobe.alpha() < 0.2) continue;  // too few rings for narrower lobes
         const Transform t = transformOf(lobe, ltcTable().cell(i, j));
         EXPECT_NEAR(hemisphere([&](const glm::dvec3& l) { return t.density(l); }), 1, 2e-3) << i << " " << j;
         EXPECT_EQ(t.density({0.6, 0, -0.8}), 0) << "the horizon stays where it is";
     }
 }
 
-// Fitted again, from afar, a cell comes out no better than a hundredth: the stored one is a minimum, and its
-// lobe is the lobe of today.
+// Fitting a cell again from distant starting values improves it by no more than a hundredth: the stored one
+// is a minimum, for the current lobe.
 TEST(Ltc, AFitComesToTheStoredCell) {
     for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{13, 31}, {30, 10}, {last, 20}}) {
         const LtcCell& stored = ltcTable().cell(i, j);
@@ -108,8 +107,7 @@ TEST(Ltc, AFitComesToTheStoredCell) {
     }
 }
 
-// And is worse than itself nowhere around: each of the three numbers changed by a twentieth makes the error
-// larger.
+// Changing any of the three numbers by a twentieth increases the error.
 TEST(Ltc, AChangedCellIsWorse) {
     for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 40}, {13, 31}, {30, 10}}) {
         const Lobe lobe = lobeOf(i, j);

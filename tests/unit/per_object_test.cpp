@@ -179,7 +179,7 @@ TEST(PerObject, NothingPopsAsALightMoves) {
     EXPECT_GT(moved, 0.5) << "lights do change their group";
 }
 
-TEST(PerObject, MarksOverrideTheRanking) {
+TEST(PerObject, ImportanceOverridesTheRanking) {
     std::vector<Light> lights = row(12);
     lights[0].importance = Importance::not_important;
     lights[11].importance = Importance::important;
@@ -188,14 +188,14 @@ TEST(PerObject, MarksOverrideTheRanking) {
     EXPECT_EQ(shares[0].vertex, 1);
     EXPECT_EQ(shares[11].pixel, 1) << "the faintest";
     EXPECT_EQ(shares[1].pixel, 1);
-    EXPECT_EQ(shares[2].pixel, 1) << "the important one takes nobody's room";
+    EXPECT_EQ(shares[2].pixel, 1) << "the important one takes no other light's place";
     EXPECT_EQ(shares[3].pixel, 0);
     lights[11].range = 1;
     EXPECT_EQ(lightShares(fromEye(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
 }
 
 // Lights are sorted by kind, and those that give nothing left out: marks go with them.
-TEST(PerObject, MarksStayWithTheirLights) {
+TEST(PerObject, ImportanceStaysWithItsLight) {
     Light black = point({0, 0, 3}, 0), spot = point({0, 2, 3}, 1000), panel = point({0, 0, 20}, 0.01f),
           lamp = point({0, 0, 3}, 1000);
     black.importance = Importance::important;
@@ -229,7 +229,7 @@ TEST(PerObject, MarksStayWithTheirLights) {
 
 // Whatever is marked, and however many there is room for: important ones are whole wherever they reach, the
 // others never per pixel, and the rest are as if the important ones were not there.
-TEST(PerObject, MarksHoldForAnyLights) {
+TEST(PerObject, ImportanceHoldsForAnyLights) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int round = 0; round < 200; ++round) {

@@ -16,12 +16,12 @@ namespace diptych {
 // ---- where -------------------------------------------------------------------------------------------
 
 // From (-1, -1) to (1, 1) at 2 m: 25 pixels a metre around (100, 50).
-TEST(Marks, TheBoxOfATriangleByHand) {
+TEST(VisualChecks, TheBoxOfATriangleByHand) {
     const Scene scene = sceneOf(shapeOf({{-1, -1, -2}, {1, -1, -2}, {0, 1, -2}}));
     EXPECT_EQ(boxesOf(checksIn(scene, viewOf())), (Boxes{{75, 25, 125, 75}}));
 }
 
-TEST(Marks, NothingBehindTheCameraOrBesideThePicture) {
+TEST(VisualChecks, NothingBehindTheCameraOrBesideThePicture) {
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(0, 0, 2)), viewOf())), Boxes{});
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(0, 0, -0.5f)), viewOf())), Boxes{})
         << "before the near plane";
@@ -32,26 +32,26 @@ TEST(Marks, NothingBehindTheCameraOrBesideThePicture) {
 
 // A floor 1 m below the eye from 2 m ahead to 5 m behind is seen from 1 m, where 2 m are 100 pixels, on; with
 // a far plane at 3 m a floor that goes on to 10 m ends at 50 + 50 / 3 = 66.7 pixels.
-TEST(Marks, WhatReachesThroughAPlaneIsCutOff) {
+TEST(VisualChecks, WhatReachesThroughAPlaneIsCutOff) {
     const Scene through = sceneOf(shapeOf({{-1, -1, -2}, {1, -1, -2}, {1, -1, 5}, {-1, -1, 5}}));
     EXPECT_EQ(boxesOf(checksIn(through, viewOf())), (Boxes{{50, 75, 150, 100}}));
     const Scene away = sceneOf(shapeOf({{-1, -1, -2}, {1, -1, -2}, {1, -1, -10}, {-1, -1, -10}}));
     EXPECT_EQ(boxesOf(checksIn(away, viewOf(1, 3))), (Boxes{{75, 66, 125, 75}}));
 }
 
-TEST(Marks, WhatReachesOutOfThePictureEndsAtItsEdge) {
+TEST(VisualChecks, WhatReachesOutOfThePictureEndsAtItsEdge) {
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(4, 2, -2)), viewOf())), (Boxes{{175, 0, 200, 25}}));
 }
 
 // Half the height is 2 m: 25 pixels a metre at any distance.
-TEST(Marks, OrthographicByHand) {
+TEST(VisualChecks, OrthographicByHand) {
     View view = viewOf(0, 100);
     view.camera.orthographic = true;
     view.camera.ymag = 2;
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(1, 0, -7)), view)), (Boxes{{100, 25, 150, 75}}));
 }
 
-TEST(Marks, InstancesStandWhereTheirNodesPutThem) {
+TEST(VisualChecks, InstancesStandWhereTheirNodesPutThem) {
     Scene scene = sceneOf(squareAt(0, 0, 0));
     scene.nodes[0].parent_from_node = glm::translate(glm::dmat4(1), glm::dvec3(1e7, 2, -4));
     View view = viewOf();
@@ -59,7 +59,7 @@ TEST(Marks, InstancesStandWhereTheirNodesPutThem) {
     EXPECT_EQ(boxesOf(checksIn(scene, view)), (Boxes{{87, 37, 113, 63}})) << "12.5 pixels a metre";
 }
 
-TEST(Marks, TransformsThatAreNoNumbersMarkNothing) {
+TEST(VisualChecks, TransformsThatAreNoNumbersMarkNothing) {
     const Scene scene = sceneOf(squareAt(0, 0, -2));
     for (const double bad : {infinity, std::nan("")}) {
         Pose pose = poseAt(scene, 0);
@@ -71,7 +71,7 @@ TEST(Marks, TransformsThatAreNoNumbersMarkNothing) {
 
 // ---- whether it is seen ------------------------------------------------------------------------------
 
-TEST(Marks, WhatNoPixelShowsIsHidden) {
+TEST(VisualChecks, WhatNoPixelShowsIsHidden) {
     const Scene scene = sceneOf(squareAt(0, 0, -2));
     Image ids(200, 100, 1, -1);
     ids.at(10, 10) = 0;  // outside of its box
@@ -84,7 +84,7 @@ TEST(Marks, WhatNoPixelShowsIsHidden) {
 }
 
 // One behind the other, of one material; the picture shows the nearer one alone.
-TEST(Marks, PositionsTellInstancesOfOneMaterialApart) {
+TEST(VisualChecks, PositionsTellInstancesOfOneMaterialApart) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.nodes.emplace_back().mesh = 0;
     scene.nodes[1].parent_from_node = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2));
@@ -103,7 +103,7 @@ TEST(Marks, PositionsTellInstancesOfOneMaterialApart) {
 }
 
 // Against counting pixel by pixel, over sizes that tiles do not divide.
-TEST(Marks, MaterialPixelsAreWhatIsThere) {
+TEST(VisualChecks, MaterialPixelsAreWhatIsThere) {
     std::mt19937 random(1);
     Image ids(53, 37, 1), positions(53, 37, 3);
     for (float& id : ids.data)
@@ -135,7 +135,7 @@ TEST(Marks, MaterialPixelsAreWhatIsThere) {
 
 // ---- how many ----------------------------------------------------------------------------------------
 
-TEST(Marks, TheLargestComeFirstAndAllAreCounted) {
+TEST(VisualChecks, TheLargestComeFirstAndAllAreCounted) {
     Scene scene = sceneOf(squareAt(0, 0, 0));
     scene.nodes.clear();
     for (int i = 0; i < 30; ++i) {  // the 10th is nearest, two are as far as each other
@@ -154,7 +154,7 @@ TEST(Marks, TheLargestComeFirstAndAllAreCounted) {
     EXPECT_TRUE(std::ranges::is_sorted(features[0].checks, std::greater<>(), &VisualCheck::pixels));
 }
 
-TEST(Marks, ManyInstancesLeaveFewMarks) {
+TEST(VisualChecks, ManyInstancesLeaveFewMarks) {
     const Scene scene = sceneOf(squareAt(0, 0, -20));
     Pose pose = poseAt(scene, 0);
     pose.instances.resize(100'000, pose.instances[0]);
@@ -166,7 +166,7 @@ TEST(Marks, ManyInstancesLeaveFewMarks) {
 
 // ---- names -------------------------------------------------------------------------------------------
 
-TEST(Marks, PlacesAreNamedByWhatTheFileNames) {
+TEST(VisualChecks, PlacesAreNamedByWhatTheFileNames) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     const auto check = [&] { return checksIn(scene, viewOf()).at(0).checks.at(0); };
     scene.meshes[0].name.clear();
@@ -181,7 +181,7 @@ TEST(Marks, PlacesAreNamedByWhatTheFileNames) {
     EXPECT_EQ(check().name, "tree \u00b7 leaf");
 }
 
-TEST(Marks, LongNamesAreCutBetweenCharacters) {
+TEST(VisualChecks, LongNamesAreCutBetweenCharacters) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.nodes[0].name = "x";
     for (int i = 0; i < 1000; ++i)
