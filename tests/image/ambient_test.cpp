@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light that is the same from everywhere, in both paths: by hand, and against the reference.
+// Ambient light in both paths: against values computed by hand, and against the reference.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
 #include "tests/image/square.h"
@@ -16,8 +16,8 @@ std::vector<Frame> drawIn(const Scene& scene, const Rgb& ambient, Size size = {4
     return bothPaths(scene, settings);
 }
 
-// A base without a layer sends back what it has of the colour; the green texel of the square's texture is
-// closed.
+// A base without a specular layer reflects its colour's share; the green texel of the square's texture is
+// fully occluded.
 TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
     Scene scene = square();
     Material& m = scene.materials[0];
@@ -48,8 +48,8 @@ TEST(Ambient, OfARoughMetalSeenStraightOn) {
     }
 }
 
-// The second set of the square is mirrored left to right: the green texel is at its top left. A lightmap is
-// irradiance over pi, which a Lambertian base sends back times its colour and a metal not at all.
+// The square's second UV set is mirrored left to right: the green texel is at its top left. A lightmap is
+// irradiance over pi, which a Lambertian base multiplies by its colour; a metal reflects none of it.
 TEST(Ambient, OfALightmap) {
     Scene scene = square();
     scene.lights.emplace_back().intensity = 0;
@@ -74,12 +74,13 @@ TEST(Ambient, OfALightmap) {
     for (const Frame& frame : draw(scene))
         EXPECT_EQ(colorAt(frame, lit_ambient, 0, 0), glm::vec3(0)) << "a metal has no base";
     m.metallic = 0;
-    m.occlusion_texture.texture = 0;  // red: open at the top left of the first set, closed at its right
+    // Red: unoccluded at the top left of the first set, occluded at its right.
+    m.occlusion_texture.texture = 0;
     for (const Frame& frame : draw(scene)) {
         expectColor(colorAt(frame, lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " open");
         expectColor(colorAt(frame, lit_ambient, 3, 0), {0, 0, 0}, 1e-6f, frame.name + " occluded");
     }
-    // Of 8 bits it is a colour: sRGB.
+    // An 8 bit lightmap is sRGB.
     m.occlusion_texture.texture = -1;
     m.lightmap_texture.texture = 0;
     for (const Frame& frame : draw(scene))
@@ -92,7 +93,7 @@ TEST(Ambient, IsExactlyNothingWhereNoneIsAskedFor) {
         for (const float value : frame.channels.at(lit_ambient).data) ASSERT_EQ(value, 0.0f) << frame.name;
 }
 
-// 6e-5 is what the table is off by at most, float32 is far below; 1e-4 is what any light may be off by.
+// The table's error is at most 6e-5, and float32's is far smaller; 1e-4 is the tolerance of any light.
 class AmbientTruth : public testing::TestWithParam<const char*> {};
 
 TEST_P(AmbientTruth, BothPathsAreTheIntegral) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Area lights in pictures: both paths and every way to choose lights agree, and the table is worth its cost.
+// Pictures of area lights: both paths and every assignment agree, and the LTC table is close to the
+// reference.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/load.h"
@@ -54,10 +55,10 @@ double meanError(const Frame& truth, const Frame& frame, int channel) {
     return sum / all;
 }
 
-// Lambert's integral is exact; what is left of the diffuse error is the layer's Fresnel, taken at one
-// direction a light. The specular one is the table's and, on what is dielectric and seen at a slant as the
-// floor is, that one weight of Fresnel stands for the whole lobe: 0.154, of which the scene's smooth metals
-// have little. One representative point is far from both.
+// Lambert's integral is exact; the remaining diffuse error is the layer's Fresnel term, evaluated for one
+// direction of each light. The specular error is the table's and, on dielectrics seen at a grazing angle
+// such as the floor, that of a single Fresnel weight for the whole lobe: 0.154, of which the scene's smooth
+// metals contribute little. One representative point is far worse in both.
 TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Scene scene = loadScene("builtin:areas");
     Renderer renderer(device(), scene, pipelines());
@@ -72,7 +73,7 @@ TEST(AreaLightPictures, TheTableIsNearTheReference) {
     RecordProperty("ltc_diffuse", std::to_string(meanError(truth, ltc, diffuse)));
 }
 
-// A scene without any is drawn by the same bits whichever way is asked for.
+// A scene without area lights gives the same bits with either setting.
 TEST(AreaLightPictures, TheWayChangesNothingWithoutThem) {
     const Scene scene = loadScene("builtin:points");
     Renderer renderer(device(), scene, pipelines());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a benchmark times is what is drawn otherwise, and its kernels are one arithmetic.
+// Modes that a benchmark times separately differ in their pipelines, and its kernels compute the same
+// function.
 #include "compare/bench/kernels.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
@@ -20,7 +21,7 @@ Settings mode(Path path, Assignment assign) {
     return settings;
 }
 
-// Modes that can be drawn, of both paths.
+// The modes of both paths that can be drawn.
 std::vector<Settings> drawnModes() {
     std::vector<Settings> modes;
     for (const auto& [assign, name] : enumNames<Assignment>())
@@ -50,7 +51,7 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
         }
     EXPECT_EQ(renderer.pipelines(), pipelines);
     EXPECT_FALSE(frames.profile(0).empty());
-    // Nor does what a Renderer draws by itself differ.
+    // The same for what a Renderer draws by itself.
     RenderOptions options;
     options.channels = {static_cast<int>(gpu::DEBUG_lit)};
     options.runs = 0;
@@ -59,14 +60,14 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
         EXPECT_EQ(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)).data, first[i].data);
         EXPECT_EQ(frames.described(i).counters.lights, frame.counters.lights);
     }
-    // Negative control: another mode does make pipelines.
+    // Negative control: another mode does create pipelines.
     Settings other = mode(Path::deferred, Assignment::every);
     other.gbuffer = GBufferEncoding::compact;
     renderer.prepare(std::vector{other});
     EXPECT_GT(renderer.pipelines(), pipelines);
 }
 
-// The largest difference over a pixel's largest component.
+// The largest difference relative to the pixel's largest component.
 double furthest(const Image& a, const Image& b) {
     double most = 0;
     for (std::size_t i = 0; i < a.pixels(); ++i) {
@@ -81,8 +82,8 @@ double furthest(const Image& a, const Image& b) {
     return most;
 }
 
-// Sums of 48 lights of one sign, each of some forty roundings of 6e-8 and, in the CPU's kernel alone, of
-// products fused with sums: 1e-5 is several times that, and far below what another formula would differ by.
+// Sums of 48 lights of one sign, each with some forty roundings of 6e-8 and, in the CPU's kernel only, fused
+// multiply-adds: 1e-5 is several times that, and far below the difference of any other formula.
 constexpr double oneArithmetic = 1e-5;
 
 TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
@@ -100,7 +101,7 @@ TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
             EXPECT_GT(byHand.data[0], 0.0f);
             EXPECT_LT(furthest(byHand, picture), oneArithmetic) << kernel.name << ", " << length << " lights";
         }
-        // Negative control: one light more is seen.
+        // Negative control: one light more is detected.
         runCpuKernel(workload, 47, byHand);
         EXPECT_GT(furthest(byHand, drawn->picture()), 100 * oneArithmetic);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Frame is the same whenever, wherever and however large it is drawn.
+// A Frame does not depend on when, where and at which size it is drawn.
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
@@ -63,7 +63,7 @@ TEST(FrameOf, ASizeBeyondTheDeviceIsRefusedByName) {
     }
 }
 
-// A stale frame: what was drawn before must not show in what is drawn next.
+// No stale data: the frame drawn before must not affect the next.
 TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
     const Scene scene = loadScene("builtin:gallery");
     Settings before = smallPicture(GBufferEncoding::standard), after = before;
@@ -101,8 +101,8 @@ TEST(FrameOf, BackgroundIsZeroAndItsIdMinusOne) {
     }
 }
 
-// The share of the picture that each kind of body covers, known from ray casting for this camera: sky
-// 31.2 %, and the rest is covered. A tenth of a percent for the pixel grid.
+// The share of the picture that is covered, known by ray casting for this camera: 31.2 % is sky. A tenth of
+// a percent is allowed for the pixel grid.
 TEST(FrameOf, SpheresCoverWhatRayCastingSays) {
     Settings settings = smallPicture(GBufferEncoding::standard);
     settings.size = {1280, 720};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path is said to ignore changes no bit of what it draws: so that a sweep may leave it out.
+// A Setting that a path is said to ignore changes no bit of its picture, so that a sweep may leave it out.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pixels whose values are known by hand: a square that fills the picture, two units wide, one metre before
-// the camera, lit or textured so simply that paper suffices.
+// Pixels whose values are computed by hand: a square of two units that fills the picture, one metre before
+// the camera, with simple lights and textures.
 #include "tests/image/square.h"
 
 #include <numbers>
@@ -28,8 +28,8 @@ TEST(KnownValues, TheSecondUvSetIsReadWhereAsked) {
     }
 }
 
-// KHR_texture_transform: offset (0.5, 0) moves red under the right half; a quarter turn counter-clockwise of
-// the coordinates (u, v) -> (v, -u) shows the lower left texel at the top left.
+// KHR_texture_transform: offset (0.5, 0) moves red to the right half; rotating the coordinates by a quarter
+// counter-clockwise, (u, v) -> (v, -u), shows the lower left texel at the top left.
 TEST(KnownValues, TextureTransform) {
     Scene scene = square();
     scene.materials[0].base_color_texture = {0, 0, {1, 0, 0.5}, {0, 1, 0}};
@@ -92,12 +92,12 @@ TEST(KnownValues, MetallicRoughnessAndOcclusionTextures) {
     }
 }
 
-// A rough white dielectric without specular, under a light that falls straight on it: E / pi.
+// A rough white dielectric without specular, lit along its normal: E / pi.
 TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
     Scene scene = square();
     Material& m = scene.materials[0];
     m.metallic = 0;
-    m.specular = 0;  // F0 = F90 = 0: the base alone
+    m.specular = 0;  // F0 = F90 = 0: only the base
     Light sun;
     sun.kind = LightKind::directional;
     sun.intensity = 2;
@@ -135,7 +135,7 @@ TEST(KnownValues, GgxPeak) {
         expectColor(colorAt(frame, lit, 0, 0), glm::vec3(expected), 5e-6f, frame.name);
 }
 
-// Occlusion is for ambient light: direct light does not dim under it.
+// Occlusion only applies to ambient light: direct light is not attenuated.
 TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     Scene scene = square();
     Light sun;
@@ -150,8 +150,8 @@ TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     }
 }
 
-// A normal map's texel (0.5 + 0.5 sin 30, 0.5, 0.5 + 0.5 cos 30) turns the normal 30 degrees to +u; mirrored
-// transforms and back faces turn it as glTF says.
+// The normal map's texel (0.5 + 0.5 sin 30, 0.5, 0.5 + 0.5 cos 30) tilts the normal by 30 degrees to +u;
+// mirrored transforms and back faces follow glTF's rules.
 TEST(KnownValues, NormalMapsFollowTangentsMirrorsAndBackFaces) {
     Scene scene = square();
     scene.images[0] = {"tilt", 1, 1, {191, 128, 238, 255}};
@@ -169,7 +169,7 @@ TEST(KnownValues, NormalMapsFollowTangentsMirrorsAndBackFaces) {
         expectColor(colorAt(frame, normals, 1, 1), {-n.x, n.y, n.z}, 5 * float32,
                     frame.name + " mirrored in x");
 
-    Scene turned = scene;  // half a turn about y: its back is seen, the normal is reversed
+    Scene turned = scene;  // rotated by 180 degrees about y: its back is visible, with the normal flipped
     turned.nodes[0].parent_from_node = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
     for (const Frame& frame : draw(turned))
         expectColor(colorAt(frame, normals, 1, 1), {n.x, -n.y, n.z}, 5 * float32,
@@ -185,7 +185,7 @@ TEST(KnownValues, DepthAndPosition) {
     }
 }
 
-// The extremes: what once differed or was not a number.
+// Extreme inputs that once made paths differ or gave NaN.
 
 void expectSound(const std::vector<Frame>& frames) {
     expectSameChannels(frames[0], frames[1]);
@@ -198,7 +198,7 @@ void expectSound(const std::vector<Frame>& frames) {
     }
 }
 
-// Reversed depth is 0 at the far plane, and 0 is also what the background is cleared to.
+// Reversed depth is 0 at the far plane, which is also the clear value of the background.
 TEST(Extremes, ASurfaceOnTheFarPlaneIsInBothPictures) {
     Scene scene = square();
     for (const double near : {0.1, 0.013, 0.5}) {
@@ -211,7 +211,7 @@ TEST(Extremes, ASurfaceOnTheFarPlaneIsInBothPictures) {
     expectSound(draw(scene, 8));
 }
 
-// Light and viewer in opposite directions have no half vector.
+// With light and viewer in opposite directions there is no half vector.
 TEST(Extremes, ALightThatShinesAtTheViewerGivesNothing) {
     Scene scene = square();
     scene.cameras[0].orthographic = true;
@@ -230,13 +230,14 @@ TEST(Extremes, AFlattenedNodeKeepsItsNormals) {
     Scene scene = square();
     scene.nodes[0].parent_from_node[2] = {0, 0, 0, 0};
     expectSound(draw(scene, 8));
-    for (glm::vec3& n : scene.meshes[0].primitives[0].normals) n = {1, 0, 0};  // in the plane: flattened away
+    // In the plane of the square, whose scale flattens them to 0.
+    for (glm::vec3& n : scene.meshes[0].primitives[0].normals) n = {1, 0, 0};
     const auto frames = draw(scene, 8);
     expectSound(frames);
     expectColor(colorAt(frames[1], normals, 4, 4), {0, 0, 1}, float32, "the triangle's normal stands in");
 }
 
-// The same picture at any scale: lengths by s, intensities by s^2.
+// The picture is the same at any scale: lengths scaled by s, intensities by s^2.
 TEST(Extremes, ScaleDoesNotChangeThePicture) {
     Scene scene = square();
     Light lamp;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whatever chooses the lights of a pixel, the picture is that of every light, bit for bit.
+// With every assignment of lights, the picture is that of assignment every, bit for bit.
 #include "compare/render/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
@@ -27,7 +27,7 @@ RenderOptions untimed(std::vector<int> channels = {lit}) {
     return options;
 }
 
-// Pixels that are not the same: a NaN equals nothing, itself neither.
+// Number of pixels that differ; a NaN differs from everything, also from itself.
 std::size_t wrongPixels(const Image& a, const Image& b) {
     std::size_t nans = 0;
     for (std::size_t i = 0; i < a.pixels(); ++i)
@@ -35,7 +35,7 @@ std::size_t wrongPixels(const Image& a, const Image& b) {
     return differingPixels(a, b) + nans;
 }
 
-// The ways to choose lights that must change nothing.
+// The assignments and kernels that must not change the picture.
 struct Way {
     Assignment assign;
     LightKernel kernel;
@@ -45,7 +45,7 @@ constexpr Way ways[] = {{Assignment::clustered, LightKernel::scatter},
                         {Assignment::tiled, LightKernel::scatter},
                         {Assignment::tiled, LightKernel::gather}};
 
-// The scene with exactly `count` lights: its own first, then a seeded rig's, every eighth a spot.
+// The scene with exactly `count` lights: its own first, then a seeded rig's, every eighth of them a spot.
 Scene withLights(Scene scene, std::size_t count) {
     if (scene.lights.size() < count) {
         const std::size_t more = count - scene.lights.size(), spots = more / 8;
@@ -68,8 +68,7 @@ Settings picture(Size size, Path path, Assignment assign, LightKernel kernel = L
     return settings;
 }
 
-// lit alone. No light of a list may be left without room. `captured`: the capture must be what was drawn,
-// too.
+// Draws lit alone. No list may overflow. `captured`: the capture must equal the drawn picture, too.
 Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
     if (captured) {
         Frame frame = renderer.draw(settings, untimed());
@@ -83,8 +82,9 @@ Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
     return frames.lit(0);
 }
 
-// Every way on both paths against `every` on forward+; `kernels`: both of each, else the device's own. A
-// capture draws once more what was drawn: small pictures are captured every way, large ones once a path.
+// Compares every way on both paths with `every` on forward+; `kernels`: with both list kernels, otherwise
+// with the device's default. A capture draws everything once more: small pictures are captured in every way,
+// large ones once for each path.
 void expectEveryWayEqual(Renderer& renderer, Size size, bool kernels) {
     const bool small = size.width * size.height <= 1024;
     const Image every = litOf(renderer, picture(size, Path::forward_plus, Assignment::every), small);
@@ -107,7 +107,8 @@ void expectEveryWayEqual(Renderer& renderer, Size size, bool kernels) {
 
 class LightMatrix : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
-// Large by large is every light at every pixel several times over, seconds each: there sparsely.
+// Many lights on a large picture evaluate every light at every pixel several times, for seconds: only a few
+// such cases.
 std::vector<Size> sizesOf(const std::string& scene, int count) {
     std::vector<Size> sizes{{1, 1}, {15, 17}};
     if (count <= 257 || (count == 1024 && scene == "spheres")) sizes.push_back({640, 360});
@@ -125,7 +126,7 @@ TEST_P(LightMatrix, EveryWayIsEvery) {
     Renderer renderer(device(), lit_scene, pipelines());
     for (const Size size : sizesOf(name, count)) {
         SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height));
-        // Both kernels where a workgroup a cell is not too slow on this device.
+        // Both kernels, unless one workgroup for each cell is too slow on this device.
         expectEveryWayEqual(renderer, size, size.width * count <= 640 * 257);
     }
 }
@@ -138,7 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Lights, LightMatrix,
                                     std::to_string(std::get<1>(row.param)) + "_lights";
                          });
 
-// The other scenes in pairs: each with two of the counts and one size, so that every count meets every size.
+// The other scenes each with two of the light counts and one size, so that every count is combined with
+// every size.
 class LightPairs : public testing::TestWithParam<std::string> {};
 
 TEST_P(LightPairs, EveryWayIsEvery) {
@@ -147,7 +149,7 @@ TEST_P(LightPairs, EveryWayIsEvery) {
     constexpr std::size_t counts[] = {1, 255, 256, 257, 1024};
     constexpr Size sizes[] = {{1, 1}, {15, 17}, {160, 90}, {213, 119}};
     const Scene scene = loadScene(GetParam());
-    // 5 and 4 have no common factor: over the scenes every count meets every size.
+    // 5 and 4 are coprime: over all scenes every count meets every size.
     const Scene many = withLights(scene, counts[at % std::size(counts)]);
     Renderer renderer(device(), many, pipelines());
     expectEveryWayEqual(renderer, sizes[at % std::size(sizes)], at % 3 == 0);
@@ -222,7 +224,8 @@ TEST(LightExtremes, ConesFromNothingToAHemisphere) {
             Light light = spotAt({place(random), up(random), place(random)}, {turn(random), -1, turn(random)},
                                  static_cast<float>(glm::radians(degrees / 2)), 8);
             if (i % 2 == 0)
-                light.inner_cone = light.outer_cone;  // hard: no difference of cosines to divide by
+                // Hard edge: the difference of cosines would be a zero divisor.
+                light.inner_cone = light.outer_cone;
             if (i % 4 == 1) light.direction = {0, -1, 0};
             lights.push_back(light);
         }
@@ -247,7 +250,7 @@ TEST(LightExtremes, RangesFromAMillimetreToAMillionMetres) {
         expectEqualUnder(scene, lights);
 }
 
-// As far as a light may be: beyond any ball whose square float32 holds easily.
+// Lights at the largest possible distance: beyond bounding spheres whose squares fit well into float32.
 TEST(LightExtremes, LightsAsFarAwayAsTheyMayBe) {
     constexpr float everywhere = std::numeric_limits<float>::infinity();
     std::vector<Light> lights;
@@ -268,9 +271,10 @@ TEST(LightExtremes, LightsOfNothingAndThousandsInOnePlace) {
     expectEqualUnder("builtin:spheres", std::move(lights), {96, 54});
 }
 
-// Lights before, in and beyond the slices' end; pixels behind the last light.
+// Lights before, in and beyond the last slice; pixels behind the last light.
 TEST(LightExtremes, LightsBeyondTheLastSliceStillLight) {
-    std::vector<Light> lights(40, pointAt({0, 0.5, 13}, 1, 0.5f));  // the median: slices are short
+    // They are the median, which makes slices short.
+    std::vector<Light> lights(40, pointAt({0, 0.5, 13}, 1, 0.5f));
     for (double z = 5; z > -20; z -= 1) lights.push_back(pointAt({0, 1, z}, 4, 3));
     lights.push_back(pointAt({0, 2, -15}, 50, 200));
     expectEqualUnder("builtin:spheres", lights);
@@ -282,7 +286,7 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     const Scene scene = withLights(loadScene("builtin:gallery"), 65600);
     Renderer renderer(device(), scene, pipelines());
     expectEveryWayEqual(renderer, {24, 14}, false);
-    // Negative control: the last light of all is among those that were added up.
+    // Negative control: the last of all lights is among those summed up.
     Scene without = scene;
     for (Light& light : without.lights) light.intensity *= 1e-3f;
     without.lights.back() = pointAt(eyeOf("builtin:gallery"), 100, 1000);
@@ -294,11 +298,11 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 100u);
 }
 
-// More pairs of lights and cells than the device's largest buffer holds.
+// More pairs of lights and cells than fit into the device's largest buffer.
 TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     Scene scene = loadScene("builtin:spheres?lights=1");
     scene.lights.assign(65600, pointAt({0, 2, 0}, 1e-4f, std::numeric_limits<float>::infinity()));
-    // The median light in front that ends somewhere is small: slices are thin, and there are many.
+    // The median range of lights is small: slices are thin, and there are many.
     for (int i = 0; i < 200; ++i) scene.lights.push_back(pointAt({0.1 * i - 10, 0.1, 0.07 * i - 8}, 1, 0.2f));
     Renderer renderer(device(), scene, pipelines());
     const Size size{192, 24};
@@ -338,7 +342,7 @@ TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
             ++covered;
             EXPECT_EQ(frame.channels.at(listOverflow).pixel(i)[0], 0.0f);
         }
-        // The scene's own figure: 5.07 point lights reach a covered pixel; a list holds a few more.
+        // Known for this scene: on average 5.07 point lights reach a covered pixel; a list holds a few more.
         const double mean = sum / static_cast<double>(covered) - 1;
         EXPECT_GT(mean, 4.5);
         EXPECT_LT(mean, 5.07 * 4) << nameOf(assign);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both paths draw the same picture: bit for bit with a float32 G-buffer, and with a packed one differing by
-// exactly what the encoding does.
+// Both paths draw the same picture: bit for bit with a float32 G-buffer; with a packed one they differ by
+// exactly the effect of its encoding.
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
@@ -19,13 +19,14 @@ void expectBitEqual(const std::vector<Frame>& frames) {
     }
 }
 
-// What forward+ computes from an encoded and decoded surface is what deferred shows: nothing else differs.
+// Deferred must equal what forward+ computes from surfaces that were encoded and decoded: there is no other
+// difference.
 void expectExplained(const std::vector<Frame>& frames) {
     ASSERT_EQ(frames[1].through_gbuffer.size(), litModes.size());
     for (const auto& [mode, image] : frames[1].through_gbuffer)
         EXPECT_EQ(differingPixels(frames[0].channels.at(mode), image), 0u) << debugMode(mode).name;
     for (const int mode :
-         {8, 10, 11, 12})  // ids, depth, position, geometric normal: the same in any encoding
+         {8, 10, 11, 12})  // ids, depth, position, geometric normal do not depend on the encoding
         EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
             << debugMode(mode).name;
     EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u);
@@ -71,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Asset, AssetParity, testing::ValuesIn(assetScenes()), [
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
-// Light from everywhere goes through the same table in both.
+// Ambient light uses the same table in both paths.
 TEST(Parity, OfAmbientLight) {
     for (const char* name :
          {"builtin:gallery", "builtin:dielectrics", "builtin:occlusion", "builtin:ortho"}) {
@@ -86,13 +87,13 @@ TEST(Parity, OfAmbientLight) {
     }
 }
 
-// Negative controls: each changes one constant in what one path draws, and the gate above must notice.
+// Negative controls: each changes one constant in what one path draws, which the tests above must detect.
 class ParityNegativeControl : public testing::Test {
 protected:
     const std::vector<Frame>& sound(GBufferEncoding encoding) {
         return scene.bothPaths(smallPicture(encoding));
     }
-    // Between deferred on the sound scene and forward+ on the changed one.
+    // Pixels that differ between deferred on the original scene and forward+ on the changed one.
     std::size_t changedPixels(int mode) {
         Renderer renderer(device(), changed, pipelines());
         const Frame faulty = drawnBy(Path::forward_plus, renderer, smallPicture(GBufferEncoding::full));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights by object: what is given up with few of them per pixel, and that nothing pops.
+// Assignment per_object: its error with few lights per pixel, and that nothing pops.
 #include "shared/light/per_object.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
@@ -38,7 +38,7 @@ Frame drawn(const Scene& scene, Assignment assign, int pixels, Size size = {160,
     return drawnAll(scene, {picture(assign, pixels, size)}).front();
 }
 
-// Every light, and four per pixel.
+// With all lights, and with four per pixel.
 std::pair<Frame, Frame> bothWays(const Scene& scene) {
     std::vector<Frame> frames =
         drawnAll(scene, {picture(Assignment::every, 0), picture(Assignment::per_object, 4)});
@@ -83,10 +83,9 @@ TEST(PerObject, AsManyLightsAsAskedForAreShadedPerPixel) {
     }
 }
 
-// By how much a step of the scene changes per_object otherwise than every, of the local radiance: the
-// largest. Local is the brightest component that `every` shows at the pixel itself; where that is darker than
-// a hundredth of the picture's mean, as on what faces away from all lamps, where harmonics shine a little, it
-// is that.
+// The largest effect of one step of the scene on the difference between per_object and every, relative to
+// the local radiance: the brightest component of `every` at the pixel, but at least a hundredth of the
+// picture's mean (surfaces that face away from all lamps get a little light from harmonics).
 double popOf(const Frame& every, const Frame& everyNext, const Frame& object, const Frame& objectNext) {
     const Image &a = every.channels.at(lit), &b = everyNext.channels.at(lit), &c = object.channels.at(lit),
                 &d = objectNext.channels.at(lit);
@@ -103,8 +102,8 @@ double popOf(const Frame& every, const Frame& everyNext, const Frame& object, co
     return largest;
 }
 
-// Twelve lamps a few metres above nine balls and a floor of tiles, one of which is at (x, height, z): it
-// changes places with all of them in turn.
+// Twelve lamps a few metres above nine balls and a tiled floor. One of them is at (x, height, z), and
+// changes rank with all others as x changes.
 Scene movingLamp(double x, double height = 8.3, double z = -6.32) {
     Scene scene = loadScene("builtin:spheres?lights=0");
     for (int i = 0; i < 12; ++i) {
@@ -119,7 +118,7 @@ Scene movingLamp(double x, double height = 8.3, double z = -6.32) {
     return scene;
 }
 
-// CloserPath than two metres to a surface its radiance itself changes by more than 1 % a centimetre.
+// Closer than two metres to a surface, its radiance itself changes by more than 1 % for each centimetre.
 TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     double worst = 0;
     const glm::dvec2 above[] = {{1.2, 8.3}, {4.2, 8.3}, {7.2, 8.3}, {13.2, 8.3}, {16.2, 8.3}},
@@ -142,8 +141,8 @@ TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     std::printf("changes of per_object beside those of every: up to %.2f %% of the local radiance\n",
                 100 * worst);
     EXPECT_GT(worst, 0) << "it is not every that was drawn";
-    // Negative control: without a fade a light that changes its group would show by all of what the groups
-    // differ by.
+    // Negative control: without the fade, a light that changes its group would show the whole difference
+    // between the groups.
     const Scene scene = movingLamp(10.2);
     const Frame every = drawn(scene, Assignment::every, 0);
     const double jump =
@@ -151,7 +150,7 @@ TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     EXPECT_GT(jump, 0.01);
 }
 
-// What harmonics would add is dropped where a lightmap has it.
+// An object with a lightmap gets no harmonics.
 TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
     Scene scene = loadScene("builtin:lightmaps");
     for (int i = 0; i < 10; ++i) {
@@ -180,9 +179,9 @@ TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
     EXPECT_GT(diffuse(scene), 0) << "the base and the vertex lights are there";
 }
 
-// What a square reflects of lights that are per vertex and in its harmonics, against the CPU's own lists of
-// them: its specular layer is off, so that radiance is albedo / pi times irradiance. The square and its
-// camera turn.
+// The light that a square reflects from vertex lights and harmonics, against the CPU's own lists: its
+// specular layer is off, so that radiance is albedo / pi times irradiance. The square and its camera rotate
+// together.
 TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -198,7 +197,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
         scene.materials[0].base_color = glm::vec4(glm::vec3(albedo), 1);
         scene.materials[0].metallic = 0;
         scene.materials[0].specular = 0;
-        // Suns, the brightest four of which are the vertices': the same at each corner.
+        // Suns, of which the four brightest are vertex lights: equal at all corners.
         for (int i = 0; i < 14; ++i) {
             Light light;
             light.kind = i < 8 ? LightKind::directional : LightKind::point;

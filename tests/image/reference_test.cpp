@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both paths against the reference, the reference's two modes against each other, and planted faults on
-// either side.
+// Both paths against the reference, the reference's two modes against each other, and negative controls with
+// faults on either side.
 #include "compare/verdict/comparison.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
@@ -36,8 +36,8 @@ std::size_t nonfinite(const Frame& frame) {
 
 // ---- both paths --------------------------------------------------------------------------------------
 
-// 1e-4 relative on 99.9 % of the pixels that show a surface: what float32 shading of a captured surface
-// keeps.
+// Relative errors of at most 1e-4 on 99.9 % of the covered pixels: what float32 shading of a captured
+// surface achieves.
 void expectTruth(const Scene& scene, Settings settings) {
     settings.gbuffer = GBufferEncoding::full;
     settings.assign = Assignment::every;
@@ -72,8 +72,8 @@ TEST(Reference, BothPathsDrawSponza) {
 
 // ---- its two modes -----------------------------------------------------------------------------------
 
-// Pixels of which both modes show one place. Coplanar triangles are anyone's, and of triangles of 200 km the
-// raster has the depth to 6e-4 of itself.
+// Pixels in which both modes show the same place. Of coplanar triangles either may be visible, and for
+// triangles of 200 km the depth of the rasterizer is exact to 6e-4 only.
 Coverage samePlaces(const Frame& a, const Frame& b) {
     const Image &depth = a.channels.at(10), &other = b.channels.at(10);
     const Image &id = a.channels.at(8), &other_id = b.channels.at(8);
@@ -87,8 +87,8 @@ Coverage samePlaces(const Frame& a, const Frame& b) {
     return same;
 }
 
-// The raster snaps corners to 1/256 of a pixel: a pixel may be off by what the channel changes by over 1/128
-// of the way to its neighbours. Of the rest, 1e-4 relative.
+// The rasterizer snaps corners to 1/256 of a pixel, so a pixel's value may be off by 1/128 of the difference
+// to its neighbours. Beyond that, 1e-4 relative is allowed.
 double shareBeyond(const Frame& traced, const Frame& surface, int mode, const Coverage& same) {
     const Image &truth = traced.channels.at(mode), &image = surface.channels.at(mode);
     const PixelError error(Metric::relative, debugMode(mode).kind, truth, same);
@@ -128,13 +128,13 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
         }
     EXPECT_EQ(nonfinite(surface), 0u);
     EXPECT_EQ(nonfinite(traced), 0u);
-    // Without textures nothing is filtered: where both see one place they see one surface.
+    // Without textures nothing is filtered: where both modes show the same place, the surface is the same.
     const std::size_t shown = coveredPixels(traced);
     if (!scene.textures.empty() || shown == 0) return;
     const Coverage same = samePlaces(traced, surface);
     const double least = GetParam() == "builtin:coplanar" ? 0.85 : 0.98;
     EXPECT_GE(static_cast<double>(same.count), least * static_cast<double>(shown));
-    for (const int mode : {1, 3, 4, 5, 6, 7, 50})  // of the material
+    for (const int mode : {1, 3, 4, 5, 6, 7, 50})  // channels of the material
         EXPECT_LE(against(traced, surface, mode, same).max, 1e-6) << debugMode(mode).name;
     for (const int mode : {0, 40, 41})
         EXPECT_LE(shareBeyond(traced, surface, mode, same), 2e-3) << debugMode(mode).name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the picture tests draw, and on what.
+// Scenes and the device for the picture tests.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -44,7 +44,7 @@ inline std::vector<std::string> builtinScenes() {
     return names;
 }
 
-// Real scenes beside the repository; a test that wants one skips where it is absent.
+// Real scenes in a folder beside the repository; a test that needs one is skipped if it is absent.
 inline const std::vector<std::string>& assetScenes() {
     static const std::vector<std::string> names{
         "cesium_man/CesiumMan.gltf",
@@ -113,7 +113,7 @@ inline Frame drawnBy(Path path, Renderer& renderer, Settings settings) {
     return renderer.draw(settings, options);
 }
 
-// The deferred Frame and the forward+ Frame.
+// The Frames of deferred and of forward+.
 inline std::vector<Frame> bothPaths(Renderer& renderer, const Settings& settings) {
     std::vector<Frame> frames;
     for (const Path path : {Path::deferred, Path::forward_plus})
@@ -131,7 +131,7 @@ public:
     explicit UploadedScene(const std::string& name)
         : scene(loadScene(name)), renderer(device(), scene, pipelines()) {}
 
-    // As bothPaths() of above; drawn once for equal Settings.
+    // As bothPaths() above; drawn once for equal Settings.
     const std::vector<Frame>& bothPaths(const Settings& settings) {
         for (const auto& [drawn, frames] : frames_)
             if (drawn == settings) return frames;
@@ -145,7 +145,7 @@ private:
     std::deque<std::pair<Settings, std::vector<Frame>>> frames_;
 };
 
-// The scene of a name or a file. It stays until some others have been asked for after it.
+// The scene of a name or a file. It is kept until several others have been requested after it.
 inline UploadedScene& uploaded(const std::string& name) {
     constexpr std::size_t most = 12;
     static std::list<std::pair<std::string, UploadedScene>> scenes;  // the one asked for last is first
@@ -153,7 +153,7 @@ inline UploadedScene& uploaded(const std::string& name) {
     if (found != scenes.end()) {
         scenes.splice(scenes.begin(), scenes, found);
     } else {
-        device();  // outlives them
+        device();  // must be created first, since it must outlive the scenes
         if (scenes.size() == most) scenes.pop_back();
         scenes.emplace_front(std::piecewise_construct, std::forward_as_tuple(name),
                              std::forward_as_tuple(name));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a device is spared (uniforms gathered for each pixel, inputs that nobody reads, normals of triangles)
-// changes no bit of the picture.
+// Optimisations that skip work on the device (uniforms gathered for each pixel, inputs that are not read,
+// normals of triangles) change no bit of the picture.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
@@ -11,7 +11,7 @@
 namespace diptych::tests {
 namespace {
 
-// lit, after `change` has had its way with what the path is given.
+// lit, after `change` has modified the path's input.
 Image litWith(const Scene& scene, const Settings& settings,
               const std::function<void(PreparedView&)>& change) {
     SharedResources shared(device(), scene);
@@ -60,7 +60,7 @@ TEST(Spared, TheViewIsTheSameFromEverySource) {
         }
 }
 
-// A texture transform asks for every input; that of a material without one moves nothing.
+// A texture transform needs all inputs; one on a material without texture has no effect.
 TEST(Spared, FewerInputsBringTheSamePictureAsAll) {
     std::size_t scene = 0;
     for (const std::string& name : builtinScenes())
@@ -71,7 +71,7 @@ TEST(Spared, FewerInputsBringTheSamePictureAsAll) {
                    });
 }
 
-// The frame that is timed holds no normals of triangles; one whose normals are captured is drawn again.
+// The timed frame computes no normals of triangles; a frame whose normals are captured is drawn again.
 TEST(Spared, WhatIsCapturedChangesNoOtherChannel) {
     const Scene scene = loadScene("builtin:gallery");
     for (const Path path : {Path::deferred, Path::forward_plus})
@@ -89,8 +89,8 @@ TEST(Spared, WhatIsCapturedChangesNoOtherChannel) {
         }
 }
 
-// What lies before everything else is drawn first: hidden fragments fail their depth test before they are
-// shaded. An orthographic camera, whose w is 1 everywhere, sees near and far, too.
+// Nearest objects are drawn first: hidden fragments then fail the depth test before they are shaded. This
+// also holds for an orthographic camera, whose w is always 1.
 TEST(Spared, DrawsGoFromNearToFar) {
     for (const char* name : {"builtin:spheres", "builtin:ortho"}) {
         const Scene scene = loadScene(name);
@@ -102,7 +102,7 @@ TEST(Spared, DrawsGoFromNearToFar) {
         ASSERT_GT(items.size(), 1u) << name;
         EXPECT_TRUE(std::ranges::is_sorted(items, {}, &DrawItem::distance)) << name;
         EXPECT_LT(items.front().distance, items.back().distance) << name;
-        // The ground of spheres encloses them all, so it is the last.
+        // The ground of builtin:spheres encloses all spheres, so it is drawn last.
         if (name == std::string_view("builtin:spheres")) {
             EXPECT_EQ(items.back().range.index_count, 6u);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The square of which pixels are known by hand, and what is asked of its pictures.
+// The square whose pixels are known by hand, and helpers to draw and check it.
 #pragma once
 
 #include "tests/image/scenes.h"
@@ -41,7 +41,7 @@ inline Scene square() {
     return scene;
 }
 
-// Both paths' Frames at full precision; every expectation is asked of both.
+// Frames of both paths at full precision; every expectation is checked on both.
 inline std::vector<Frame> draw(const Scene& scene, int pixels = 4) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {pixels, pixels};
@@ -63,7 +63,7 @@ inline void expectColor(const glm::vec3& got, const glm::vec3& expected, float t
 // sRGB 128 in linear light: ((128/255 + 0.055) / 1.055)^2.4.
 constexpr float grey = 0.215861f;
 const inline glm::vec3 red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1), greys(grey);
-constexpr float float32 = 2e-6f;  // a few roundings beside 1
+constexpr float float32 = 2e-6f;  // several roundings of values around 1
 constexpr float srgbTexel =
     2e-3f;  // a device may decode sRGB to 8 bits' accuracy (Vulkan's texel conversion)
 

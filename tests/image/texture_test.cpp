@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What texels become on their way into a pixel: 16 bit images to the single step, filters and wraps.
+// Texels in pixels: 16 bit images exact to a single step, filters and wrap modes.
 #include "shared/material/textures.h"
 #include "tests/image/square.h"
 
@@ -9,7 +9,7 @@
 namespace diptych::tests {
 namespace {
 
-// Two texels beside each other, the right one a step of 16 bits above the left one in every component.
+// Two texels side by side, the right one a 16 bit step above the left one in every component.
 Scene deepSquare(std::uint16_t code) {
     Scene scene = square();
     TextureImage& image = scene.images[0];
@@ -46,7 +46,7 @@ TEST(Textures, SixteenBitsOfSrgbReachThePixel) {
         for (const Frame& frame : draw(scene))
             for (const int x : {0, 3}) {
                 const auto expected = static_cast<float>(linearFromSrgb((code + (x == 3)) / 65535.0));
-                // A float's rounding of the value itself.
+                // rounding of the value to float
                 expectColor(colorAt(frame, albedo, x, 0), glm::vec3(expected), 1e-7f, frame.name);
                 expectColor(colorAt(frame, emission, x, 0), glm::vec3(expected), 1e-7f, frame.name);
             }
@@ -69,7 +69,8 @@ TEST(Textures, SixteenBitsAreFilteredInLinearLight) {
     }
 }
 
-// Vulkan's formats by what the device filters; half floats, which every device does, are said to lose bits.
+// Formats are chosen by what the device can filter; half floats, which every device can, come with a note on
+// lost bits.
 TEST(Textures, FormatsGiveWayInOrder) {
     const auto with = [](std::set<VkFormat> filtered) {
         return [filtered](VkFormat format) { return filtered.contains(format); };
@@ -89,8 +90,8 @@ TEST(Textures, FormatsGiveWayInOrder) {
     EXPECT_EQ(format(true, false, {}), std::pair(halves, false));
 }
 
-// Every wrap pair: 4 x 4 pixels over uv -1 to 2 (scale 3, offset -1) of a 3 x 1 texture; nearest. What lies
-// left of 0 and right of 1 is known by hand.
+// All pairs of wrap modes: 4 x 4 pixels over uv -1 to 2 (scale 3, offset -1) of a 3 x 1 texture, nearest.
+// The texels left of 0 and right of 1 are known by hand.
 TEST(Textures, WrapsOfEveryPair) {
     Scene scene = square();
     // Texel (x, y) has red 60 x and green 60 y, read through the linear roughness (G) and metallic (B) slots.
@@ -120,8 +121,9 @@ TEST(Textures, WrapsOfEveryPair) {
         }
 }
 
-// Magnified: nearest takes the texel, linear the mean between two. Minified by 4 of a texture whose texels
-// alternate 0 and 1 in columns of two (so that level 1 does too): which level, and what lies between.
+// Magnified: nearest takes the texel, linear the mean of two. Minified by 4, with a texture whose texels
+// alternate between 0 and 1 in columns of two (so that level 1 does too): which level is read, and what is
+// between levels.
 TEST(Textures, FiltersOfEveryKind) {
     Scene scene = square();
     TextureImage image{"columns", 16, 16, {}};
@@ -170,7 +172,7 @@ TEST(Textures, FiltersOfEveryKind) {
     EXPECT_NEAR(at({r, r, true, false, true, true}, 0.75, 4, 1), 0.585f * grey2, 0.086f * grey2 + 0.004f);
 }
 
-// Coordinates that no texture has are still numbers, the same in both paths.
+// Coordinates far beyond any texture still give numbers, the same in both paths.
 TEST(Textures, EndlessCoordinatesGiveNumbers) {
     constexpr float most = std::numeric_limits<float>::max();
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge})

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// KHR_materials_unlit: what a pixel shows is the base colour, factor x texture x COLOR_0, whatever else is
-// there.
+// KHR_materials_unlit: a pixel shows the base colour, factor x texture x COLOR_0, whatever the lights and
+// other parameters are.
 #include "tests/image/square.h"
 
 namespace diptych::tests {
 namespace {
 
-// The square, unlit, with everything that an unlit material ignores turned up, under a sun and a lamp.
+// The square, unlit, with extreme values for everything that an unlit material ignores, under a sun and a
+// lamp.
 Scene unlitSquare() {
     Scene scene = square();
     Material& m = scene.materials[0];
@@ -46,7 +47,7 @@ TEST(Unlit, EmitsItsBaseColourAndReflectsNothing) {
         }
 }
 
-// Negative control: without the extension the same pixel is another.
+// Negative control: without the extension the same pixel differs.
 TEST(Unlit, TheSameMaterialLitIsAnother) {
     Scene scene = unlitSquare();
     scene.materials[0].unlit = false;
@@ -66,7 +67,7 @@ TEST(Unlit, TextureAndVertexColourMultiply) {
     }
 }
 
-// Alpha counts: factor 0.8 x COLOR_0 0.5 is below the cutoff of 0.41, and not below 0.39.
+// Alpha is used: factor 0.8 x COLOR_0 0.5 is below the cutoff of 0.41, and not below 0.39.
 TEST(Unlit, MaskCutsByFactorTextureAndVertexAlpha) {
     Scene scene = unlitSquare();
     Material& m = scene.materials[0];
@@ -80,7 +81,7 @@ TEST(Unlit, MaskCutsByFactorTextureAndVertexAlpha) {
     }
 }
 
-// Its back is there where it has two sides only.
+// The back is visible only if the material is double-sided.
 TEST(Unlit, DoubleSidednessCounts) {
     Scene scene = unlitSquare();
     scene.nodes[0].parent_from_node = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
@@ -90,7 +91,7 @@ TEST(Unlit, DoubleSidednessCounts) {
         EXPECT_EQ(colorAt(frame, lit, 0, 0), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
 }
 
-// A black unlit surface emits nothing and still reflects nothing: the specular attachment is there for it.
+// A black unlit surface emits nothing and must also reflect nothing, although it has a specular attachment.
 TEST(Unlit, BlackStaysBlackUnderAnyLight) {
     Scene scene = unlitSquare();
     scene.materials[0].base_color = {0, 0, 0, 1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No message of the Khronos validation layers, synchronization validation included, from any scene, path
-// or G-buffer encoding, nor of any way to choose lights.
+// The Khronos validation layers, including synchronization validation, report nothing for any scene, path,
+// G-buffer encoding and assignment.
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
@@ -9,8 +9,8 @@ namespace {
 
 class Validation : public testing::TestWithParam<std::string> {};
 
-// All frames of one Renderer: uploads and most pipelines are the same for every one. Every channel is
-// captured in one encoding; what others change of a capture is its last shading pass.
+// All frames are drawn by one Renderer, which shares uploads and most pipelines. Every channel is captured
+// in one encoding; another encoding only changes the last shading pass of a capture.
 TEST_P(Validation, SaysNothing) {
     static Device validated{DeviceOptions{.choice = "", .validate = true}};
     static const std::shared_ptr<PipelineSet> compiled = makePipelineSet(validated);

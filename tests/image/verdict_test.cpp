@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The verdict that users see: every built-in scene passes at the tolerances that its encoding derives, and
-// one constant changed in what one path draws fails the channel that shows it.
+// The verdict that users see: every built-in scene passes at the tolerances derived from its encoding, and
+// changing one constant in what one path draws fails the channel that shows it.
 #include "compare/verdict/comparison.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
@@ -63,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Asset, AssetVerdict, testing::ValuesIn(assetScenes()), 
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
-// A scene that is added to the folder is drawn, too. The one that is missing here requires an extension that
-// nobody builds any more; its line is tested with the loader.
+// A scene that is added to the folder must be drawn, too. The one that is excluded here requires an
+// extension that no longer exists; its error is tested with the loader.
 TEST(AssetScenes, AreAllThatThereAre) {
     if (!std::filesystem::exists(assets())) GTEST_SKIP() << "NO ASSETS at " << assets();
     std::set<std::string> found, listed(assetScenes().begin(), assetScenes().end());
@@ -75,7 +75,7 @@ TEST(AssetScenes, AreAllThatThereAre) {
     EXPECT_EQ(found, listed);
 }
 
-// One changed constant for every channel's gate.
+// One changed constant for the tolerance of each channel.
 struct NegativeControl {
     const char* channel;
     void (*change)(Scene&);
@@ -110,7 +110,7 @@ void nudge(Scene& scene) {
     for (Node& node : scene.nodes) node.parent_from_node[3].x += 1e-4;
 }
 
-// Every step is about twice what the standard G-buffer's encoding allows itself.
+// Every change is about twice the tolerance of the standard G-buffer.
 const NegativeControl negativeControls[] = {
     {"lit", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }},
     {"albedo",
@@ -177,7 +177,7 @@ const NegativeControl negativeControls[] = {
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),
                          [](const auto& control) { return std::string(control.param.channel); });
 
-// Every channel of the list that both paths make has a negative control here.
+// Every channel that both paths make has a negative control here.
 TEST(VerdictNegativeControls, CoverEverySharedChannel) {
     for (const DebugMode& mode : debugModes()) {
         const bool controlled =
@@ -187,7 +187,7 @@ TEST(VerdictNegativeControls, CoverEverySharedChannel) {
     }
 }
 
-// A lit that the capture does not reproduce, or that is not finite, fails whatever the channels say.
+// A lit that the capture does not reproduce, or that is not finite, fails regardless of the channels.
 TEST(Verdict, AnUnreproducedLitFails) {
     const Scene scene = loadScene("builtin:triangle");
     std::vector<Frame> frames = bothPaths(scene, smallPicture(GBufferEncoding::standard));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How far both ways of shading area lights are from the reference: the table of shared/light/README.md,
-// measured here; whole in a campaign and where DIPTYCH_AREA_TABLE names a file for it, else a slice.
+// The errors of both ways of shading area lights against the reference: the table of shared/light/README.md
+// is measured here. A campaign, or a run with DIPTYCH_AREA_TABLE naming a file for the table, measures all of
+// it; otherwise a slice.
 #include "tests/campaign.h"
 #include "tests/probe/area_maker.h"
 
@@ -22,8 +23,8 @@ constexpr std::array angles{0.0, 45.0, 75.0};
 constexpr std::array distances{0.5, 1.0, 2.0, 5.0};
 constexpr std::array sizes{0.3, 1.0};
 
-// Of the light's specular reflection, relative to what a sky as bright would send: a light is as far off as
-// it looks.
+// Errors of the light's specular reflection, relative to that of a sky of the same radiance, so that a light
+// counts by its apparent size.
 struct Case {
     LightKind kind;
     double roughness, angle, distance, size;
@@ -31,8 +32,8 @@ struct Case {
     double sky;
 };
 
-// A light of a size in m at a distance in m, where the mirror image of the viewer is, beside it and above the
-// surface.
+// A light of a given size (m) at a given distance (m): at the mirror image of the viewer, beside it, and
+// above the surface.
 std::vector<Light> placesOf(LightKind kind, double angle, double distance, double size) {
     std::vector<Light> lights;
     const glm::dvec3 mirrored = viewAt(angle, reference::pi);
@@ -47,7 +48,7 @@ std::vector<Light> placesOf(LightKind kind, double angle, double distance, doubl
 }
 
 std::vector<Case> measured(Probes& probes) {
-    // 7 divides none of the counts of a row's parameters, so that a slice has some of every value.
+    // 7 does not divide the number of values of any parameter, so that a slice contains every value.
     const Rows rows(std::getenv("DIPTYCH_AREA_TABLE") ? 1 : 7);
     int row = 0, next = 0;
     std::vector<Case> cases;
@@ -97,9 +98,9 @@ std::string tableOf(const std::vector<Case>& cases, const char* name, const Key&
     return text;
 }
 
-// No light's reflection is off by more than half the cell's distance between lobe and transformed cosine
-// (total variation), of what a sky as bright would send; the table's own bilinear steps and halves add up to
-// 2 % of it.
+// The error of a light's reflection, relative to a sky of the same radiance, is at most half the cell's
+// distance between lobe and transformed cosine (total variation); the table's bilinear interpolation and
+// half floats add up to 2 %.
 TEST(AreaError, IsBoundedByTheFit) {
     Probes probes;
     const std::vector<Case> cases = measured(probes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Area lights for the probe area.comp, and what they should give: by the reference, and by the table alone.
+// Area lights for the probe area.comp, and the expected results: by the reference, and by the table alone.
 #pragma once
 
 #include "compare/reference/lighting.h"
@@ -24,7 +24,7 @@ namespace diptych::tests {
 
 constexpr std::size_t areaWidth = 30;
 
-// A surface in the origin with the normal +Z.
+// A surface at the origin with the normal +Z.
 struct Receiver {
     double roughness = 0.5, metallic = 1, albedo = 1, f0 = 0.04, f90 = 1;
     glm::dvec3 to_viewer{0, 0, 1};
@@ -75,9 +75,9 @@ inline std::array<double, 2> referenceArea(const Light& light, const Receiver& r
     return {shading.reflected.diffuse.g, shading.reflected.specular.g};
 }
 
-// The outline of an area light from the origin. A tube's is two lines along its side, and at each end the
-// near half of the rim where the end's face is not seen, the far one where it is; from beyond an end, within
-// the side, that rim.
+// The outline of an area light as seen from the origin. That of a tube consists of two lines along its side
+// and, at each end, of half a rim: the far half if the end's face is visible, otherwise the near half; seen
+// from beyond an end, within the tube's radius, it is that end's rim.
 inline std::vector<glm::dvec3> outlineOf(const Light& light) {
     if (light.kind == LightKind::rect) return reference::cornersOf(light);
     std::vector<glm::dvec3> outline;

@@ -45,7 +45,7 @@ std::string words(const Light& l, const Receiver& r) {
         l.length, l.two_sided ? " two-sided" : "", r.roughness, v(r.to_viewer));
 }
 
-// One that shines down on the surface, a little aslant.
+// A light that shines down on the surface, slightly tilted.
 Light lightOf(LightKind kind) {
     Light light = reference::lightOf(kind, {0.4, -0.3, 1.2}, {0.1, 0.2, -1});
     light.width = 1, light.height = 0.6f, light.radius = 0.3f, light.length = 1;
@@ -54,9 +54,9 @@ Light lightOf(LightKind kind) {
 
 class AreaShapes : public testing::TestWithParam<LightKind> {};
 
-// Lambert alone, and a lobe of F = 1: the table's magnitude times the transformed cosine over the light. Both
-// closed forms are sums of a dozen terms of float32 that largely cancel, and M^-1 makes up to 500 times
-// larger what is rounded: 2e-5 of the sky is ten times what this finds.
+// A Lambertian lobe, and a specular lobe with F = 1: the table's magnitude times the transformed cosine over
+// the light. Both closed forms are sums of a dozen float32 terms that largely cancel, and M^-1 amplifies
+// rounding errors by up to 500: 2e-5 of the sky is ten times the error found here.
 TEST_P(AreaShapes, AreIntegratedExactly) {
     Probes probes;
     std::mt19937 random(11);
@@ -89,7 +89,7 @@ TEST_P(AreaShapes, AreIntegratedExactly) {
     EXPECT_GT(lit, 150) << "the comparison has lost its point: nothing is lit";
 }
 
-// Negative control: a light a percent larger is told from this one.
+// Negative control: a light larger by one percent is detected.
 TEST_P(AreaShapes, OnePerCentMoreIsSeen) {
     Probes probes;
     Light light = lightOf(GetParam());
@@ -116,7 +116,8 @@ double densityAt(const Light& light, const ltc::Transform& lobe, const Receiver&
     return lobe.density({glm::dot(l, x), glm::dot(l, glm::cross(glm::dvec3(0, 0, 1), x)), l.z});
 }
 
-// Far lights and tiny ones are points: to a thousandth of themselves, down to a millionth of the distance.
+// Distant and tiny lights behave like points: within a thousandth, down to a millionth of the distance in
+// size.
 TEST_P(AreaShapes, FarAwayTheyArePoints) {
     Probes probes;
     std::vector<float> input;
@@ -131,7 +132,7 @@ TEST_P(AreaShapes, FarAwayTheyArePoints) {
             const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
             pushArea(input, light, r);
             const ltc::Transform lobe = ltc::transformOf(cell, 0.16, r.nDotV());
-            // Where an outline's own sum would be rounding: its solid angle times the density there.
+            // Where the sum over the outline would be rounding error: solid angle times density.
             expected.push_back(double{cell.magnitude} *
                                (share > 1e-2 ? shareOfSky(light, lobe, r.to_viewer)
                                              : solidAngleOf(light) * densityAt(light, lobe, r)));
@@ -141,7 +142,7 @@ TEST_P(AreaShapes, FarAwayTheyArePoints) {
         EXPECT_NEAR(rows[i][1], expected[i], 1e-3 * expected[i]) << "case " << i;
 }
 
-// From the range on, from behind and from inside: exactly nothing, and with it culling changes no bit.
+// At and beyond the range, from behind and from inside: exactly zero, so that culling changes no bit.
 TEST_P(AreaShapes, GiveExactlyNothingWhereTheyEnd) {
     Probes probes;
     std::vector<float> input;
@@ -170,7 +171,7 @@ TEST_P(AreaShapes, GiveExactlyNothingWhereTheyEnd) {
     }
 }
 
-// A light that stands below the horizon sends nothing into either lobe, however rough and flat the view.
+// A light below the horizon contributes to neither lobe, at any roughness and viewing angle.
 TEST_P(AreaShapes, NothingComesFromBelow) {
     Probes probes;
     std::vector<float> input;
@@ -184,8 +185,8 @@ TEST_P(AreaShapes, NothingComesFromBelow) {
     for (const auto& row : shadeArea(probes, input)) EXPECT_EQ(row[0] + row[1], 0);
 }
 
-// On the light's plane, its edge, its corner, its axis, its surface and its centre, edge on, from 1e-15 m to
-// 1e15 m: finite, and in each lobe at most what a sky as bright sends.
+// On the light's plane, edge, corner, axis, surface and centre, and edge-on, from 1e-15 m to 1e15 m: results
+// are finite, and no lobe exceeds the reflection of a sky of the same radiance.
 TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
     Probes probes;
     for (const bool points : {false, true}) {
@@ -214,7 +215,8 @@ TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
             for (const double value : rows[i]) {
                 ASSERT_TRUE(std::isfinite(value)) << i;
                 ASSERT_GE(value, 0) << i;
-                // Of each lobe, to a thousandth for rounding; one point promises nothing.
+                // For each lobe, with a thousandth for rounding; the single representative point has no such
+                // bound.
                 if (!points) {
                     ASSERT_LE(value, 1.001) << i;
                 }
@@ -223,8 +225,8 @@ TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
     }
 }
 
-// What the dielectric's layer takes from its base is exact for a small light, to the square of its size as it
-// is seen, and near for large ones.
+// The reduction of a dielectric's base by its layer is exact for small lights, up to the square of their
+// apparent size, and approximate for large ones.
 TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
     Probes probes;
     std::vector<float> input;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cells, and what lights light, as exact shapes in double precision: what culling is held against.
+// Cells of light lists, and the regions that lights reach, as exact shapes in double precision: culling is
+// compared with them.
 #pragma once
 
 #include <glm/common.hpp>
@@ -16,7 +17,7 @@
 
 namespace diptych {
 
-// A frustum's cell in view axes: sides over depth, and depths.
+// A cell of the frustum in view axes: slopes of its sides (x / depth, y / depth), and depths.
 struct Cell {
     glm::dvec2 x, y, z;
 
@@ -84,8 +85,8 @@ struct LitRegion {
     }
 };
 
-// The distance between the two convex sets, by alternating projections (Cheney and Goldstein 1959, "Proximity
-// maps for convex sets"), from several starts; negative where it has not settled.
+// The distance between the two convex sets, by alternating projections (Cheney and Goldstein 1959,
+// "Proximity maps for convex sets") from several starting points; negative if it has not converged.
 inline double gap(const LitRegion& region, const Cell& cell) {
     const auto corners = cell.corners();
     double least = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the G-buffer's encodings lose, measured on the shipped GLSL.
+// The precision of the G-buffer's encodings, measured on the shipped GLSL.
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,8 @@ Angles octahedralError(Probes& probes, int bits) {
     return angles;
 }
 
-// The table of normal encodings for uniform directions; 2 % beside it for another sampling of the sphere,
-// and a float32 direction's own 1e-5 degrees.
+// The table of normal encodings for uniform directions; 2 % for another sampling of the sphere, and 1e-5
+// degrees for directions in float32.
 TEST(Encoding, OctahedralMeetsTheTable) {
     Probes probes;
     struct Row {
@@ -73,7 +73,7 @@ TEST(Encoding, OctahedralKeepsTheAxesExactly) {
             EXPECT_EQ(output[i * 3 + c], input[i * 4 + c]) << "direction " << i;
 }
 
-// 9.9.9.e5: half a step of the largest component's nine bits, of which the first is set: 1 / 512.
+// 9.9.9.e5: half a step of the largest component, which has nine bits of which the first is set: 1 / 512.
 TEST(Encoding, SharedExponentKeepsTheLargestComponentWithinHalfAStep) {
     Probes probes;
     std::mt19937 random(1);

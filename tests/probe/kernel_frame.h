@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SET_FRAME as the kernels that make light lists read it: View and LightGrid. Every other binding holds
-// something, since a device may follow whatever is bound.
+// SET_FRAME for the kernels that make light lists, which read View and LightGrid. All other bindings hold
+// something valid, because a device may access whatever is bound.
 #pragma once
 
 #include "shared/contract/bindings.h"
@@ -17,8 +17,8 @@
 
 namespace diptych {
 
-// A picture of the camera at the origin, which looks along -z: view axes (x, y, z) are the world's (x, -y,
-// -z).
+// A picture of the camera at the origin looking along -z: the view axes (x, y, z) are (x, -y, -z) in the
+// world.
 inline View plainView(int width, int height, double yfov = 1) {
     View view;
     view.width = width;
@@ -27,7 +27,7 @@ inline View plainView(int width, int height, double yfov = 1) {
     return view;
 }
 
-// View depth, m, of the reversed depth z > 0, and back.
+// View depth, m, from the reversed depth z > 0, and the reverse.
 inline double depthOf(const View& view, double z) {
     const gpu::View v = view.gpuView();
     return (double{v.depth_numerator.x} + double{v.depth_numerator.y} * z) /
@@ -60,7 +60,8 @@ public:
 private:
     static constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     using Types = std::array<VkDescriptorType, gpu::BINDING_LIST_COUNTS + 1>;
-    // What the kernels do not read may be of any kind, but for what LightLists::bind() writes.
+    // Bindings that the kernels do not read may have any content, except those that LightLists::bind()
+    // writes.
     static const Types& types() {
         static const Types all = [] {
             Types made;
@@ -79,7 +80,7 @@ private:
     DescriptorSets sets_;
 };
 
-// What a device buffer holds.
+// Reads back a device buffer.
 template <class T>
 std::vector<T> contents(Device& device, const GpuBuffer& buffer) {
     const GpuBuffer host(device, "read back", buffer.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tests that keep lights out of cells, against exact intersections in double precision: no false
-// negatives, and how many false positives.
+// The culling tests of lights against cells, compared with exact intersections in double precision: there
+// must be no false negatives, and the false positives are counted.
 #include "shared/contract/features.h"
 #include "shared/light/light_grid.h"
 #include "tests/probe/cells.h"
@@ -42,7 +42,7 @@ std::vector<Case> randomCases(std::size_t count, bool spots, unsigned seed) {
         c.cell.y = glm::dvec2(both(random)) + glm::dvec2(0, side);
         const double range = depth * std::pow(10.0, 2 * unit(random) - 1.5);
         c.region.range = static_cast<double>(static_cast<float>(range));
-        // About a range away from the cell, where reaching it is a toss-up.
+        // At about the light's range from the cell, where about half of the lights reach it.
         const auto corners = c.cell.corners();
         const glm::dvec3 at = glm::mix(corners[0], corners[7], unit(random));
         glm::dvec3 away(both(random), both(random), both(random));
@@ -87,7 +87,7 @@ std::vector<Case> edgeCases(std::size_t count, bool spots, unsigned seed) {
         c.cell.y = glm::dvec2(p.y / depth) + glm::dvec2(-1e-5, 1e-5);
         c.cell.z = depth * glm::dvec2(1 - 1e-5, 1 + 1e-5);
         if (!spots && unit(random) < 0.5) {
-            // Or a froxel as deep as a slice, whose near or far face the sphere just passes.
+            // Or a froxel as deep as a slice, whose near or far face the sphere barely crosses.
             const bool far = unit(random) < 0.5;
             c.cell = {{-0.05, 0.05}, {-0.05, 0.05}, {depth, 1.1 * depth}};
             c.region.apex = {
@@ -100,7 +100,7 @@ std::vector<Case> edgeCases(std::size_t count, bool spots, unsigned seed) {
     return cases;
 }
 
-// Bounds as the program makes them: view axes that are the world's, but for y and z.
+// Bounds as the program makes them: view axes are those of the world with y and z inverted.
 std::vector<gpu::LightBound> boundsOf(const std::vector<Case>& cases, bool spots) {
     std::vector<Light> lights;
     for (const Case& c : cases) {
@@ -117,7 +117,7 @@ std::vector<gpu::LightBound> boundsOf(const std::vector<Case>& cases, bool spots
     return lightBounds(gpuLights(lights, glm::dvec3(0)), view);
 }
 
-// What is made 1 % smaller on the way to the shader, or nothing.
+// What is made 1 % smaller before it is given to the shader.
 enum class Shrunk { nothing, radius, sides, depths, cone };
 
 struct Answer {
@@ -156,7 +156,7 @@ std::vector<Answer> ask(Probes& probes, const std::vector<Case>& cases, bool spo
 
 struct Tally {
     int meeting = 0, apart = 0, false_no = 0, false_yes = 0;
-    int row_no = 0;  // meets the cell, but is said not to reach its row
+    int row_no = 0;  // reaches the cell, but its row is reported as not reached
 };
 
 Tally tally(Probes& probes, bool spots, Shrunk shrunk, unsigned seed) {
@@ -193,7 +193,7 @@ TEST(LightCull, ABallIsNeverMissed) {
     EXPECT_EQ(t.row_no, 0);
     EXPECT_GT(t.meeting, 5000);
     EXPECT_GT(t.apart, 5000);
-    // The nearest point of a froxel is found but where Newton's steps end on another piece.
+    // The nearest point of a froxel is exact, except where Newton's iteration ends on another piece.
     EXPECT_LT(t.false_yes, t.apart / 200) << "a test that keeps everything would pass the rest";
 }
 
@@ -225,7 +225,7 @@ TEST(LightCull, WhatIsOnePerCentTooSmallIsCaught) {
 
 // ---- the scatter kernel's rectangles -----------------------------------------------------------------
 
-// A picture's grid, a sphere and a slab of depth, of which the rectangle of tiles is asked.
+// A picture's grid, a sphere and a depth slab, for which the rectangle of tiles is computed.
 struct RectCase {
     gpu::LightGrid grid;
     glm::dvec3 centre;
@@ -283,7 +283,7 @@ std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
 
 enum class RectShrunk { nothing, radius, pixel, last_column, last_row };
 
-// What of the rectangles is wrong, tile by tile.
+// Errors of the rectangles, counted by tile.
 struct RectTally {
     std::size_t meeting = 0, missed = 0, walked = 0, tiles = 0;
     std::size_t row_missed = 0, row_walked = 0;  // by the columns of each row
@@ -293,7 +293,7 @@ double distanceTo(const RectCase& c, gpu::uint x, gpu::uint y, bool orthographic
     const double side = std::ldexp(double{c.grid.pixel}, static_cast<int>(c.grid.tile_shift));
     const glm::dvec2 middle = glm::dvec2(c.grid.centre) * double{c.grid.pixel};
     const glm::dvec2 xs = glm::dvec2(x, x + 1) * side - middle.x, ys = glm::dvec2(y, y + 1) * side - middle.y;
-    // Beyond the sphere nothing matters: the last slice has no end.
+    // Depths beyond the sphere have no effect, and the last slice has no end.
     const glm::dvec2 zs(c.slab.near, std::min(double{c.slab.far}, c.centre.z + c.radius + 1));
     if (!orthographic) return glm::distance(c.centre, nearestInCell(c.centre, {xs, ys, zs}));
     const glm::dvec3 low(xs.x, ys.x, zs.x), high(xs.y, ys.y, zs.y);

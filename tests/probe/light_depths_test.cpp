@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The depth bounds of tiles by the shipped kernel, from one sample a pixel and from four: over all samples,
-// as what a tile's lists are made of must not depend on which sample is looked at.
+// The depth bounds of tiles by the shipped kernel, with one sample and with four for each pixel. Bounds must
+// cover all samples, because a tile's lists must not depend on which sample is shaded.
 #include "shared/scene/motion/bounds.h"
 #include "tests/probe/kernel_frame.h"
 #include "tests/probe/probe.h"
@@ -14,7 +14,7 @@
 namespace diptych {
 namespace {
 
-// Reversed depths of a picture, `samples` a pixel side by side; 0: background.
+// Reversed depths of a picture, `samples` for each pixel, side by side; 0: background.
 struct Picture {
     int width, height, samples;
     std::vector<float> z = std::vector<float>(static_cast<std::size_t>(width * height * samples));
@@ -223,7 +223,7 @@ struct Bounds {
     std::vector<gpu::vec3> depths;
 };
 
-// The kernel's answer, over tiles of 1 << tileShift pixels.
+// The kernel's result, for tiles of 1 << tileShift pixels.
 Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
     KernelFrame frame(probeDevice(), view);
     gpu::LightGrid grid{};
@@ -265,8 +265,8 @@ Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
     return {grid.tiles, contents<gpu::vec3>(probeDevice(), out)};
 }
 
-// Depths from 0.5 m to 500 m. A tile's nearest and farthest are each in one sample of one pixel, anywhere in
-// it; some tiles show background in one sample, some nothing else.
+// Depths from 0.5 m to 500 m. A tile's nearest and farthest depths are each in one sample of one pixel,
+// anywhere in it; some tiles have background in one sample, some only background.
 Picture randomPicture(const View& view, int samples, gpu::uint tileShift, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -293,8 +293,8 @@ Picture randomPicture(const View& view, int samples, gpu::uint tileShift, unsign
     return picture;
 }
 
-// Tiles of which a bound is not that of the picture's samples in double; a float32 division is within 3 ULP
-// of it (Vulkan's own bound, 2.5, and one of the sum).
+// Counts the tiles whose bounds differ from those of the picture's samples in double; a float32 division is
+// within 3 ULP of them (2.5 by Vulkan, and one of the sum).
 int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, const Bounds& bounds) {
     const int side = 1 << tileShift;
     const auto same = [](float a, double b) { return std::abs(double{a} - b) <= 4e-7 * b; };
@@ -320,7 +320,7 @@ int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, co
     return wrong;
 }
 
-// Samples of pixels, tiles of as many pixels as threads and of four times as many.
+// One and four samples a pixel; tiles with as many pixels as threads, and with four times as many.
 TEST(LightDepths, AreThoseOfAllSamples) {
     const View view = plainView(75, 53);
     for (const int samples : {1, 4})
@@ -332,8 +332,8 @@ TEST(LightDepths, AreThoseOfAllSamples) {
         }
 }
 
-// Negative controls: each sample counts. A picture that differs in one sample of each pixel, all else being
-// equal, has other bounds.
+// Negative controls: every sample counts. A picture that differs only in one sample of each pixel has other
+// bounds.
 TEST(LightDepths, NoSampleIsPassedOver) {
     const View view = plainView(75, 53);
     const Picture picture = randomPicture(view, 4, 4, 42);

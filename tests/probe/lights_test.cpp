@@ -37,7 +37,7 @@ TEST(Lights, FalloffIsTheSpecificationsFormula) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double d = static_cast<double>(static_cast<float>(cases[i].y));
         const double window = std::clamp(1 - std::pow(d / 10, 4), 0.0, 1.0);
-        // Near the range 1 - x^4 cancels: float32's 6e-8 beside 1, over d^2.
+        // Near the range 1 - x^4 cancels: an error of float32's 6e-8 relative to 1, over d^2.
         EXPECT_NEAR(out[i * 4], window / (d * d), 1e-6 * window / (d * d) + 3e-7 / (d * d));
         EXPECT_NEAR(out[i * 4 + 2], 1.0f, 2e-7f) << "the direction points to the light";
     }
@@ -54,7 +54,7 @@ TEST(Lights, IsExactlyZeroAtTheRangeAndBeyond) {
     }
     const std::vector<float> out = evaluate(probes, cases);
     for (std::size_t i = 0; i < cases.size(); ++i) EXPECT_EQ(out[i * 4], 0.0f) << "case " << i;
-    // Negative control: just inside, it is not zero.
+    // Negative control: just inside the range, it is not zero.
     const std::vector<float> inside = evaluate(probes, {{0.99, 0, 0, 1, 0, -1, 0, 0, 1}});
     EXPECT_GT(inside[0], 0.0f);
 }
@@ -82,7 +82,7 @@ TEST(Lights, SpotConeIsTheSpecificationsFormula) {
                  offset = -std::cos(outer) * scale;
     std::vector<Case> cases;
     for (int i = 0; i <= 100; ++i) {
-        const double angle = 0.01 * i;  // the light above shines down; the surface leaves its axis
+        const double angle = 0.01 * i;  // the light above shines down; the surface moves away from its axis
         cases.push_back({std::sin(angle), std::cos(angle), 0, std::numeric_limits<double>::infinity(), 0, -1,
                          0, scale, offset});
     }

@@ -39,7 +39,7 @@ namespace {
 constexpr std::uint32_t groupSize = 64;  // local_size_x of every probe
 constexpr std::array probeBindings{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
-// What all probes share: set 0 holds input and output, the push constant is the number of rows.
+// Common to all probes: set 0 has input and output, the push constant is the number of rows.
 struct ProbeLayout {
     explicit ProbeLayout(Device& device) : set(makeSetLayout(device, probeBindings)) {
         const std::array<VkDescriptorSetLayout, 1> sets{set};
@@ -88,7 +88,7 @@ std::vector<float> Probes::run(const std::string& shader, const std::vector<floa
     Device& device = probeDevice();
     const std::size_t rows = input.size() / inWidth;
     const auto count = static_cast<std::uint32_t>(rows);
-    // Each is compiled once, whichever tests run it.
+    // Each shader is compiled once for all tests.
     static const ProbeLayout layout(device);
     static std::map<std::pair<std::string, Feature>, OwnedPipeline> pipelines;
     OwnedPipeline& pipeline = pipelines[{shader, feature}];

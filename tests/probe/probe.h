@@ -14,7 +14,7 @@ namespace diptych {
 
 class Device;
 
-// The device of every test of this program.
+// The device that all tests of this program share.
 Device& probeDevice();
 
 // A shader of tests/probe/shaders, by file name.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The two lists of each tile (Billeter, Olsson and Assarsson 2013), read back, against exact intersections in
-// double: of opaques between the depths that were drawn, of transparents from the camera to the farthest
-// depth that is seen.
+// The two lists of each tile (Billeter, Olsson and Assarsson 2013), read back from the device, against exact
+// intersections in double: the list of opaques between the tile's nearest and farthest depths, that of
+// transparents from the camera to the farthest depth.
 #include "tests/probe/cells.h"
 #include "tests/probe/kernel_frame.h"
 #include "tests/probe/probe.h"
@@ -21,8 +21,8 @@ namespace {
 constexpr int width = 103, height = 61, block = 4;  // seven by four tiles, the last ones cut off
 constexpr int side = static_cast<int>(gpu::LIGHT_TILE);
 
-// View depths of the picture, m, a block of pixels each; 0: background. Tiles of all kinds: drawn whole, near
-// and far in one, half background, nothing but background.
+// View depths of the picture, m, constant in each block of pixels; 0: background. Tiles of all kinds: fully
+// covered, near and far together, half background, only background.
 struct Depths {
     static constexpr int across = (width + block - 1) / block, down = (height + block - 1) / block;
     std::vector<double> blocks = std::vector<double>(std::size_t{across} * down);
@@ -82,7 +82,7 @@ struct Lists {
     std::vector<std::vector<gpu::uint>> lists;  // lights in their order; of opaques, then of transparents
 };
 
-// `nearer`: the picture's depths are drawn at so much of themselves.
+// `nearer`: factor applied to the picture's depths before they are drawn.
 Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, ListKernel kernel,
               double nearer = 1) {
     KernelFrame frame(probeDevice(), view);
@@ -129,7 +129,7 @@ struct TileCells {
     Cell opaque, transparent;
 };
 
-// What a tile spans, from the picture's depths alone. `end` stands for no end.
+// The depth intervals of a tile, from the picture's depths alone. `end` replaces an infinite end.
 TileCells cellsOf(const View& view, const Depths& depths, int x, int y, double end) {
     TileCells cells;
     const double pixel = 2 * std::tan(view.camera.yfov / 2) / height;
@@ -148,7 +148,8 @@ TileCells cellsOf(const View& view, const Depths& depths, int x, int y, double e
     return cells;
 }
 
-// For each tile a point light behind its farthest depth and one before its nearest that come 0.3 % of it in.
+// For each tile a point light behind its farthest depth and one before its nearest, each reaching 0.3 % of
+// the depth into the interval.
 std::vector<Light> edgeLights(const View& view, const Depths& depths) {
     std::vector<Light> lights;
     for (int y = 0; y < 4; ++y)
@@ -173,9 +174,9 @@ struct Count {
     int meeting = 0, missed = 0, apart = 0, kept = 0, far_kept = 0, outside = 0;
 };
 
-// One tile's list against all lights. Far kept: at whose tile not even a sphere twice as large as what the
-// light lights would arrive; a spot's sphere and cone may each reach what both together do not
-// (light_cull.glsl).
+// Compares one tile's list with all lights. A light is counted as falsely kept if even a sphere of twice its
+// size would not reach the tile; a spot's sphere and its cone may each reach a tile that their intersection
+// does not (light_cull.glsl).
 void hold(Count& count, const std::vector<gpu::uint>& list, const std::vector<Light>& lights,
           const std::vector<gpu::LightBound>& bounds, const Cell& cell) {
     const std::set<gpu::uint> listed(list.begin(), list.end());
@@ -229,7 +230,7 @@ Held held(double nearer = 1) {
                 const auto cell = static_cast<std::size_t>(y * 7 + x);
                 const std::vector<gpu::uint>&opaque = lists.lists.at(cell),
                       &transparent = lists.lists.at(lists.grid.cells + cell);
-                // Beyond what any light reaches.
+                // Further than any light reaches.
                 const TileCells cells = cellsOf(view, depths, x, y, 300);
                 if (cells.drawn)
                     hold(all.opaque, opaque, lights, bounds, cells.opaque);
@@ -267,7 +268,7 @@ TEST(TileLists, HoldWhatReachesATileAndLittleElse) {
     EXPECT_EQ(all.empty_opaque, all.only_background) << "nothing to light";
 }
 
-// Negative control: lists of a picture that is 1 % nearer miss lights of this one.
+// Negative control: lists for a picture that is 1 % nearer lack lights of this one.
 TEST(TileLists, DepthsThatAreOnePerCentOffAreCaught) {
     for (const double nearer : {0.99, 1.01}) {
         const Held all = held(nearer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// compare against a picture of earlier: what it says of itself, how it is renewed, what may go wrong.
+// compare with an earlier picture: its messages, updating the baseline, errors.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
@@ -36,7 +36,7 @@ TEST(Baseline, IsWrittenComparedAndRenewed) {
     EXPECT_NE(report["frames"][0]["origin"]["commit"], "");
     EXPECT_EQ(contentsOf(folder / "b.exr"), first) << "comparing writes no baseline";
 
-    // Another light: the difference is one of Settings, which is said before any number.
+    // With other lights the Settings differ, which is stated before any number.
     ran = runTool(folder, "compare builtin:points --size 32x18 --runs 0 --baseline b.exr --lights point:2");
     EXPECT_EQ(ran.code, 1);
     EXPECT_EQ(ran.out.find("baseline: other Settings: lights \"\" (now \"point:2\")"), 0u) << ran.out;
@@ -48,7 +48,7 @@ TEST(Baseline, IsWrittenComparedAndRenewed) {
     EXPECT_EQ(runTool(folder, small + "--baseline b.exr --lights point:2").code, 0);
 }
 
-// A light that has moved is not explained by the G-buffer's encoding, whichever path the baseline is of.
+// The G-buffer's encoding does not explain a light that has moved, whichever path the baseline is of.
 TEST(Baseline, AChangeOfTheLightFailsInEveryRow) {
     for (const std::string path : {"forward_plus", "deferred"}) {
         const Folder folder;
@@ -99,7 +99,7 @@ TEST(Baseline, FaultsAreOneLine) {
     EXPECT_EQ(contentsOf(folder / "b.exr"), before);
 }
 
-// Two runs of a path on a CPU device are the same, or it is a race: compare looks.
+// Two runs of a path on a CPU device must be identical, otherwise there is a race: compare checks that.
 TEST(Noise, EveryChannelIsDrawnTwice) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, small).code, 0);

@@ -7,7 +7,7 @@
 namespace diptych {
 namespace {
 
-// However busy the machine is, no frame is too slow.
+// No time limit, so that a busy machine makes no frame too slow.
 constexpr const char* small =
     "bench builtin:spheres --sizes 32x24,16x12 --assign every --runs 2 --max-ms 1e6 ";
 
@@ -40,7 +40,7 @@ TEST(Bench, LeavesTableJsonPlotAndPage) {
     }
     EXPECT_EQ(lights, (std::set<int>{1, 4, 16}));
     EXPECT_TRUE(bench["kernels"].is_null());
-    // Its own folder may be written again, another's not.
+    // A folder of its own may be written again, another one may not.
     EXPECT_EQ(runTool(folder, std::string(small) + "--kernels off -q -o b").code, 0);
     folder.write("other/note.txt", "mine");
     EXPECT_TRUE(runTool(folder, std::string(small) + "-o other").failedOver("-o other"));

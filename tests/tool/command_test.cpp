@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The built program as users and scripts see it: exit codes, what is on stdout, what is on stderr.
+// The built program as users and scripts see it: exit codes, stdout, stderr.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
@@ -13,9 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Small and without timing: these tests are about the tool, not about the picture.
+// Small and untimed: these tests are about the tool, not about the picture.
 const std::string quick = " --size 48x27 --runs 0";
-// Where any scene will do: the default one takes ten times as long to make and to compile.
+// For tests that need any scene: the default one takes ten times as long to load and compile.
 const std::string quickTriangle = " builtin:triangle" + quick;
 
 // One triangle that faces the default camera, in one file.
@@ -96,7 +96,7 @@ TEST(Command, BadInputIsNamed) {
     EXPECT_FALSE(fs::exists(folder / "diptych-render"));
 }
 
-// Read, and not drawn by these paths yet: the report says so of each.
+// They are read, but these paths do not draw them yet: the report says so for each.
 TEST(Command, DiscsOfSunsAndTheEnvironmentAreNoted) {
     const Folder folder;
     folder.write("unlit.gltf", triangle);
@@ -116,7 +116,7 @@ TEST(Command, DiscsOfSunsAndTheEnvironmentAreNoted) {
         EXPECT_EQ(frame["counters"]["lights"], 2) << "those of the file, and no other";
         EXPECT_EQ(frame["settings"]["env"], "sky.exr");
     }
-    // Neither an area light nor an environment is helped out by the sun of a scene without light.
+    // The default sun is not added to a scene with an area light or an environment.
     for (const std::string light : {" --env sky.exr --ibl-intensity 0.5", " --lights rect.json"}) {
         folder.write("rect.json", R"({"lights": [{"type": "rect"}]})");
         report = parsed(runTool(folder, "render -o x.png --json unlit.gltf --size 16x9 --runs 0" + light));
@@ -264,7 +264,7 @@ TEST(Command, CompareLeavesAReportWhoseVerdictIsTheExitCode) {
     EXPECT_EQ(runTool(folder, "compare -q" + quick).code, ran.code) << "our own report is replaced";
 }
 
-// Two paths that shade one surface: parity holds at every encoding of the built-in scene.
+// Both paths shade the same surfaces: parity holds for every encoding on the built-in scene.
 TEST(Command, CompareHoldsParityOnTheGallery) {
     const Folder folder;
     const Ran gallery = runTool(folder, "compare" + quick);
@@ -311,7 +311,7 @@ TEST(Command, SeveralFramesGetAFolderEach) {
     EXPECT_EQ(Json::parse(contentsOf(folder / "all/frames.json"))["frames"].size(), 2u);
 }
 
-// A folder of its own takes any number of Frames; nothing of an earlier render that is no longer true stays.
+// A folder of its own takes any number of Frames; outdated files of an earlier render are removed.
 TEST(Command, RenderReplacesItsOwnFolderWhateverItHeld) {
     const Folder folder;
     const auto render = [&](int frames) {
@@ -336,13 +336,13 @@ TEST(Command, RenderReplacesItsOwnFolderWhateverItHeld) {
     EXPECT_TRUE(there("1/frame.json") && there("frames.json"));
     EXPECT_FALSE(there("frame.json") || there("forward_plus.exr"));
     EXPECT_TRUE(there("mine.txt"));
-    // 3/ is somebody else's by now, which is said before anything is drawn.
+    // 3/ now contains a foreign file, which is reported before anything is drawn.
     EXPECT_TRUE(runTool(folder, "render builtin:triangle builtin:triangle builtin:triangle -o all" + quick)
                     .failedOver("all/3"));
     EXPECT_FALSE(there("3/frame.json"));
 }
 
-// material_id tells the background, which is outside every mean: it is compared whatever was asked for.
+// material_id identifies the background, which is excluded from every mean: it is always compared.
 TEST(Command, CompareKnowsTheBackgroundWhateverChannelsAreAskedFor) {
     const Folder folder;
     const Json report = parsed(runTool(folder, "compare builtin:triangle --json --channels albedo" + quick));

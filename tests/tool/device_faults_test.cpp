@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory and devices that fail: exit 2, one line that says what helps, nothing written.
+// Failing memory allocations and devices: exit code 2, one line that says what helps, no output.
 #include "tests/campaign.h"
 #include "tests/tool/faults.h"
 
@@ -15,10 +15,10 @@ namespace {
 const std::string command = "compare builtin:triangle -q -o r --size 16x9 --runs 1 --channels albedo";
 constexpr int manyCalls = 2000;
 
-constexpr int slice = 4;  // of every table here one row in so many; all in a campaign
+constexpr int slice = 4;  // one row in four of every table here; a campaign runs all
 
-// From each call on in turn, until the tool does without the next one. Returns how many there were, as
-// Rows::atMost() has it.
+// Makes one call after the other fail, until the tool no longer reaches it. Returns the number of calls, as
+// Rows::atMost() expects it.
 int sweep(const std::string& function, VkResult result, const std::string& says, int step = 1) {
     const Folder folder;
     EXPECT_EQ(runTool(folder, command).code, 0);
@@ -79,8 +79,7 @@ TEST(DeviceFaults, AFeatureThatIsMissingIsNamedAndAnotherDeviceOffered) {
     }
 }
 
-// Every large allocation of ours and of the libraries that we call. What is smaller is too much to fail one
-// by one.
+// All large allocations of this program and of its libraries. Smaller ones are too many to fail one by one.
 TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, command).code, 0);
@@ -93,7 +92,7 @@ TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
         EXPECT_TRUE(leftoversIn(folder.path()).empty()) << at << " " << ran.err;
         if (ran.seen.empty()) break;
         if (ran.code == 0) {
-            // The library did with less.
+            // The library managed with less memory.
             fs::remove_all(folder / "r");
             ASSERT_EQ(runTool(folder, command).code, 0);
             continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// diff as a user and a script run it: files of several kinds, what decides, what is written.
+// diff as users and scripts run it: files of several formats, the deciding metric, the output.
 #include "shared/image/exr.h"
 #include "shared/image/pfm.h"
 #include "shared/image/png.h"
@@ -69,7 +69,7 @@ TEST(DiffCommand, TheAuthorsPairs) {
     EXPECT_EQ(city["exposures"], 15);
 }
 
-// One picture in four formats: the same but for what RGBE and 8 bits round.
+// One picture in four formats: equal but for the rounding of RGBE and of 8 bits.
 TEST(DiffCommand, FormatsMeet) {
     const Folder folder;
     const Image image = noise(7);
@@ -139,7 +139,7 @@ TEST(DiffCommand, WhatIsAskedForAndNotThereIsSaid) {
         << ran.out;
 }
 
-// The column that a value stands under is its own.
+// Every value is in the column of its own heading.
 TEST(DiffCommand, TheTableHasAColumnForEachFigure) {
     const Folder folder;
     writePng(folder / "a.png", grey(100));
@@ -163,8 +163,8 @@ TEST(DiffCommand, TheTableHasAColumnForEachFigure) {
     }
 }
 
-// The place that is named is the worst of what decides: here a dark pixel, though a bright one is further
-// off.
+// The pixel that is named is the worst by the deciding metric: here a dark one, though a bright one differs
+// more.
 TEST(DiffCommand, TheWorstPixelIsOfTheFigureThatDecides) {
     const Folder folder;
     Image a(8, 4, 3, 1.0f), b = a;
@@ -180,7 +180,7 @@ TEST(DiffCommand, TheWorstPixelIsOfTheFigureThatDecides) {
               std::string::npos);
 }
 
-// What a report offers to run again says all that the verdict hung on.
+// The command that a report prints contains everything that affected the verdict.
 TEST(DiffCommand, TheCommandOfAFailureFailsAgain) {
     const Folder folder;
     writePng(folder / "a.png", grey(100));

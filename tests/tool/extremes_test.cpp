@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes at the ends of what a file can say, through the whole program: both paths draw them, or there is one
-// line.
+// Scenes with extreme values, through the whole program: either both paths draw them, or there is a one-line
+// error.
 #include "tests/tool/run.h"
 
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 namespace diptych {
 namespace {
 
-// glTF with these nodes, all of them roots, over one mesh of one triangle in the plane z = 0, or of what else
-// the 36 bytes of positions say.
+// glTF with these nodes, all of them roots, with one mesh of one triangle in the plane z = 0, or of other 36
+// bytes of positions.
 std::string sceneOf(const std::string& nodes, std::size_t count,
                     const std::string& positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
                     int vertices = 3) {

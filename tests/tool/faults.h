@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder whose contents are told apart, and a tool whose calls fail on demand (preload/faults.cpp).
+// Comparison of a folder's contents, and the tool with calls that fail on demand (preload/faults.cpp).
 #pragma once
 
 #include "tests/tool/run.h"
@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-// Every file, folder and link below, by its path, with what is in it.
+// All files, folders and links below a folder, by path, with their contents.
 using Contents = std::map<std::string, std::string>;
 
 inline Contents contentsBelow(const fs::path& folder) {
@@ -27,7 +27,7 @@ inline void replaceBy(const fs::path& folder, const fs::path& saved) {
     fs::copy(saved, folder, fs::copy_options::recursive);
 }
 
-// Names that only stand while something is being written.
+// Names that only exist while something is being written.
 inline bool isLeftover(const std::string& path) {
     return path.find(".tmp") != path.npos || path.find(".diptych.put") != path.npos;
 }
@@ -40,14 +40,14 @@ inline std::vector<std::string> leftoversIn(const fs::path& folder) {
 }
 
 struct Fault {
-    std::string in;         // a kind of call
-    std::string what;       // an errno, a VkResult, "kill"
-    bool from = false;      // every later call too
+    std::string in;         // the kind of call
+    std::string what;       // the fault: an errno, a VkResult, "kill"
+    bool from = false;      // every later call fails, too
     std::size_t bytes = 0;  // of allocations
 };
 
 struct Faulted : Ran {
-    std::string seen;  // what failed; empty: it never came to that call
+    std::string seen;  // the call that failed; empty: it was never reached
 };
 
 #ifdef DIPTYCH_FAULTS

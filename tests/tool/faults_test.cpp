@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whatever fails in writing: exit 2, one line, the earlier report whole, nothing else left. Every moment is
-// met by a campaign, by counting calls until the tool comes to its end without the fault; here a slice of
-// them.
+// Any failure while files are written results in exit code 2 and one line; the earlier report stays complete
+// and nothing else is left. A campaign lets every call fail in turn, until the tool ends without reaching
+// the next one; otherwise a slice of the calls is tested.
 #include "tests/tool/faults.h"
 #include "tests/campaign.h"
 
@@ -17,16 +17,16 @@ TEST(Faults, NeedABuildWithoutSanitizers) {
 #else
 
 const std::string small = " builtin:triangle -q --size 16x9 --runs 0 --channels ";
-constexpr int manyCalls = 5000;  // more than any of these commands makes: a sweep that gets there hangs
+constexpr int manyCalls = 5000;  // more than any of these commands makes: a sweep that reaches it hangs
 
 Ran runWriter(const Folder& folder, const std::string& arguments) {
     return runShell(folder, "'" DIPTYCH_WRITER "' " + arguments, folder.path());
 }
 
-// An earlier report and what the next one looks like.
+// An earlier report and the report that replaces it.
 class Reports {
 public:
-    // `theirs`: with a file of somebody else's in it.
+    // `theirs`: the folder also contains a foreign file.
     explicit Reports(const Folder& folder, bool theirs = false) : folder_(folder) {
         EXPECT_EQ(runWriter(folder, "old saved").code, 0);
         EXPECT_EQ(runWriter(folder, "new fresh").code, 0);
@@ -35,7 +35,7 @@ public:
                 folder.write(std::string(report) + "/mine.txt", "keep");
         old_ = contentsBelow(folder / "saved");
         new_ = contentsBelow(folder / "fresh");
-        // The JSON and the page tell how long writing took, JUnit's names the folder.
+        // JSON and page contain the time of writing, JUnit the folder's name.
         for (const char* told : {"report.json", "index.html", "junit.xml"}) new_[told] = "";
         EXPECT_NE(old_.size(), new_.size());
         reset();
@@ -64,10 +64,10 @@ private:
     Contents old_, new_;
 };
 
-constexpr int slice = 4;  // of every table here one row in so many
+constexpr int slice = 4;  // one row in four of every table here
 
-// Fails call after call until none is left to fail; returns how many ended in exit 2, as Rows::atMost() has
-// it. `step`: not each call.
+// Makes one call after the other fail, until none is left; returns how many ended in exit code 2, as
+// Rows::atMost() expects it. `step`: only every step-th call.
 int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int step = 1) {
     const Rows rows(slice);
     int failed = 0;
@@ -78,7 +78,7 @@ int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int 
         EXPECT_TRUE(left.empty()) << where << left.front();
         const Contents there = contentsBelow(reports.report());
         if (ran.code == 0) {
-            // Unharmed, or a way around the fault was found.
+            // Either nothing was affected, or the program recovered from the fault.
             EXPECT_TRUE(reports.isNew(there)) << where;
             reports.reset();
         } else {
@@ -92,8 +92,8 @@ int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int 
     return rows.atMost(failed);
 }
 
-// At least so many files, of each one open, flush, close and rename. A write is into a temporary file
-// whichever it is, so that every 13th is enough.
+// For at least so many files an open, flush, close and rename each. A write always goes into a temporary
+// file, so every 13th write is enough.
 constexpr int files = 14;
 
 TEST(Faults, AnyCallThatFailsOnceLeavesTheEarlierReport) {
@@ -113,7 +113,7 @@ TEST(Faults, ADiskThatIsFullFromAnyMomentOnLeavesTheEarlierReport) {
         << ran.err;
 }
 
-// Beside files of others the new ones are moved one by one, and back.
+// Beside foreign files the new ones are moved one by one, and moved back on failure.
 TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
     const Folder folder;
     const Reports reports(folder, true);
@@ -121,8 +121,8 @@ TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
     EXPECT_GE(sweep(folder, reports, {"create", std::to_string(EROFS)}, 3), 10);
 }
 
-// At once where the folder is ours alone; beside files of others after the next run, which carries out what
-// was begun.
+// If the folder contains only our files, the old report is complete at once; beside foreign files after the
+// next run, which completes what was begun.
 void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
     const Folder folder;
     const Reports reports(folder, theirs);
@@ -160,7 +160,7 @@ TEST(Faults, AKillBesideFilesOfOthersIsMadeGoodByTheNextRun) {
     killAtEvery("create", 3, true, 10);
 }
 
-// The tool itself, with a device and a main().
+// The tool itself, including device and main().
 TEST(Faults, TheToolSaysItInOneLine) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "compare -o r" + small + "albedo").code, 0);
@@ -188,7 +188,7 @@ void killAmongSeveral(bool theirs) {
     replaceBy(folder / "r", folder / "saved");
     const Rows rows(slice / 2);
     int earlier = 0, later = 0;
-    // What writes into temporary files is met above.
+    // Writes into temporary files have been tested above.
     for (const auto& [calls, step] : {std::pair{"move", 1}, {"remove", 4}})
         for (int row = 0, at = 1;; row = rows.after(row), at = 1 + row * step) {
             ASSERT_LT(at, manyCalls);
@@ -243,7 +243,7 @@ TEST(Faults, ASingleFileIsOldOrNew) {
     }
 }
 
-// A baseline has three names on its way: the file, FILE.old and the one that is written.
+// While a baseline is replaced it has three names: the file, FILE.old and the temporary that is written.
 TEST(Faults, ABaselineIsNeverLost) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render --path deferred -o base.exr" + small + "albedo").code, 0);

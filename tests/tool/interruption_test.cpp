@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Signals, other programs, and disks that are truly full or read-only.
+// Signals, concurrent programs, and disks that are really full or read-only.
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 
@@ -24,7 +24,7 @@ TEST(Interruption, ALongSubmitEndsAtOnceByTheSignal) {
         const Folder folder;
         Running tool(folder, longWork);
         ASSERT_TRUE(soon([&] { return tool.err().find("draw") != std::string::npos; })) << tool.err();
-        std::this_thread::sleep_for(100ms);  // into a frame; wherever it is, it ends
+        std::this_thread::sleep_for(100ms);  // during a frame, or wherever it happens to be
         ::kill(tool.process(), signal);
         ASSERT_TRUE(soon([&] { return tool.ended(); })) << signal;
         EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
@@ -32,14 +32,14 @@ TEST(Interruption, ALongSubmitEndsAtOnceByTheSignal) {
     }
 }
 
-// Its folder or the one that becomes it is there.
+// Whether the report's folder, or the temporary one that will replace it, exists.
 bool isWriting(const Folder& folder) {
     for (const auto& entry : fs::directory_iterator(folder.path()))
         if (entry.path().filename() == "r" || isLeftover(entry.path().filename().string())) return true;
     return false;
 }
 
-// While files are written; wherever in it the signal falls.
+// A signal at any time while files are written.
 TEST(Interruption, WritingLeavesAllOrNothing) {
     const Folder folder;
     int cut = 0;
@@ -73,7 +73,7 @@ TEST(Interruption, AnIgnoredSignalStaysIgnored) {
     EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
 }
 
-// The reader of a pipe that goes early is no failure and leaves nothing behind.
+// If the reader of a pipe closes it early, that is no failure, and nothing is left behind.
 TEST(Interruption, AClosedPipeEndsAfterTheReportIsWhole) {
     const Folder folder;
     const Ran ran = runShell(
@@ -106,7 +106,7 @@ TEST(Interruption, OneThatIsKilledIsSweptByTheNext) {
     EXPECT_FALSE(fs::exists(folder / ".r.99999999-1.tmp"));
 }
 
-// Which of two reports a folder holds: all its files say the same.
+// Which of two reports a folder holds; all its files must agree.
 std::string channelsIn(const fs::path& report) {
     std::string found;
     for (const auto& entry : fs::directory_iterator(report)) {
@@ -140,7 +140,7 @@ TEST(Interruption, TwoProgramsLeaveOneWholeReport) {
     }
 }
 
-// One waits until the other has moved its files.
+// One program waits until the other has moved its files.
 TEST(Interruption, AFolderThatIsBeingWrittenIsWaitedFor) {
     const Folder folder;
     const int held = ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -154,7 +154,7 @@ TEST(Interruption, AFolderThatIsBeingWrittenIsWaitedFor) {
     EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
 }
 
-// `script` in a name space of its own, where it may mount; skipped where that is forbidden.
+// Runs `script` in a mount namespace of its own; skipped where that is not permitted.
 Ran mounted(const Folder& folder, const std::string& script) {
     folder.write("script", "set -e\n" + script);
     return runShell(folder, "unshare -rm sh script", folder.path());
@@ -171,7 +171,7 @@ TEST(FullDisk, OfAnySizeLeavesTheEarlierReport) {
     if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a small disk in";
     int failed = 0;
     for (int blocks = 6; blocks < 400; blocks += 3) {
-        // The earlier one is small: of one channel. What follows is of all.
+        // The earlier report is small, of one channel; the next one has all.
         const Ran ran =
             mounted(folder, "mkdir -p m; mount -t tmpfs -o size=" + std::to_string(4 * blocks) +
                                 "k none m\n" + render + "m/r --channels albedo || exit 9\n" + sums +
@@ -179,7 +179,7 @@ TEST(FullDisk, OfAnySizeLeavesTheEarlierReport) {
                                 " > after; cmp before after; ls -A m | grep -qx r; "
                                 "[ $(ls -A m | wc -l) = 1 ]; exit 2");
         if (ran.code == 0) break;
-        if (ran.code == 9) continue;  // no room for the earlier one even
+        if (ran.code == 9) continue;  // not even the earlier one fits on the disk
         ++failed;
         EXPECT_TRUE(ran.failedOver("No space left on device; make room, or write to another place with -o"))
             << blocks;

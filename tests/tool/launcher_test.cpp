@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The launcher among stand-ins for dpkg, apt and CMake: what it asks of them and what it says.
+// The launcher with fake dpkg, apt and CMake: the calls it makes and the messages it prints.
 #include "tests/tool/run.h"
 #include "tests/tool/running.h"
 
@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// A checkout with the launcher, and a folder of stand-ins that goes before PATH.
+// A checkout with the launcher, and a folder of fake programs in front of PATH.
 class Launcher : public testing::Test {
 protected:
     void SetUp() override {
@@ -28,7 +28,7 @@ protected:
         home_.write("bin/id", "#!/bin/sh\necho 0\n", true);
         home_.write("bin/apt-get", "#!/bin/sh\necho \"$@\" >>'" + (home_ / "apt.log").string() + "'\n", true);
         home_.write("bin/ctest", "#!/bin/sh\necho \"ctest $*\"\nexit 8\n", true);
-        // Configures and builds a program that says what it was given; fails where two run at once.
+        // The fake CMake builds a program that prints its arguments; it fails if two run at once.
         home_.write(
             "bin/cmake",
             "#!/bin/sh\n"
@@ -155,7 +155,7 @@ TEST_F(Launcher, TwoAtOnceBuildOneAfterTheOther) {
     EXPECT_EQ(ran.out, "good\ngood\ngood\n");
 }
 
-// Another launcher's lock: held until told.
+// The lock of another launcher, held until it is released.
 class HeldLock {
 public:
     explicit HeldLock(const fs::path& file) {
@@ -204,7 +204,7 @@ TEST_F(Launcher, WhoWaitsForLessThanASecondIsSilent) {
             waiting.join();
         }
         EXPECT_EQ(ran.code, 3);
-        if (Clock::now() - start > 900ms) continue;  // a busy machine: it may have waited longer than that
+        if (Clock::now() - start > 900ms) continue;  // a busy machine: it may indeed have waited longer
         EXPECT_EQ(ran.err, "");
         return;
     }
@@ -220,7 +220,7 @@ TEST_F(Launcher, ALockThatCannotBeHadIsNamed) {
     EXPECT_EQ(ran.err.find("another launcher"), std::string::npos) << ran.err;
 }
 
-// The real list: every name is a Debian package's, once, in order within its part.
+// The real list: every entry is the name of a Debian package, listed once, sorted within its part.
 TEST(Packages, AreNamedOnce) {
     std::istringstream lines(contentsOf(fs::path(DIPTYCH_SOURCE_DIR) / "packages.txt"));
     std::set<std::string> names;

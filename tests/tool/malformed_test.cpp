@@ -12,7 +12,7 @@ namespace {
 
 const fs::path malformed = fs::path(DIPTYCH_SOURCE_DIR) / "../shared/assets/malformed";
 
-// The files of one class of MANIFEST.tsv: file, fault, class, ...
+// The files of one class in MANIFEST.tsv (columns: file, fault, class, ...).
 std::vector<std::string> filesOf(const std::string& wanted) {
     std::vector<std::string> files;
     std::istringstream manifest(contentsOf(malformed / "MANIFEST.tsv"));
@@ -38,7 +38,7 @@ TEST_P(Malformed, FilesEndInAPictureOrOneLine) {
     for (const std::string& file : files) {
         const fs::path scene = malformed / file, picture = folder / "picture.png";
         fs::remove(picture);
-        // Ten seconds of processor time, whatever else the machine does; and a guard against hanging.
+        // Ten seconds of processor time, independent of the machine's load; and a limit against hanging.
         const Ran ran = runShell(folder,
                                  "ulimit -t 10; timeout 120 '" DIPTYCH_PROGRAM "' render '" + scene.string() +
                                      "' --size 64x36 --runs 0 -q -o picture.png",
@@ -48,7 +48,7 @@ TEST_P(Malformed, FilesEndInAPictureOrOneLine) {
         else
             EXPECT_TRUE(ran.failedOver(scene.string() + ": ")) << file;
     }
-    // The largest of all that ran, the sanitizers' own memory included where there is one.
+    // The largest memory of all processes so far, including the sanitizers' own.
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
     EXPECT_LT(usage.ru_maxrss, 1024 * 1024) << "KiB";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves in a file, through the whole program: the reference at a time, and what the paths say of it.
+// Animated files through the whole program: the reference at a given time, and the notes of the paths.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
@@ -26,8 +26,8 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-// A triangle about (-1, 0, 0), and keys at 0 s and 2 s that a channel of each kind may read: a move by 2 m
-// along +X, a weight from 0 to 1 of the target that does the same.
+// A triangle around (-1, 0, 0), and keys at 0 s and 2 s for a channel of each kind: a translation by 2 m
+// along +X, and a weight from 0 to 1 of the morph target that moves it likewise.
 Json triangleFile() {
     std::string data;
     Json accessors = Json::array();
@@ -71,7 +71,7 @@ Json byATarget() {
     return file;
 }
 
-// Of 5 x 5 pixels, a metre each in the triangle's plane, the one that shows a surface.
+// The covered pixel of 5 x 5, each a metre wide in the triangle's plane.
 const std::string seen =
     " --size 5x5 --camera 'eye=0,0,10 target=0,0,0 fov=28.072486935852957' --channels material_id";
 const std::string reference = " --path reference --reference-mode scene";
@@ -101,11 +101,11 @@ TEST(Motion, TheReferenceDrawsItWhereItIsAtATime) {
         }
 }
 
-// A path begins as the reference does where nodes move alone; what it draws undeformed it says.
+// At 0 s a path agrees with the reference if only nodes move; where it draws undeformed meshes, it says so.
 TEST(Motion, ThePathsDrawTheStartAndSayWhatTheyLeave) {
     const Folder folder;
     Json node = byItsNode(), target = byATarget();
-    // The first key is where the file's last one was.
+    // The first key has the value of the file's last one.
     node["animations"][0]["samplers"][0]["output"] = 3;
     node["accessors"][3]["byteOffset"] = node["accessors"][3]["byteOffset"].get<int>() + 12;
     node["accessors"][3]["count"] = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports for the tests that look at pages.
+// Reports for the tests of pages.
 #pragma once
 
 #include "compare/report/report.h"
@@ -14,8 +14,8 @@ namespace diptych {
 #define SKIP_WITHOUT_BROWSER() \
     if (browser().empty()) GTEST_SKIP() << "no chromium here: the page is not looked at"
 
-// Both paths of one scene, every pixel a surface: lit is a ramp that repeats in no row, roughness fails at
-// (40, 20) and less so elsewhere.
+// Both paths of one scene, all pixels covered: lit is a ramp without repeated rows, roughness fails at (40,
+// 20) and, by less, elsewhere.
 inline std::vector<Frame> rampFrames(int width = 96, int height = 54) {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference as the tool draws it: alone, against both paths, interrupted and gone on with.
+// The reference through the tool: alone, compared with both paths, interrupted and resumed.
 #include "shared/image/exr.h"
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
@@ -31,7 +31,7 @@ TEST(ReferenceTool, RendersInBothModes) {
         EXPECT_NE(frame.dump().find("\"reference\""), std::string::npos) << frame.dump();
         EXPECT_TRUE(fs::exists(folder / mode / "reference.exr")) << ran.out;
     }
-    // One triangle without a texture: the same place, but for what a raster snaps.
+    // An untextured triangle shows the same place in both modes, but for the rasterizer's snapping.
     const Ran same = runTool(folder,
                              "diff surface/reference.exr scene/reference.exr --channels lit "
                              "--metric relative_p99 --tolerance 1e-4");
@@ -101,7 +101,7 @@ TEST(ReferenceTool, FitsIntoOneFile) {
     EXPECT_EQ(page.find(".nearer.png\""), std::string::npos) << "its pictures are in it";
 }
 
-// Exit code 1: a tolerance that no float32 keeps.
+// Exit code 1, with a tolerance below float32's precision.
 TEST(ReferenceTool, ADifferenceIsExitCodeOne) {
     const Folder folder;
     folder.write("none.json", R"({"rules": [{"channel": "lit", "max": 0, "because": "to fail"}]})");
@@ -126,7 +126,7 @@ std::string inShell(const std::vector<std::string>& words) {
     return line;
 }
 
-// What is kept of references beside r.exr, in the order of the names.
+// The checkpoint files beside r.exr, sorted by name.
 std::vector<fs::path> keptIn(const Folder& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder.path()))
@@ -135,8 +135,8 @@ std::vector<fs::path> keptIn(const Folder& folder) {
     return files;
 }
 
-// The numbers of the whole tiles in such a file: a head (a mark, the picture's key, floats of a tile), then
-// of each tile its number, its floats and their sum.
+// The numbers of the complete tiles in such a file: a head (magic number, key of the picture, floats of a
+// tile), then for each tile its number, floats and checksum.
 std::set<std::uint64_t> tilesIn(const fs::path& file) {
     const std::string bytes = contentsOf(file);
     const auto wordAt = [&](std::size_t at) {
@@ -195,7 +195,7 @@ TEST(ReferenceTool, KilledItGoesOnAsWell) {
     endsAndGoesOn(SIGKILL, false);
 }
 
-// The tool is killed once it has kept `least` tiles in a file that is not among `before`. Returns that file.
+// Kills the tool once it has kept `least` tiles in a file that is not among `before`. Returns that file.
 fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::path>& before,
                      std::size_t least) {
     fs::path own;
@@ -210,8 +210,7 @@ fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::
     return own;
 }
 
-// Another picture in the same place is begun anew, and what is kept of the first is neither mixed into it nor
-// lost.
+// For another picture a new checkpoint is begun; that of the first is neither used nor lost.
 TEST(ReferenceTool, WhatIsKeptOfAnotherPictureStaysAndIsNamed) {
     const Folder folder;
     folder.write("panel.json", panel);
@@ -237,16 +236,16 @@ TEST(ReferenceTool, WhatIsKeptOfAnotherPictureStaysAndIsNamed) {
             ";";
         EXPECT_EQ(ran.err.find(line) != ran.err.npos, quiet.empty()) << ran.err;
     }
-    // Its own command still goes on from it, and removes it.
+    // The command of the first picture can still resume, and removes the file at its end.
     EXPECT_EQ(runTool(folder, inShell(longDrawing)).code, 0);
     EXPECT_TRUE(keptIn(folder).empty());
 }
 
-// Two programs with one -o draw one picture at once. Both are killed: no tile of either is lost.
+// Two programs draw the same picture with the same -o and are both killed: no tile of either is lost.
 TEST(ReferenceTool, TwoProgramsWithOneOutputKeepTheirTilesApart) {
     const Folder folder;
     folder.write("panel.json", panel);
-    std::vector<std::string> words = longDrawing;  // and longer: time for both
+    std::vector<std::string> words = longDrawing;  // with more work, so that both have time
     std::ranges::replace(words, std::string("64x36"), std::string("96x54"));
     Running one(folder, words);
     ASSERT_TRUE(soon([&] { return !keptIn(folder).empty() && !tilesIn(keptIn(folder).front()).empty(); }));
@@ -262,7 +261,7 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputKeepTheirTilesApart) {
     EXPECT_GE(tilesIn(second).size(), before) << "the second began with what the first had done";
     done.merge(tilesIn(second));
 
-    // The next one has them all, in one file, before it adds any.
+    // The next program takes over all tiles into one file before it adds any.
     Running third(folder, words);
     const bool merged = soon([&] { return third.ended() || keptIn(folder).size() == 1; });
     EXPECT_TRUE(merged && !third.ended()) << third.err();
@@ -279,7 +278,7 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputKeepTheirTilesApart) {
     EXPECT_EQ(runTool(folder, "diff r.exr pieced.exr --metric max --tolerance 0").code, 0);
 }
 
-// Both end by themselves: two whole pictures, one after the other in one place, and nothing beside it.
+// Both programs finish: each writes the whole picture, one after the other, and nothing else is left.
 TEST(ReferenceTool, TwoProgramsWithOneOutputBothFinish) {
     const Folder folder;
     folder.write("panel.json", panel);
@@ -294,7 +293,7 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputBothFinish) {
 
 // ---- stored ------------------------------------------------------------------------------------------
 
-// A stored reference judges as one that is drawn now, by how far each pixel of it is known.
+// A stored reference gives the same verdicts as one that is drawn now, using each pixel's uncertainty.
 TEST(ReferenceTool, AStoredReferenceJudgesAsOneDrawnNow) {
     const Folder folder;
     Image sky(8, 4, 3, 0.2f);
@@ -312,7 +311,7 @@ TEST(ReferenceTool, AStoredReferenceJudgesAsOneDrawnNow) {
         EXPECT_NE(a["comparisons"][row]["channels"].dump().find("what the reference itself is known to"),
                   std::string::npos);
     }
-    // To diff it is no channel.
+    // diff does not treat the uncertainty as a channel.
     const PictureFile exr = readExr(folder / "now/reference.exr");
     EXPECT_EQ(std::ranges::count(exr.layers, "uncertainty", &PictureLayer::name), 1);
     const Ran diff = runTool(folder, "diff now/reference.exr now/forward_plus.exr --json");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs a program as a user does: through the shell, from some folder.
+// Runs a program as users do: through the shell, in some folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline std::string contentsOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// A folder of the running test's own, removed at its end.
+// A folder of the running test, removed at its end.
 class Folder {
 public:
     Folder() {
@@ -56,7 +56,7 @@ struct Ran {
     int code = -1;  // -1: it did not exit by itself
     std::string out, err;
 
-    // Nothing but one line on stderr, of the tool, with `word` in it; exit code 2.
+    // Checks for exit code 2 and exactly one line on stderr, from the tool, that contains `word`.
     testing::AssertionResult failedOver(const std::string& word) const {
         const bool oneLine = std::ranges::count(err, '\n') == 1 && err.ends_with('\n');
         if (code == 2 && out.empty() && oneLine && err.starts_with("diptych: ") && err.find(word) != err.npos)
@@ -66,7 +66,7 @@ struct Ran {
     }
 };
 
-// `command` in the shell's words.
+// Runs `command`, in shell syntax.
 inline Ran runShell(const Folder& scratch, const std::string& command, const fs::path& from) {
     const fs::path out = scratch / ".stdout", err = scratch / ".stderr";
     const int status = std::system(("cd '" + from.string() + "' && { " + command + "; } >'" + out.string() +

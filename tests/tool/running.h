@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tool while it runs, to be interrupted.
+// The tool as a background process that tests can interrupt.
 #pragma once
 
 #include "tests/tool/run.h"
@@ -16,7 +16,7 @@ extern char** environ;
 
 namespace diptych {
 
-// The tool beside the test, its stderr in a file.
+// The tool as a child process, its stderr in a file.
 class Running {
 public:
     Running(const Folder& folder, std::vector<std::string> words) : error_(folder / ".stderr") {
@@ -59,7 +59,7 @@ private:
     fs::path error_;
 };
 
-// `true` within a time that only a hanging program exceeds.
+// Waits until the condition holds; the time limit is only exceeded by a program that hangs.
 template <typename Condition>
 bool soon(Condition condition) {
     using Clock = std::chrono::steady_clock;

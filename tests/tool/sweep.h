@@ -19,7 +19,7 @@ inline Json readJson(const fs::path& file) {
 
 inline constexpr const char* sweep = "tradeoff builtin:triangle --size 32x24 --runs 2 --json -q -o t ";
 
-// Long enough to be cut short at any row.
+// Long enough to be interrupted at any row.
 inline const std::vector<std::string> longSweep{
     "tradeoff",
     "builtin:triangle",

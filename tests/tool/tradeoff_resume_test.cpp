@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sweeps that are cut short, and how they go on.
+// Interrupted sweeps, and how they are resumed.
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 #include "tests/tool/sweep.h"
@@ -11,7 +11,7 @@
 namespace diptych {
 namespace {
 
-// A row without what two runs may time differently.
+// A row without the times, which differ between runs.
 Json untimed(Json row) {
     for (const char* key : {"ms", "passes", "drawing_ms"}) row.erase(key);
     for (Json& camera : row["cameras"])
@@ -25,7 +25,7 @@ Json untimedRows(const Json& tradeoff) {
     return rows;
 }
 
-// Rows that the sweep keeps, by their Settings.
+// The rows that the sweep has kept, by their Settings.
 std::map<std::string, Json> keptIn(const fs::path& state) {
     std::map<std::string, Json> rows;
     std::error_code ignored;
@@ -37,7 +37,7 @@ std::map<std::string, Json> keptIn(const fs::path& state) {
     return rows;
 }
 
-// Starts the sweep and lets `signal` end it once `count` rows are kept. Returns those that were.
+// Starts the sweep and ends it with `signal` once `count` rows are kept. Returns the kept rows.
 std::map<std::string, Json> cut(const Folder& folder, std::size_t count, int signal,
                                 std::string* said = nullptr) {
     Running tool(folder, longSweep);
@@ -114,7 +114,7 @@ TEST(TradeoffResume, ARecordThatIsNotWholeIsMeasuredAgain) {
             fs::remove(entry.path().parent_path() / (entry.path().stem().string() + ".png"));
     }
     ASSERT_EQ(damaged, 2u);
-    const std::size_t whole = keptIn(folder / ".t.sweep").size();  // of those one lacks its picture
+    const std::size_t whole = keptIn(folder / ".t.sweep").size();  // one of them lacks its picture
     ASSERT_EQ(runTool(folder, shellWords(longSweep) + "-q").code, 0);
     EXPECT_EQ(readJson(folder / "t/tradeoff.json")["rows_kept"], whole - 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sweeps through the whole program: what they leave, and what their commands do.
+// Sweeps through the whole program: their output, and the commands that it prints.
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 #include "tests/tool/sweep.h"
@@ -12,7 +12,7 @@
 namespace diptych {
 namespace {
 
-// "diptych WORDS" as it is printed, through the shell.
+// Runs "diptych WORDS" as printed, through the shell.
 Ran runPrinted(const Folder& folder, const std::string& command, const std::string& more) {
     EXPECT_TRUE(command.starts_with("diptych ")) << command;
     return runTool(folder, command.substr(8) + " " + more);
@@ -44,7 +44,7 @@ TEST(Tradeoff, LeavesTableCsvJsonPlotsPageAndPictures) {
     }
     EXPECT_FALSE(fs::exists(folder / ".t.sweep")) << "what it kept is gone";
     EXPECT_TRUE(leftoversIn(folder.path()).empty());
-    // Forward+ of full size is nearest to the truth, a quarter of the size far from it.
+    // Forward+ at full size is closest to the reference; at a quarter of the size the error is large.
     EXPECT_LT(tradeoff["rows"][0]["errors"]["flip"], 1e-3);
     const auto quarter = std::ranges::find_if(tradeoff["rows"], [](const Json& row) {
         return row["differs"] == Json{{"path", "forward_plus"}, {"size", "8x6"}};
@@ -96,7 +96,7 @@ TEST(Tradeoff, EveryRowIsReproducedByItsCommand) {
         ++compared;
         const Ran report = runPrinted(folder, row["compare"], "-q --json --runs 0 --channels lit -o report");
         ASSERT_NE(report.code, 2) << report.err;
-        // Its report has the other path, too: the one of this row, of the first camera.
+        // The report also has the other path; the one of this row and of the first camera is checked.
         bool found = false;
         const Json all = Json::parse(report.out);
         for (const Json& comparison : all["comparisons"])
@@ -156,7 +156,7 @@ TEST(Tradeoff, WhatItCannotDoIsOneLine) {
     EXPECT_FALSE(fs::exists(folder / "diptych-tradeoff"));
 }
 
-// Who reads the rows goes after the first: the folder is made all the same.
+// If the reader of the printed rows ends after the first, the output folder is made all the same.
 TEST(Tradeoff, AClosedPipeDoesNotEndIt) {
     const Folder folder;
     const Ran ran = runShell(

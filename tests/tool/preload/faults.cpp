@@ -25,7 +25,7 @@
 #include <cstring>
 #include <new>
 
-// glibc's own names of what is replaced here.
+// glibc's own names of the functions that are replaced here.
 extern "C" void* __libc_malloc(std::size_t size);
 extern "C" void* __libc_calloc(std::size_t count, std::size_t size);
 extern "C" void* __libc_realloc(void* old, std::size_t size);
@@ -55,7 +55,7 @@ void sayItHappened(const char* kind, const char* where) {
     ::close(file);
 }
 
-// This call is to fail: the number to fail with. Otherwise 0.
+// The error number if this call must fail; otherwise 0.
 int faultIn(const char* kind, const char* where = "", bool stays = false) {
     if (!isMeant(kind)) return 0;
     const int call = ++calls, at = std::atoi(setting("FAULT_AT"));
@@ -70,7 +70,7 @@ bool isUnder(const char* path) {
            std::strncmp(path, setting("FAULT_UNDER"), std::strlen(setting("FAULT_UNDER"))) == 0;
 }
 
-// A file that is written in the folder that is meant, not the program's own output.
+// Whether the file is in the folder to be tested, and not e.g. the program's own stdout.
 bool isUnder(int file) {
     if (file <= STDERR_FILENO || (::fcntl(file, F_GETFL) & O_ACCMODE) == O_RDONLY) return false;
     char link[64], path[PATH_MAX];
@@ -91,7 +91,7 @@ bool fails(const char* kind, const char* path) {
 
 bool fails(const char* kind, std::FILE* stream) {
     if (const int error = isUnder(::fileno(stream)) ? faultIn(kind, "a file") : 0) {
-        stream->_flags |= 0x20;  // glibc's mark of an error, what ferror() asks for
+        stream->_flags |= 0x20;  // glibc's error flag, which ferror() reads
         errno = error;
         return true;
     }
@@ -103,8 +103,8 @@ Function next(const char* name, Function) {
     return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
 }
 
-// Large ones of our own and of the libraries that we hand pictures to; what a driver does without memory is
-// its own affair (Mesa's crash).
+// Large allocations of this program and of the libraries that it passes pictures to. How a driver handles a
+// failed allocation is not tested (Mesa crashes).
 bool allocationFails(std::size_t size, const void* caller) {
     if (!isMeant("memory") || size < static_cast<std::size_t>(std::atol(setting("FAULT_BYTES"))))
         return false;
@@ -217,7 +217,7 @@ FAILS_IN_VULKAN(vkQueueSubmit2, (VkQueue q, uint32_t n, const VkSubmitInfo2* i, 
 FAILS_IN_VULKAN(vkWaitForFences, (VkDevice d, uint32_t n, const VkFence* f, VkBool32 w, uint64_t t),
                 (d, n, f, w, t))
 
-// FAULT_DO names what every device is to lack.
+// FAULT_DO names a feature that every device then lacks.
 VKAPI_ATTR void VKAPI_CALL vkGetPhysicalDeviceFeatures2(VkPhysicalDevice device,
                                                         VkPhysicalDeviceFeatures2* asked) {
     NEXT(vkGetPhysicalDeviceFeatures2)(device, asked);
