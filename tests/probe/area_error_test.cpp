@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The errors of both ways of shading area lights against the reference: the table of shared/light/README.md
-// is measured here. A campaign, or a run with DIPTYCH_AREA_TABLE naming a file for the table, measures all of
-// it; otherwise a slice.
-#include "tests/campaign.h"
+// is measured here, and written to the file that DIPTYCH_AREA_TABLE names.
 #include "tests/probe/area_maker.h"
 
 #include <gtest/gtest.h>
@@ -48,9 +46,6 @@ std::vector<Light> placesOf(LightKind kind, double angle, double distance, doubl
 }
 
 std::vector<Case> measured(Probes& probes) {
-    // 7 does not divide the number of values of any parameter, so that a slice contains every value.
-    const Rows rows(std::getenv("DIPTYCH_AREA_TABLE") ? 1 : 7);
-    int row = 0, next = 0;
     std::vector<Case> cases;
     std::vector<float> input;
     for (const LightKind kind : {LightKind::rect, LightKind::disc, LightKind::tube})
@@ -59,8 +54,6 @@ std::vector<Case> measured(Probes& probes) {
                 for (const double distance : distances)
                     for (const double size : sizes)
                         for (const Light& light : placesOf(kind, angle, distance, size)) {
-                            if (row++ != next) continue;
-                            next = rows.after(next);
                             const Receiver r{.roughness = roughness, .to_viewer = viewAt(angle)};
                             pushArea(input, light, r);
                             Case c{kind, roughness, angle, distance, size, referenceArea(light, r),

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <regex>
 #include <set>
 
 namespace diptych {
@@ -33,6 +34,12 @@ Json parsed(const Ran& ran) {
     const Json json = Json::parse(ran.out, nullptr, false);
     EXPECT_FALSE(json.is_discarded()) << "not JSON: " << ran.out << "\nerr: " << ran.err;
     return json;
+}
+
+// A busy machine may take longer than the ten seconds after which a log is told how far it is.
+std::string withoutProgress(const std::string& err) {
+    static const std::regex line("diptych: [^\n]* % [^\n]* left\n");
+    return std::regex_replace(err, line, "");
 }
 
 bool isPng(const fs::path& file) {
@@ -269,11 +276,11 @@ TEST(Command, CompareHoldsParityOnTheGallery) {
     const Folder folder;
     const Ran gallery = runTool(folder, "compare" + quick);
     EXPECT_EQ(gallery.code, 0) << gallery.out << gallery.err;
-    EXPECT_EQ(gallery.err, "");
+    EXPECT_EQ(withoutProgress(gallery.err), "");
     for (const std::string gbuffer : {"compact", "standard", "full"}) {
         const Ran ran = runTool(folder, "compare --gbuffer " + gbuffer + quickTriangle);
         EXPECT_EQ(ran.code, 0) << gbuffer << "\n" << ran.out << ran.err;
-        EXPECT_EQ(ran.err, "");
+        EXPECT_EQ(withoutProgress(ran.err), "");
     }
 }
 
