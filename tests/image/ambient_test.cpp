@@ -94,9 +94,9 @@ TEST(Ambient, IsExactlyNothingWhereNoneIsAskedFor) {
 }
 
 // The table's error is at most 6e-5, and float32's is far smaller; 1e-4 is the tolerance of any light.
-class AmbientTruth : public testing::TestWithParam<const char*> {};
+class AmbientReference : public testing::TestWithParam<const char*> {};
 
-TEST_P(AmbientTruth, BothPathsAreTheIntegral) {
+TEST_P(AmbientReference, BothPathsAreTheIntegral) {
     const Scene scene = loadScene(GetParam());
     const Size size{160, 90};
     Settings settings = smallPicture(GBufferEncoding::full);
@@ -106,18 +106,19 @@ TEST_P(AmbientTruth, BothPathsAreTheIntegral) {
     RenderOptions options;
     options.channels = allChannels();
     options.runs = 0;
-    const Frame truth = drawAll(scene, {settings}, options).front();
+    const Frame referenceFrame = drawAll(scene, {settings}, options).front();
     for (const Frame& path : drawIn(scene, settings.ambient, size)) {
-        const Coverage covered = coverage(truth, path);
+        const Coverage covered = coverage(referenceFrame, path);
         const DebugMode& mode = debugMode(lit_ambient);
-        const ChannelStats stats = channelStats(mode.metric, mode.kind, truth.channels.at(lit_ambient),
-                                                path.channels.at(lit_ambient), covered);
+        const ChannelStats stats =
+            channelStats(mode.metric, mode.kind, referenceFrame.channels.at(lit_ambient),
+                         path.channels.at(lit_ambient), covered);
         EXPECT_LE(stats.max, 1e-4) << path.name;
         EXPECT_GT(stats.max, 0) << path.name << ": a table of 2048 samples cannot be the integral itself";
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Builtin, AmbientTruth,
+INSTANTIATE_TEST_SUITE_P(Builtin, AmbientReference,
                          testing::Values("builtin:furnace", "builtin:gallery", "builtin:dielectrics",
                                          "builtin:normals", "builtin:lightmaps"),
                          [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });

@@ -45,8 +45,8 @@ TEST(AreaLightPictures, BothPathsAndEveryListAgree) {
     }
 }
 
-double meanError(const Frame& truth, const Frame& frame, int channel) {
-    const Image &a = truth.channels.at(channel), &b = frame.channels.at(channel);
+double meanError(const Frame& referenceFrame, const Frame& frame, int channel) {
+    const Image &a = referenceFrame.channels.at(channel), &b = frame.channels.at(channel);
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < a.data.size(); ++i) {
         sum += std::abs(double{b.data[i]} - double{a.data[i]});
@@ -62,15 +62,15 @@ double meanError(const Frame& truth, const Frame& frame, int channel) {
 TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Scene scene = loadScene("builtin:areas");
     Renderer renderer(device(), scene, pipelines());
-    const Frame truth = draw(renderer, Path::reference, AreaLights::ltc, Assignment::every);
+    const Frame referenceFrame = draw(renderer, Path::reference, AreaLights::ltc, Assignment::every);
     const Frame ltc = draw(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
     const Frame points = draw(renderer, Path::deferred, AreaLights::representative, Assignment::every);
-    EXPECT_LT(meanError(truth, ltc, diffuse), 0.01);
-    EXPECT_LT(meanError(truth, ltc, specular), 0.17);
-    EXPECT_GT(meanError(truth, points, diffuse), 10 * meanError(truth, ltc, diffuse));
-    EXPECT_GT(meanError(truth, points, specular), 2 * meanError(truth, ltc, specular));
-    RecordProperty("ltc_specular", std::to_string(meanError(truth, ltc, specular)));
-    RecordProperty("ltc_diffuse", std::to_string(meanError(truth, ltc, diffuse)));
+    EXPECT_LT(meanError(referenceFrame, ltc, diffuse), 0.01);
+    EXPECT_LT(meanError(referenceFrame, ltc, specular), 0.17);
+    EXPECT_GT(meanError(referenceFrame, points, diffuse), 10 * meanError(referenceFrame, ltc, diffuse));
+    EXPECT_GT(meanError(referenceFrame, points, specular), 2 * meanError(referenceFrame, ltc, specular));
+    RecordProperty("ltc_specular", std::to_string(meanError(referenceFrame, ltc, specular)));
+    RecordProperty("ltc_diffuse", std::to_string(meanError(referenceFrame, ltc, diffuse)));
 }
 
 // A scene without area lights gives the same bits with either setting.

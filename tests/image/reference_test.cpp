@@ -22,9 +22,9 @@ Frame reference(const Scene& scene, const Settings& settings, ReferenceMode mode
     return reference(renderer, settings, mode);
 }
 
-ChannelStats against(const Frame& truth, const Frame& frame, int mode, const Coverage& covered) {
+ChannelStats against(const Frame& referenceFrame, const Frame& frame, int mode, const Coverage& covered) {
     const DebugMode& m = debugMode(mode);
-    return channelStats(m.metric, m.kind, truth.channels.at(mode), frame.channels.at(mode), covered);
+    return channelStats(m.metric, m.kind, referenceFrame.channels.at(mode), frame.channels.at(mode), covered);
 }
 
 std::size_t nonfinite(const Frame& frame) {
@@ -38,16 +38,16 @@ std::size_t nonfinite(const Frame& frame) {
 
 // Relative errors of at most 1e-4 on 99.9 % of the covered pixels: what float32 shading of a captured
 // surface achieves.
-void expectTruth(const Scene& scene, Settings settings) {
+void expectAgreement(const Scene& scene, Settings settings) {
     settings.gbuffer = GBufferEncoding::full;
     settings.assign = Assignment::every;
     Renderer renderer(device(), scene, pipelines());
-    const Frame truth = reference(renderer, settings);
+    const Frame referenceFrame = reference(renderer, settings);
     for (const Frame& path : bothPaths(renderer, settings)) {
-        const Coverage covered = coverage(truth, path);
+        const Coverage covered = coverage(referenceFrame, path);
         ASSERT_GT(covered.count, 1000u);
         for (const int mode : {0, 40, 41}) {
-            const ChannelStats stats = against(truth, path, mode, covered);
+            const ChannelStats stats = against(referenceFrame, path, mode, covered);
             EXPECT_LE(stats.p999, 1e-4) << path.name << " " << debugMode(mode).name << ", max " << stats.max;
             EXPECT_EQ(stats.infinite, 0u);
         }
@@ -57,7 +57,7 @@ void expectTruth(const Scene& scene, Settings settings) {
 TEST(Reference, BothPathsDrawTheGallery) {
     Settings settings;
     settings.size = {240, 135};
-    expectTruth(loadScene("builtin:gallery"), settings);
+    expectAgreement(loadScene("builtin:gallery"), settings);
 }
 
 TEST(Reference, BothPathsDrawSponza) {
@@ -67,7 +67,7 @@ TEST(Reference, BothPathsDrawSponza) {
     Settings settings;
     settings.size = {240, 135};
     settings.lights = "point:12,spot:4";
-    expectTruth(loadScene(file.string()), settings);
+    expectAgreement(loadScene(file.string()), settings);
 }
 
 // ---- its two modes -----------------------------------------------------------------------------------
@@ -90,20 +90,20 @@ Coverage samePlaces(const Frame& a, const Frame& b) {
 // The rasterizer snaps corners to 1/256 of a pixel, so a pixel's value may be off by 1/128 of the difference
 // to its neighbours. Beyond that, 1e-4 relative is allowed.
 double shareBeyond(const Frame& traced, const Frame& surface, int mode, const Coverage& same) {
-    const Image &truth = traced.channels.at(mode), &image = surface.channels.at(mode);
-    const PixelError error(Metric::relative, debugMode(mode).kind, truth, same);
+    const Image &expected = traced.channels.at(mode), &image = surface.channels.at(mode);
+    const PixelError error(Metric::relative, debugMode(mode).kind, expected, same);
     std::size_t beyond = 0;
-    for (int y = 0; y < truth.height; ++y)
-        for (int x = 0; x < truth.width; ++x) {
-            const auto i = static_cast<std::size_t>(y * truth.width + x);
+    for (int y = 0; y < expected.height; ++y)
+        for (int x = 0; x < expected.width; ++x) {
+            const auto i = static_cast<std::size_t>(y * expected.width + x);
             if (!same.covered[i]) continue;
             float size = 0, apart = 0, range = 0;
-            for (int c = 0; c < truth.components; ++c) {
-                size = std::max(size, std::abs(truth.at(x, y, c)));
-                apart = std::max(apart, std::abs(truth.at(x, y, c) - image.at(x, y, c)));
-                for (int v = std::max(y - 1, 0); v <= std::min(y + 1, truth.height - 1); ++v)
-                    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, truth.width - 1); ++u)
-                        range = std::max(range, std::abs(truth.at(u, v, c) - truth.at(x, y, c)));
+            for (int c = 0; c < expected.components; ++c) {
+                size = std::max(size, std::abs(expected.at(x, y, c)));
+                apart = std::max(apart, std::abs(expected.at(x, y, c) - image.at(x, y, c)));
+                for (int v = std::max(y - 1, 0); v <= std::min(y + 1, expected.height - 1); ++v)
+                    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, expected.width - 1); ++u)
+                        range = std::max(range, std::abs(expected.at(u, v, c) - expected.at(x, y, c)));
             }
             const double allowed = 1e-4 * std::max(double{size}, error.floor()) + double{range} / 128;
             beyond += double{apart} > allowed;
@@ -186,11 +186,11 @@ protected:
         for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
         return frames;
     }
-    static Report verdict(const std::vector<Frame>& truth, const std::vector<Frame>& drawn,
+    static Report verdict(const std::vector<Frame>& referenceFrames, const std::vector<Frame>& drawn,
                           const Scene& scene) {
         const Requirements needs = requirements(scene, poseAt(scene, 0));
         const DeviceInfo& info = device().info();
-        return makeReferenceReport({truth[0], drawn[1], drawn[2]}, {needs, needs, needs},
+        return makeReferenceReport({referenceFrames[0], drawn[1], drawn[2]}, {needs, needs, needs},
                                    {info.name, info.driver, info.type}, {}, {{}}, {{}});
     }
     static bool litFails(const Report& report, std::size_t comparison) {

@@ -26,7 +26,7 @@ constexpr std::array sizes{0.3, 1.0};
 struct Case {
     LightKind kind;
     double roughness, angle, distance, size;
-    std::array<double, 2> truth, ltc, points;
+    std::array<double, 2> reference, ltc, points;
     double sky;
 };
 
@@ -68,16 +68,16 @@ std::vector<Case> measured(Probes& probes) {
 
 // Mean and largest of |specular - reference|, in percent of the reference's mean.
 struct Figures {
-    double truth = 0, ltc = 0, ltc_most = 0, points = 0, points_most = 0;
+    double reference = 0, ltc = 0, ltc_most = 0, points = 0, points_most = 0;
     int count = 0;
     void add(const Case& c) {
-        const double a = std::abs(c.ltc[1] - c.truth[1]), b = std::abs(c.points[1] - c.truth[1]);
-        truth += c.truth[1], ltc += a, points += b, ++count;
+        const double a = std::abs(c.ltc[1] - c.reference[1]), b = std::abs(c.points[1] - c.reference[1]);
+        reference += c.reference[1], ltc += a, points += b, ++count;
         ltc_most = std::max(ltc_most, a / c.sky), points_most = std::max(points_most, b / c.sky);
     }
     std::string row() const {
-        return fmt::format("{:.1f} | {:.1f} | {:.0f} | {:.0f}", 100 * ltc / truth, 100 * ltc_most,
-                           100 * points / truth, 100 * points_most);
+        return fmt::format("{:.1f} | {:.1f} | {:.0f} | {:.0f}", 100 * ltc / reference, 100 * ltc_most,
+                           100 * points / reference, 100 * points_most);
     }
 };
 
@@ -100,7 +100,7 @@ TEST(AreaError, IsBoundedByTheFit) {
     Figures all;
     for (const Case& c : cases) {
         const LtcCell cell = ltcTable().at(c.roughness, std::cos(c.angle * reference::pi / 180));
-        EXPECT_LE(std::abs(c.ltc[1] - c.truth[1]) / c.sky, 0.5 * double{cell.error} + 0.02)
+        EXPECT_LE(std::abs(c.ltc[1] - c.reference[1]) / c.sky, 0.5 * double{cell.error} + 0.02)
             << static_cast<int>(c.kind) << " roughness " << c.roughness << " angle " << c.angle
             << " distance " << c.distance << " size " << c.size;
         all.add(c);

@@ -28,9 +28,9 @@ Frame frameOf(Path path, const std::vector<float>& values) {
     return frame;
 }
 
-std::vector<Frame> threeFrames(const std::vector<float>& truth, const std::vector<float>& deferred,
+std::vector<Frame> threeFrames(const std::vector<float>& reference, const std::vector<float>& deferred,
                                const std::vector<float>& forward) {
-    return {frameOf(Path::reference, truth), frameOf(Path::deferred, deferred),
+    return {frameOf(Path::reference, reference), frameOf(Path::deferred, deferred),
             frameOf(Path::forward_plus, forward)};
 }
 
@@ -99,7 +99,7 @@ TEST(CloserPath, ThePictureHasEachPathsColour) {
 
 // A path that is off by what the reference may be off by itself is not blamed for it; one that is further off
 // is.
-TEST(CloserPath, TheTruthsOwnUncertaintyIsGrantedByThePixel) {
+TEST(CloserPath, TheReferencesOwnUncertaintyIsGrantedByThePixel) {
     auto frames = threeFrames({1, 1}, {1.01f, 1}, {1.03f, 1});
     const Requirements needs;
     const Coverage covered = coverage(frames[0], frames[1]);

@@ -54,10 +54,10 @@ TEST(ReferenceAmbient, IsTheBrdfsIntegral) {
             s.albedo = {0.9, 0.5, 0.1};
             s.dielectric_f0 = {0.04, 0.1, 0.3};
             s.dielectric_f90 = 0.9;
-            const Reflected share = ambientAlbedo(s), truth = bruteForce(s);
+            const Reflected share = ambientAlbedo(s), expected = bruteForce(s);
             for (int c = 0; c < 3; ++c) {
-                EXPECT_NEAR(share.diffuse[c], truth.diffuse[c], 5e-6) << roughness << " " << angle;
-                EXPECT_NEAR(share.specular[c], truth.specular[c], 5e-6) << roughness << " " << angle;
+                EXPECT_NEAR(share.diffuse[c], expected.diffuse[c], 5e-6) << roughness << " " << angle;
+                EXPECT_NEAR(share.specular[c], expected.specular[c], 5e-6) << roughness << " " << angle;
             }
         }
 }

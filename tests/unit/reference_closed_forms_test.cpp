@@ -12,8 +12,8 @@ namespace {
 // What the reference's quadrature is asked for is 1e-7 a patch.
 constexpr double exact = 1e-6;
 
-void expectRelative(double value, double truth, double tolerance = exact) {
-    EXPECT_NEAR(value, truth, tolerance * std::abs(truth));
+void expectRelative(double value, double expected, double tolerance = exact) {
+    EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
 }
 
 // ---- disc --------------------------------------------------------------------------------------------
@@ -65,8 +65,8 @@ TEST(ReferenceClosedForms, RectanglesByLambertsFormula) {
                 rect.width = 1.5f;
                 rect.height = 0.5f;
                 const Surface s = lambertian(normal);
-                const double truth = lambertIrradiance(cornersOf(rect), s.normal);
-                EXPECT_NEAR(irradianceBy(rect, s), truth, exact * truth) << distance;
+                const double expected = lambertIrradiance(cornersOf(rect), s.normal);
+                EXPECT_NEAR(irradianceBy(rect, s), expected, exact * expected) << distance;
             }
 }
 
@@ -160,9 +160,9 @@ TEST(ReferenceClosedForms, TubesByTheirOutline) {
         tube.radius = c.radius;
         tube.length = c.length;
         const Surface s = lambertian(c.normal);
-        const double truth = lambertIrradiance(outlineOf(tube), s.normal);
-        EXPECT_GT(truth, 0);
-        EXPECT_NEAR(irradianceBy(tube, s), truth, exact * truth) << &c - cases.data();
+        const double expected = lambertIrradiance(outlineOf(tube), s.normal);
+        EXPECT_GT(expected, 0);
+        EXPECT_NEAR(irradianceBy(tube, s), expected, exact * expected) << &c - cases.data();
     }
 }
 

@@ -59,10 +59,11 @@ TEST(ReferenceDraw, EveryKindInEveryChannel) {
             EXPECT_EQ(image.components, mode.width) << mode.name;
             for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
         }
-        const double lit = double{d[gpu::DEBUG_lit].at(1, 1, 0)}, truth = irradianceOf(scene.lights[0]) / pi;
+        const double lit = double{d[gpu::DEBUG_lit].at(1, 1, 0)},
+                     expected = irradianceOf(scene.lights[0]) / pi;
         EXPECT_GT(lit, 0) << static_cast<int>(kind);
-        if (truth > 0) {
-            EXPECT_NEAR(lit, truth, 1e-6 * truth) << static_cast<int>(kind);
+        if (expected > 0) {
+            EXPECT_NEAR(lit, expected, 1e-6 * expected) << static_cast<int>(kind);
         }
         EXPECT_EQ(d[gpu::DEBUG_lit_specular].at(1, 1, 0), 0) << "nothing but Lambertian";
     }

@@ -118,20 +118,20 @@ TEST(ReferenceEnvironment, ABlackSkyIsNone) {
 
 // A plane under a constant sky is its albedo; the furnace's figures where F = 1. Errors by the stated
 // confidence: of independent ones 95 % are within it, and four times it is beyond any chance.
-void expectConfident(const Environment& sky, const Surface& s, double truth, double worst) {
+void expectConfident(const Environment& sky, const Surface& s, double expected, double worst) {
     int within = 0;
     double mean = 0;
     constexpr int seeds = 100;
     for (int seed = 0; seed < seeds; ++seed) {
         const Shading shading = under(sky, s, static_cast<std::uint64_t>(seed) * 7919);
         const double value = shading.reflected.diffuse.r + shading.reflected.specular.r;
-        within += std::abs(value - truth) <= std::max(shading.uncertainty, 1e-12 * truth);
-        EXPECT_LE(shading.uncertainty, 1.03 * worst * truth);  // it is relative to the estimate
-        EXPECT_LE(std::abs(value - truth), 4 * shading.uncertainty + 1e-12 * truth) << seed;
+        within += std::abs(value - expected) <= std::max(shading.uncertainty, 1e-12 * expected);
+        EXPECT_LE(shading.uncertainty, 1.03 * worst * expected);  // it is relative to the estimate
+        EXPECT_LE(std::abs(value - expected), 4 * shading.uncertainty + 1e-12 * expected) << seed;
         mean += value / seeds;
     }
     EXPECT_GE(within, 90);
-    EXPECT_NEAR(mean, truth, truth * samplingError / 5) << "no bias that a mean of many would show";
+    EXPECT_NEAR(mean, expected, expected * samplingError / 5) << "no bias that a mean of many would show";
 }
 
 TEST(ReferenceEnvironment, ALambertianPlaneUnderAConstantSkyIsItsAlbedo) {
@@ -154,14 +154,14 @@ TEST(ReferenceEnvironment, OneBrightTexel) {
         const EnvironmentLight light(sky, 1);
         const Surface s = lambertian(ofTexel(texel.x + 2.5, texel.y + 0.3, 16, 8));
         constexpr int rows = 512, columns = 1024;
-        double truth = 0;
+        double expected = 0;
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x) {
                 const glm::dvec3 d = ofTexel(x, y, columns, rows);
-                truth += std::max(glm::dot(d, s.normal), 0.0) / pi * light.radiance(d).r * 2 * pi / columns *
-                         (std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows));
+                expected += std::max(glm::dot(d, s.normal), 0.0) / pi * light.radiance(d).r * 2 * pi /
+                            columns * (std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows));
             }
-        expectConfident(sky, s, truth, 0.02);
+        expectConfident(sky, s, expected, 0.02);
     }
 }
 

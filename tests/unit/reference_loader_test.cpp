@@ -50,8 +50,8 @@ Drawn front(const Scene& scene) {
 glm::dvec3 at(const Image& image, int x, int y) {
     return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
 }
-void expectNear(const glm::dvec3& value, const glm::dvec3& truth, double tolerance = 1e-6) {
-    EXPECT_LT(glm::length(value - truth), tolerance) << value.x << " " << value.y << " " << value.z;
+void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance = 1e-6) {
+    EXPECT_LT(glm::length(value - expected), tolerance) << value.x << " " << value.y << " " << value.z;
 }
 
 // ---- nodes -------------------------------------------------------------------------------------------
@@ -109,9 +109,10 @@ TEST(ReferenceLoader, ASpotInItsUnits) {
     const double square_of = 4.125, cosine = 2 / std::sqrt(square_of);
     const double inside = (cosine - std::cos(0.5)) / (std::cos(0.125) - std::cos(0.5));
     const double window = 1 - std::pow(square_of / 16, 2);
-    const double truth = 8 / square_of * cosine * inside * inside * window / pi;
+    const double expected = 8 / square_of * cosine * inside * inside * window / pi;
     for (const int x : {1, 2})
-        for (const int y : {1, 2}) EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, truth, 1e-6 * truth);
+        for (const int y : {1, 2})
+            EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, expected, 1e-6 * expected);
     // Its edge is at tan(0.5) 2 = 1.09 m, the corners' at 1.06.
     EXPECT_GT(d[gpu::DEBUG_lit].at(0, 0, 1), 0);
     EXPECT_LT(d[gpu::DEBUG_lit].at(0, 0, 1), 0.01f);
@@ -130,8 +131,8 @@ TEST(ReferenceLoader, AnAreaLightOfExtras) {
             const std::vector<glm::dvec3> corners{
                 glm::dvec3(-1.5, -0.5, 2) - place, glm::dvec3(1.5, -0.5, 2) - place,
                 glm::dvec3(1.5, 0.5, 2) - place, glm::dvec3(-1.5, 0.5, 2) - place};
-            const double truth = 10 * lambertIrradiance(corners, {0, 0, 1}) / pi;
-            EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, truth, 1e-6 * truth);
+            const double expected = 10 * lambertIrradiance(corners, {0, 0, 1}) / pi;
+            EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, expected, 1e-6 * expected);
         }
 }
 

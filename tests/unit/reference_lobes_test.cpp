@@ -52,9 +52,9 @@ TEST(ReferenceLobes, TheMaterialIsAppendixB) {
                 for (const double light : {0.01, 0.6, 1.2, 1.5})
                     for (const double turn : {0.0, 1.0, pi}) {
                         const Surface s = plastic(roughness, view, metallic);
-                        const double truth = appendixB(s, direction(light, turn));
+                        const double expected = appendixB(s, direction(light, turn));
                         // Of the narrowest lobe (n.h)^2 (a^2 - 1) + 1 keeps 2e-16 / a^2 of itself.
-                        EXPECT_NEAR(red(Brdf(s)(direction(light, turn))), truth, 1e-9 * truth);
+                        EXPECT_NEAR(red(Brdf(s)(direction(light, turn))), expected, 1e-9 * expected);
                     }
     EXPECT_EQ(red(Brdf(plastic(0.3, 0.5, 0.5))(direction(1.6, 0))), 0) << "below the horizon";
 }
@@ -182,11 +182,11 @@ TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
                     Light light = ceilingRect(place);
                     light.position.x += m.x;
                     const glm::dvec4 e = place + glm::dvec4(m.x, m.x, 0, 0);
-                    const double truth = ceilingLight(s, e, m);
+                    const double expected = ceilingLight(s, e, m);
                     const Shading shading = shadedBy(std::span(&light, 1), s);
-                    EXPECT_NEAR(red(shading.reflected), truth, 1e-6 * truth)
+                    EXPECT_NEAR(red(shading.reflected), expected, 1e-6 * expected)
                         << roughness << " " << angle << " " << metallic << " " << place.x;
-                    EXPECT_LE(shading.uncertainty, 1e-6 * truth);
+                    EXPECT_LE(shading.uncertainty, 1e-6 * expected);
                 }
             }
 }
@@ -200,7 +200,7 @@ TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
         wall.width = wall.height = 2;  // from z = -1 to 1
         const double alpha = roughness * roughness, mirrored = 2 / std::tan(1.5);
         const Crowded along_y{-1, 1, 0, alpha / 4}, along_z{0, 1, mirrored, alpha / 4};
-        const double truth = along_y(600, [&](double y) {
+        const double expected = along_y(600, [&](double y) {
             return along_z(1200, [&](double z) {
                 const double square = 4 + y * y + z * z;
                 return z > 0 ? appendixB(s, glm::normalize(glm::dvec3(-2, y, z))) * 2 /
@@ -208,7 +208,7 @@ TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
                              : 0;
             });
         });
-        EXPECT_NEAR(red(shadedBy(std::span(&wall, 1), s).reflected), truth, 2e-6 * truth) << roughness;
+        EXPECT_NEAR(red(shadedBy(std::span(&wall, 1), s).reflected), expected, 2e-6 * expected) << roughness;
     }
 }
 
@@ -246,8 +246,8 @@ TEST(ReferenceLobes, ASunInAMirror) {
                    std::sin(a);
         }
     const double radiance = 1 / (pi * std::pow(std::sin(edge), 2));
-    const double truth = sum * edge / steps * 2 * pi / steps * radiance;
-    EXPECT_NEAR(red(shadedBy(std::span(&sun, 1), s).reflected), truth, 2e-6 * truth);
+    const double expected = sum * edge / steps * 2 * pi / steps * radiance;
+    EXPECT_NEAR(red(shadedBy(std::span(&sun, 1), s).reflected), expected, 2e-6 * expected);
 }
 
 }  // namespace

@@ -32,13 +32,13 @@ struct Record {
     double worst = 0;  // error over the uncertainty
     double mean = 0;
 };
-template <class ReferenceFrames>
-Record recordOf(int seeds, const Surface& s, ReferenceFrames&& truth) {
+template <class Expected>
+Record recordOf(int seeds, const Surface& s, Expected&& expected) {
     Record record;
     const Light light = square();
     for (int seed = 0; seed < seeds; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
-        const auto [screen, value] = truth(random);
+        const auto [screen, value] = expected(random);
         const Shading shading =
             shadedBy(std::span(&light, 1), s, screen, static_cast<std::uint64_t>(seed) * 104729);
         const double error = std::abs(shading.reflected.diffuse.g + shading.reflected.specular.g - value);

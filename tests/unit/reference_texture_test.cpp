@@ -97,10 +97,11 @@ TEST(ReferenceTexture, MagnifiedAndWrapped) {
                             return code(image, edge(x0 + i, s), edge(y0 + j, t));
                         };
                         const double fx = x - x0, fy = y - y0;
-                        const double truth = smooth ? (texel(0, 0) * (1 - fx) + texel(1, 0) * fx) * (1 - fy) +
+                        const double expected = smooth
+                                                    ? (texel(0, 0) * (1 - fx) + texel(1, 0) * fx) * (1 - fy) +
                                                           (texel(0, 1) * (1 - fx) + texel(1, 1) * fx) * fy
                                                     : texel(0, 0);
-                        EXPECT_NEAR(textures(scene.textures[0], false, {{u, v}, {}, {}}).r, truth, 1e-12)
+                        EXPECT_NEAR(textures(scene.textures[0], false, {{u, v}, {}, {}}).r, expected, 1e-12)
                             << u << " " << v;
                     }
             }

@@ -68,14 +68,14 @@ TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
 
 // What compare says of the same pictures.
 TEST(TradeoffErrors, AreThoseOfTheReport) {
-    const Image truth = noise(40, 30, 1), test = noise(40, 30, 2);
+    const Image reference = noise(40, 30, 1), test = noise(40, 30, 2);
     Frame a = frameOf(40, 30, std::vector<float>(1200, 1)), b = a;
-    a.channels[lit] = truth;
+    a.channels[lit] = reference;
     b.channels[lit] = test;
     for (std::size_t i = 0; i < 300; ++i) a.channels[ids].data[i] = b.channels[ids].data[i] = -1;
     const FrameErrors errors = errorsOf(a, b);
     const ChannelStats stats =
-        channelStats(Metric::relative, ChannelKind::color, truth, test, coverage(a, b));
+        channelStats(Metric::relative, ChannelKind::color, reference, test, coverage(a, b));
     EXPECT_EQ(errors.pixels.size(), 900u);
     EXPECT_DOUBLE_EQ(errors.errors[1], stats.rmse);
     EXPECT_DOUBLE_EQ(errors.errors[2], stats.p99);
@@ -86,17 +86,19 @@ TEST(TradeoffErrors, AreThoseOfTheReport) {
 }
 
 TEST(TradeoffErrors, ArePixelsThatTheReferenceShows) {
-    const Frame truth = frameOf(2, 1, {1, -1}), more = frameOf(2, 1, {1, 5}), less = frameOf(2, 1, {-1, -1});
-    EXPECT_EQ(errorsOf(truth, more).errors[1], 0) << "beyond the reference's silhouette nothing is counted";
-    EXPECT_EQ(errorsOf(truth, more).pixels.size(), 1u);
-    EXPECT_EQ(errorsOf(truth, less).errors[1], 1) << "a surface that is missing is all wrong";
+    const Frame reference = frameOf(2, 1, {1, -1}), more = frameOf(2, 1, {1, 5}),
+                less = frameOf(2, 1, {-1, -1});
+    EXPECT_EQ(errorsOf(reference, more).errors[1], 0)
+        << "beyond the reference's silhouette nothing is counted";
+    EXPECT_EQ(errorsOf(reference, more).pixels.size(), 1u);
+    EXPECT_EQ(errorsOf(reference, less).errors[1], 1) << "a surface that is missing is all wrong";
 }
 
 TEST(TradeoffErrors, ANanIsInfinite) {
-    const Frame truth = frameOf(2, 1, {1, 1});
-    Frame broken = truth;
+    const Frame reference = frameOf(2, 1, {1, 1});
+    Frame broken = reference;
     broken.channels[lit].data[0] = nan;
-    const FrameErrors errors = errorsOf(truth, broken);
+    const FrameErrors errors = errorsOf(reference, broken);
     EXPECT_TRUE(std::isinf(errors.errors[1]));
     EXPECT_GT(errors.errors[0], 0);
 }

@@ -120,7 +120,7 @@ TEST(TradeoffOutput, CommandsAreOfTheRow) {
     EXPECT_EQ(half.settings.size, tradeoff.given.size) << "the reference's";
     EXPECT_EQ(half.grid, R"({"settings":{"size":"320x180"}})");
     EXPECT_EQ(parse(renderingCommand(tradeoff, tradeoff.rows[2])).settings, tradeoff.rows[2].settings);
-    // What the truth depends on stays as it was given, but for the row itself.
+    // What the reference depends on stays as it was given, but for the row itself.
     tradeoff.rows[1].settings.shadows = Shadows::pcf;
     tradeoff.given.spp = 16;
     const Options shadowed = parse(measuringCommand(tradeoff, tradeoff.rows[1]));
