@@ -126,7 +126,7 @@ TEST(Metrics, TheSameNonFiniteIsNoDifferenceButIsCounted) {
 }
 
 TEST(Metrics, ANonFiniteBaselinePixelDoesNotLiftTheRelativeFloor) {
-    // Were infinity part of the mean, every difference would be divided by infinity and pass.
+    // If infinity were part of the mean, every difference would be divided by infinity and pass.
     EXPECT_EQ(scalars(Metric::relative, {inf, 1}, {inf, 1.5f}).max, 0.5);
 }
 
@@ -177,8 +177,7 @@ TEST(Coverage, AChannelOfAnotherSizeIsAnError) {
 
 TEST(Coverage, BackgroundIsOutsideMeansAndErrors) {
     const Coverage c = coverage(ids({-1, 1}), ids({-1, 1}));
-    const Image baseline = row(1, {0, 1}),
-                test = row(1, {7, 1.5f});  // the first cannot happen, and must not count
+    const Image baseline = row(1, {0, 1}), test = row(1, {7, 1.5f});  // 7: background, must not count
     EXPECT_EQ(channelStats(Metric::absolute, ChannelKind::scalar, baseline, test, c).mean, 0.5);
     const Image errors = errorImage(Metric::absolute, ChannelKind::scalar, baseline, test, c);
     EXPECT_EQ(errors.data, (std::vector<float>{0, 0.5f}));

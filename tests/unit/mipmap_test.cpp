@@ -90,7 +90,7 @@ TEST(Mipmap, ThreeByOneIsTheMeanOfAllThree) {
     EXPECT_EQ(chain[1], (std::vector<std::uint8_t>{90, 90, 90, 90}));
 }
 
-// Five texels become two of 2.5 each: (a + b + c / 2) / 2.5 and (c / 2 + d + e) / 2.5.
+// Five texels become two, each covering 2.5: (a + b + c / 2) / 2.5 and (c / 2 + d + e) / 2.5.
 TEST(Mipmap, FiveByOneIsWeightedByArea) {
     const std::uint8_t values[] = {10, 20, 40, 100, 250};
     const auto chain = levels(image(5, 1, [&](int x, int, int) { return values[x]; }), false);
@@ -99,7 +99,8 @@ TEST(Mipmap, FiveByOneIsWeightedByArea) {
     EXPECT_EQ(chain[2][0], 84);   // 420 / 5, from the unrounded level
 }
 
-// Every texel weighs the same in every level: the mean stays, within the half step of each rounded texel.
+// Every texel has the same weight in every level: the mean is preserved, within the half step of rounding
+// each texel.
 TEST(Mipmap, OddSizesConserveTheMean) {
     for (const auto& [width, height] : {std::pair{3, 1}, {5, 3}, {7, 7}, {1, 5}, {641, 359}}) {
         const TextureImage source = noise(width, height);
@@ -109,7 +110,7 @@ TEST(Mipmap, OddSizesConserveTheMean) {
     }
 }
 
-// Every code, through decoding, the sums' rounding and encoding, comes back; odd weights included.
+// Every code survives decoding, summation with odd weights, rounding and encoding.
 TEST(Mipmap, ConstantImagesStayConstant) {
     for (int value = 0; value < 256; ++value)
         for (const bool srgb : {false, true})
@@ -129,7 +130,8 @@ TEST(Mipmap, EncodingRoundsToTheNearestCode) {
         for (int b = 0; b < 256; ++b) {
             const auto chain = levels(image(2, 1, [&](int x, int, int) { return x ? b : a; }), true);
             const double exact = 255 * encode((decode(a / 255.0) + decode(b / 255.0)) / 2);
-            // 0.5 and what float weights and the two branches' meeting point (they miss by 1e-7) can move.
+            // 0.5, plus the effect of float weights and of the gap (1e-7) where the two branches of the
+            // curve meet
             ASSERT_NEAR(chain[1][0], exact, 0.5 + 1e-3) << a << " " << b;
         }
 }
@@ -170,7 +172,7 @@ TEST(Mipmap, SixteenBitsOfSrgbAreDecodedToFloats) {
     EXPECT_EQ(chain[1][3], 0.5f);
 }
 
-// Where floats are all that a device filters: linear codes over 65535, and as halves with 11 bits.
+// If a device can only filter floats: linear codes over 65535, and as halves with 11 bits.
 TEST(Mipmap, SixteenLinearBitsAsFloatsAndHalves) {
     const TextureImage source = deepImage(1, 1, {1000, 32768, 65535, 0});
     const auto floats = levels<float>(source, false, Texels::float32);
@@ -183,7 +185,7 @@ TEST(Mipmap, EverySixteenBitCodeStays) {
     std::vector<std::uint16_t> codes;
     for (int code = 0; code < 65536; ++code)
         for (int c = 0; c < 4; ++c) codes.push_back(static_cast<std::uint16_t>(code));
-    // Each code four times over: 2 x 2 texels of it become one.
+    // 2 x 2 texels of the same code are averaged into one.
     TextureImage source = deepImage(512, 512, {});
     for (int y = 0; y < 512; ++y)
         for (int x = 0; x < 512; ++x)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What of lights by object becomes spherical harmonics, against numeric integration; that no light is lost
-// between the three groups, and that none jumps from one to another.
+// The spherical harmonics of assignment per_object against numeric integration; also that every light is in
+// one of the three groups, and that no light jumps from one to another.
 #include "tests/unit/object_lights_maker.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::array<double, 9> harmonics(const glm::dvec3& n) {
             c / 2 * (n.x * n.x - n.y * n.y)};
 }
 
-// Calls with directions all over the sphere, and the solid angle of each.
+// Calls f with directions distributed over the sphere and the solid angle of each.
 void overSphere(int rings, const std::function<void(const glm::dvec3&, double)>& call) {
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < rings; ++j)
@@ -52,7 +52,7 @@ glm::dvec3 assembled(const Coefficients& coefficients, const glm::dvec3& n) {
     return sum;
 }
 
-// The clamped cosine around a light, projected on the nine harmonics by quadrature and put together again.
+// The clamped cosine around a light, projected on the nine harmonics by quadrature and evaluated again.
 TEST(PerObject, HarmonicsAreTheProjectionOfTheClampedCosine) {
     for (const glm::dvec3 to_light : {direction(1, 0), direction(-0.3, 1), direction(0.5, 4)}) {
         const Coefficients cosine = projected(
@@ -70,8 +70,8 @@ TEST(PerObject, HarmonicsAreTheProjectionOfTheClampedCosine) {
     }
 }
 
-// From inside the light comes from ever more sides: at the centre from all, and what all of them bring is the
-// mean of the clamped cosine over the sphere, a quarter.
+// Inside the sphere light comes from many sides: at the centre from all, which gives the mean of the clamped
+// cosine over the sphere, a quarter.
 TEST(PerObject, ALightInTheCentreShinesOnAllSidesAlike) {
     const double radius2 = 0.75;
     for (const double distance : {0.0, 1e-9}) {
@@ -81,7 +81,7 @@ TEST(PerObject, ALightInTheCentreShinesOnAllSidesAlike) {
         for (int i = 0; i < 20; ++i)
             EXPECT_NEAR(evaluated(sum, direction(std::cos(i), i)), 2 * 0.5 / radius2 / 4, 1e-5);
     }
-    // And from outside it is a light of the centre's irradiance.
+    // From outside it is a light with the irradiance at the centre.
     const GpuLights far = fromEye({point({0, 0, 10}, 2)});
     gpu::ObjectIrradiance sum{}, same{};
     addHarmonics(sum, far, 0, unitBox, 1);
@@ -125,8 +125,8 @@ TEST(PerObject, ADirectedLightIsALobeOfThatMeanCosine) {
 
 // ---- all groups together -----------------------------------------------------------------------------
 
-// Lights of all kinds around a small box; by rank none is far brighter than the next, so that shares are
-// broken.
+// Lights of all kinds around a small box; no light is far brighter than the next in rank, so that some have
+// shares in two groups.
 std::vector<Light> mixedLights(unsigned seed, std::size_t count, double closest) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -167,9 +167,8 @@ std::vector<Light> mixedLights(unsigned seed, std::size_t count, double closest)
     return lights;
 }
 
-// The unit direction to a light and its irradiance at the origin, W/m^2 by colour, by the formulas of the
-// shaders: a light beyond its range none, an area light as its radiance times the solid angle of a small
-// patch.
+// The unit direction to a light and its irradiance at the origin, W/m^2 by colour, by the shaders' formulas:
+// none beyond the range; for an area light its radiance times the solid angle of a small patch.
 struct Arriving {
     glm::dvec3 to_light, irradiance;
 };
@@ -195,7 +194,7 @@ Arriving arriving(const GpuLights& all, std::size_t i) {
     return {l, glm::dvec3(light.intensity) * scale};
 }
 
-// No light is lost between the groups, and none counts twice.
+// Every light belongs to the groups with shares that add up to one.
 TEST(PerObject, TheGroupsShareEachLight) {
     std::size_t broken = 0, dark = 0;
     for (unsigned round = 0; round < 60; ++round) {
@@ -230,12 +229,12 @@ TEST(PerObject, TheGroupsShareEachLight) {
     EXPECT_GT(dark, 100u);
 }
 
-// What an object's lists hold as harmonics is the projection of its other lights' irradiance, each by its
-// share; and with the lights of the other groups it is every light's irradiance, but for what three bands
-// lose.
+// The harmonics of an object's lists are the projection of the irradiance of the remaining lights, weighted
+// by their shares; together with the other groups' lights they give the irradiance of all lights, within the
+// error of three bands.
 TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
     const ObjectPlace box{{0, 0, 0},
-                          {0.2, 0.1, 0.3}};  // smaller than any distance here: no light is softened
+                          {0.2, 0.1, 0.3}};  // smaller than any distance here, so that no light is softened
     for (const std::uint32_t pixels : {0u, 3u}) {
         const GpuLights all = fromEye(mixedLights(17, 30, 4));
         const std::vector<LightShares> shares = lightShares(all, box, pixels);
@@ -274,7 +273,7 @@ TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
 
 // ---- nothing pops ------------------------------------------------------------------------------------
 
-// What each group gives at the box's centre to a few normals, as its lights have been shared.
+// The irradiance of each group at the box's centre for several normals, with the lights' shares.
 std::vector<glm::dvec3> groupsAt(const std::vector<Light>& lights, const ObjectPlace& box) {
     const GpuLights all = gpuLights(lights, box.centre);
     const ObjectPlace here{{0, 0, 0}, box.half};
@@ -308,8 +307,8 @@ double largestStep(const std::function<std::vector<glm::dvec3>(double)>& at, dou
     return largest;
 }
 
-// As a light walks past others and out of its range, or the object does, a quarter of a step changes each
-// group by about a quarter: what jumps does not get smaller. 0.35 leaves room for what is curved.
+// As a light passes others and leaves its range, or the object moves, a quarter of the step changes each
+// group by about a quarter, whereas a jump does not become smaller. 0.35 allows for curvature.
 TEST(PerObject, EachGroupIsContinuous) {
     std::vector<Light> lights;
     for (int i = 0; i < 14; ++i)

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
-// Over many powers of 2, a third of them one of a few values.
+// Spread over many powers of 2; a third of them take one of a few values.
 std::vector<float> mixed(std::size_t count) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> stops(-140, 120);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights by object: ranking, fading and marks, against what they stand for.
+// Assignment per_object: ranking, fading and importance, against their definitions.
 #include "tests/unit/object_lights_maker.h"
 
 #include <gtest/gtest.h>
@@ -24,14 +24,14 @@ TEST(PerObject, BrightnessIsTheLuminanceOfIrradianceFarAway) {
     EXPECT_TRUE(std::isfinite(brightnessAt(fromEye({point({0, 0, 0}, 8)}), 0, unitBox))) << "inside the box";
 }
 
-// A long box is lit where the light is near, not only where its centre is.
+// A long box is lit if the light is close to any part of it, not only to its centre.
 TEST(PerObject, BrightnessIsThatOfTheNearestPlace) {
     const ObjectPlace plank{{0, 0, 0}, {10, 0.1, 0.1}};
     const GpuLights lights = fromEye({point({10, 1, 0}, 1, 2)});
     EXPECT_GT(brightnessAt(lights, 0, plank), 0) << "10 m from the centre, beyond its range";
 }
 
-// Whatever gives some point of a box any light by the shaders' formula is not left out.
+// No light that reaches any point of a box by the shaders' formula is left out.
 TEST(PerObject, NoLightThatReachesIsDark) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -91,8 +91,8 @@ std::vector<Light> row(std::size_t count) {
 }
 
 TEST(PerObject, TheBrightestArePerPixelTheNextPerVertexTheRestHarmonics) {
-    // Each four times fainter than the one before, and farther: no share is broken but the first of the next
-    // group's.
+    // Each light is four times fainter than the one before, and further away: only the first light of the
+    // next group has shares in two groups.
     const std::vector<LightShares> shares = lightShares(fromEye(row(12)), unitBox, 3);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         EXPECT_NEAR(shares[i].pixel + shares[i].vertex + shares[i].harmonics, 1, 1e-15);
@@ -148,9 +148,9 @@ TEST(PerObject, NeverMoreThanThereIsRoomFor) {
     }
 }
 
-// One of six lights walks past the others, into its range and out of it, in steps of a hundredth of a metre:
-// no share jumps. 0.05 of a share: a step changes the nearest light's brightness by up to 3 %, and the fade's
-// steepest is 1.5 over ln 4.
+// One of six lights moves past the others, into its range and out of it, in steps of a hundredth of a metre:
+// no share jumps. At most 0.05: a step changes the nearest light's brightness by up to 3 %, and the steepest
+// slope of the fade is 1.5 over ln 4.
 TEST(PerObject, NothingPopsAsALightMoves) {
     std::vector<LightShares> before;
     std::vector<double> dark;
@@ -166,7 +166,7 @@ TEST(PerObject, NothingPopsAsALightMoves) {
         const std::vector<LightShares> shares = lightShares(all, unitBox, 3);
         for (std::size_t i = 0; i < before.size(); ++i) {
             const double brightness = brightnessAt(all, i, unitBox);
-            // What is faint enough may change its group: a light at the end of its range is nothing in any.
+            // Very faint lights may change their group: at the end of its range a light contributes nothing.
             if (brightness < 1e-3) continue;
             for (const auto share : {&LightShares::pixel, &LightShares::vertex, &LightShares::harmonics}) {
                 largest = std::max(largest, std::abs(shares[i].*share - before[i].*share));
@@ -194,7 +194,7 @@ TEST(PerObject, ImportanceOverridesTheRanking) {
     EXPECT_EQ(lightShares(fromEye(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
 }
 
-// Lights are sorted by kind, and those that give nothing left out: marks go with them.
+// Lights are sorted by kind and dark ones are left out: each must keep its own importance.
 TEST(PerObject, ImportanceStaysWithItsLight) {
     Light black = point({0, 0, 3}, 0), spot = point({0, 2, 3}, 1000), panel = point({0, 0, 20}, 0.01f),
           lamp = point({0, 0, 3}, 1000);
@@ -219,7 +219,7 @@ TEST(PerObject, ImportanceStaysWithItsLight) {
     EXPECT_EQ(shares[3].pixel, 0) << "not important, however bright";
     EXPECT_EQ(shares[3].vertex, 1);
     EXPECT_EQ(shares[4].pixel, 1) << "an important panel";
-    // As objects get them, in the order of the lights.
+    // In the objects' lists, in the order of the lights.
     const ObjectLightLists lists = objectLightLists(all, std::span(&unitBox, 1), 1);
     std::vector<gpu::uint> perPixel;
     for (gpu::uint i = lists.objects[0].begin; i < lists.objects[0].area_end; ++i)
@@ -227,8 +227,8 @@ TEST(PerObject, ImportanceStaysWithItsLight) {
     EXPECT_EQ(perPixel, (std::vector<gpu::uint>{0, 1, 2, 4}));
 }
 
-// Whatever is marked, and however many there is room for: important ones are whole wherever they reach, the
-// others never per pixel, and the rest are as if the important ones were not there.
+// With any importances and any number of lights per pixel: important lights are fully per pixel wherever
+// they reach, unimportant ones never, and the others are as if there were no important ones.
 TEST(PerObject, ImportanceHoldsForAnyLights) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -264,8 +264,8 @@ TEST(PerObject, ImportanceHoldsForAnyLights) {
     }
 }
 
-// A lamp's panel: by rank like any, never per vertex, and in the harmonics as bright as a small light of its
-// intensity.
+// A lamp's panel is ranked as any other light, never per vertex, and in harmonics it is as bright as a small
+// light of its intensity.
 TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
     Light panel = point({0, 0, 20}, 5);
     panel.kind = LightKind::rect;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PFM by hand: both kinds, both byte orders, rows from the bottom; and files that lie.
+// PFM files made by hand: both kinds, both byte orders, rows from the bottom; and files with wrong headers.
 #include "shared/image/pfm.h"
 #include "tests/unit/files.h"
 
@@ -59,7 +59,7 @@ TEST(Pfm, TheScalesSignIsTheByteOrderAndItsSizeAFactor) {
 }
 
 TEST(Pfm, OneBlankEndsTheHeader) {
-    // 0x0a is the first byte of this number and belongs to it.
+    // A byte 0x0a at the beginning of the data belongs to the number.
     const float value = std::bit_cast<float>(0x3f80000au);
     EXPECT_EQ(read("Pf 1 1 -1 " + little({value})).image.data, Values{value});
     EXPECT_EQ(read("Pf\r\n1\t1\n\n-1\n" + little({value})).image.data, Values{value});

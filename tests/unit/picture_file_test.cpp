@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One reader for every picture: the format by the first bytes, and what a PNG's values are.
+// One reader for all pictures: recognising the format by the first bytes, and the values of PNGs.
 #include "shared/image/picture_file.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
@@ -133,7 +133,7 @@ TEST(PicturePng, PalettesAreLookedUpAndTransparentColoursBecomeAlpha) {
     expectPng(gray, {{"Y", "A"}, "8 bit", {0.2f, 1, 0.4f, 0}});
 }
 
-// Interlacing stores a picture in seven; each of its sizes leaves other ones empty.
+// Interlacing stores a picture in seven passes; for each of these sizes other passes are empty.
 TEST(PicturePng, InterlacedRowsComeTogether) {
     for (const int side : {1, 3, 5, 8, 11}) {
         MadePng made{PNG_COLOR_TYPE_GRAY, 16, static_cast<std::uint32_t>(side), {}, true};
@@ -180,7 +180,7 @@ TEST(PicturePng, BrokenFilesSayWhy) {
     EXPECT_EQ(faultOf(whole), "reads");
     EXPECT_EQ(faultOf(whole.substr(0, 40)), "a: is cut short");
     std::string sum = whole;
-    sum[17] ^= 1;  // in IHDR: its checksum is another's
+    sum[17] ^= 1;  // a wrong checksum of IHDR
     EXPECT_EQ(faultOf(sum), "a: IHDR: CRC error");
     std::string data = whole;
     data[data.find("IDAT") + 5] ^= 0x55;

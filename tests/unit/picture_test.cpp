@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From numbers to pictures.
+// Channels as pictures.
 #include "compare/picture/picture.h"
 #include "tests/unit/report_maker.h"
 
@@ -12,7 +12,7 @@
 namespace diptych {
 namespace {
 
-// Nine dark pixels and one bright one in twenty: the log-average alone would burn the bright one out.
+// One bright pixel in twenty: exposure by the log-average alone would overexpose it.
 TEST(Picture, HighlightsHoldTheAutomaticExposure) {
     Image lit(20, 1, 3, 0.01f);
     for (int x = 0; x < 2; ++x)
@@ -49,8 +49,8 @@ TEST(Picture, SrgbByTheStandard) {
     EXPECT_NEAR(srgbFromLinear(0.2158605), 0.5019608, 1e-6) << "code 128";
 }
 
-// The curve's own claims: what is below its shoulder is only shifted by the Fresnel offset of 0.04; it
-// never leaves [0, 1] and keeps order.
+// Properties of the tone curve: below its shoulder it only subtracts the Fresnel offset of 0.04; it stays
+// within [0, 1] and is monotonic.
 TEST(Picture, PbrNeutral) {
     const auto mid = pbrNeutral({0.5f, 0.4f, 0.3f});
     EXPECT_FLOAT_EQ(mid[0], 0.46f);

@@ -106,7 +106,7 @@ TEST(PlainMetrics, ANanAgainstANumberIsInfinite) {
     EXPECT_EQ(alike.max, 1);
     EXPECT_EQ(alike.mse, 1.0 / 3);
     EXPECT_EQ(alike.nonfinite_different, 0u);
-    // The finite components of a pixel that is the same elsewhere are compared.
+    // The other, finite components of a pixel with equal NaNs are compared.
     EXPECT_EQ(colors(row(3, {nan, 1, 2}), row(3, {nan, 1, 2.5f})).max, 0.5);
 }
 
@@ -153,7 +153,7 @@ TEST(PlainMetrics, AnglesByHand) {
     EXPECT_EQ(vectors({0, 0, 1}, {0, 0, 3}).angle_max, 0) << "another length";
     EXPECT_EQ(vectors({0, 0, 0}, {0, 0, 1}).angle_max, 180);
     EXPECT_EQ(vectors({1, 0, 0, 0, 1, 0}, {0, 1, 0, 0, 1, 0}).angle_mean, 45);
-    // An acos of floats has 0.02 degrees and nothing below.
+    // A float acos has a resolution of 0.02 degrees.
     EXPECT_NEAR(vectors({0, 0, 1}, {0, 1e-6f, 1}).angle_max, 1e-6 * 180 / 3.14159265358979, 1e-10);
     EXPECT_EQ(vectors({0, 0, 1}, {0, nan, 1}).angle_max, endless);
     EXPECT_EQ(colors(row(3, {1, 0, 0}), row(3, {0, 1, 0})).angle_max, 0) << "colours have none";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vertices that joints and morph targets move, by hand.
+// Vertices moved by joints and morph targets, against values computed by hand.
 #include "shared/scene/motion/posed.h"
 
 #include "shared/scene/motion/bounds.h"
@@ -46,7 +46,7 @@ Primitive& only(Scene& scene) {
     return scene.meshes[0].primitives[0];
 }
 
-// Vertex 0 goes with the first joint, vertex 1 half with each, vertex 2 with the second.
+// Vertex 0 follows the first joint, vertex 1 both by half, vertex 2 the second.
 Scene skinned(const glm::dmat4& first, const glm::dmat4& second) {
     Scene scene = triangle();
     only(scene).joint_sets = {
@@ -74,7 +74,7 @@ void expectNear(const glm::dvec3& got, const glm::dvec3& expected, const std::st
 TEST(Posed, AVertexStandsAtTheMeanOfItsJoints) {
     const PosedVertices v = posed(skinned(moved({0, 0, 2}), moved({0, 4, 0}) * turned(quarter, Z)));
     expectNear(v.positions[0], {0, 0, 2}, "the first joint alone");
-    // (1, 0, 0) + (0, 0, 2) by the one, turned to +Y and moved by 4 by the other.
+    // half of (1, 0, 0) + (0, 0, 2), and half of (1, 0, 0) rotated to +Y and moved by 4
     expectNear(v.positions[1], {0.5, 2.5, 1}, "half and half");
     expectNear(v.positions[2], {-1, 4, 0}, "the second joint alone");
     expectNear(v.tangents[0], X, "a tangent of the first");
@@ -99,7 +99,7 @@ TEST(Posed, TheTransformOfASkinnedMeshsOwnNodeCountsNothing) {
     const PosedVertices after = posed(scene);
     EXPECT_EQ(before.positions, after.positions);
     EXPECT_EQ(before.normals, after.normals);
-    // It counts for what has no joints.
+    // The node's transform applies to a primitive without joints.
     only(scene).joint_sets.clear();
     EXPECT_GT(posed(scene).positions[0].x, 99);
 }
@@ -125,7 +125,7 @@ TEST(Posed, TheSecondSetOfJointsCountsToo) {
     for (const glm::dvec3& p : posed(scene).positions) EXPECT_EQ(p.z, 4) << "two quarters of 8";
 }
 
-// float32 weights of a third add up to 1 + 3e-8, which would be 30 m at a million kilometres.
+// float32 weights of a third add up to 1 + 3e-8, which would be an error of 30 m at a million kilometres.
 TEST(Posed, WeightsThatRoundDoNotMove) {
     Scene scene = skinned(moved({1e9, 0, 0}), moved({1e9, 0, 0}));
     const float third = 1.0f / 3;
@@ -134,7 +134,8 @@ TEST(Posed, WeightsThatRoundDoNotMove) {
     expectNear(posed(scene).positions[2], {1e9, 1, 0}, "as both joints have it", 1e-6);
 }
 
-// Squashed to half along x: the plane x + z = 0 keeps to its normal by the inverse transpose, (2, 0, 1).
+// Scaled to half along x: the normal of the plane x + z = 0 is transformed by the inverse transpose to (2,
+// 0, 1).
 TEST(Posed, NormalsMoveByTheInverseTranspose) {
     Scene scene = skinned(glm::scale(glm::dmat4(1), {0.5, 1, 1}), glm::dmat4(1));
     only(scene).normals.assign(3, glm::normalize(glm::vec3(1, 0, 1)));
@@ -145,7 +146,7 @@ TEST(Posed, NormalsMoveByTheInverseTranspose) {
     expectNear(v.normals[2], glm::normalize(glm::dvec3(1, 0, 1)), "not", 1e-7);
 }
 
-// Mirrored by its joints: the triangle runs round the other way, and its front is where it was.
+// Mirrored by its joints: the triangle's orientation is reversed, and its front is still on the same side.
 TEST(Posed, MirroredJointsKeepTheFront) {
     const glm::dmat4 mirror = glm::scale(glm::dmat4(1), {-1, 1, 1});
     Scene scene = skinned(mirror, mirror);
@@ -202,7 +203,7 @@ TEST(Posed, TargetsComeBeforeJoints) {
     expectNear(posed(scene).positions[0], Y, "moved, then turned");
 }
 
-// The target tilts the triangle by 45 degrees; what NORMAL says at rest does not count.
+// The target tilts the triangle by 45 degrees; the NORMAL at rest has no effect.
 TEST(Posed, AFlatTrianglesNormalFollowsIt) {
     Scene scene = triangle();
     only(scene).targets = {{{{0, 0, 0}, {0, 0, 0}, {0, 0, 1}}, {}, {}}};
@@ -238,7 +239,7 @@ TEST(Posed, BoundsAreThoseOfWhatIsPosed) {
     EXPECT_EQ(bounds.max, glm::dvec3(1, 0, 1e18)) << "the vertex between them is at its edge";
 }
 
-// From where the scene is seen by itself does not follow what moves; nor does what is laid out around it.
+// The default view does not follow what moves, nor do lights that are placed around the scene.
 TEST(Posed, TheDefaultViewIsThatOfTheStart) {
     Scene scene = triangle();
     scene.nodes[0].transform = 0;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A screen and a clock by hand.
+// A simulated screen and clock.
 struct Screen {
     std::vector<std::string> lines;
     ProgressOutput::Time now{};
@@ -43,7 +43,7 @@ TEST(Progress, LineNeverExceedsItsColumns) {
                 EXPECT_LE(progressLine(what, fraction, "images and meshes", columns).size(), columns);
 }
 
-// "...and the end of the name", which tells more than its beginning.
+// "...and the end of the name", which is more informative than its beginning.
 TEST(Progress, LongNamesKeepTheirEnd) {
     EXPECT_TRUE(progressLine("a/long/way/to/Sponza.gltf", 0.5, "x", 40).starts_with("..."))
         << progressLine("a/long/way/to/Sponza.gltf", 0.5, "x", 40);
@@ -109,7 +109,7 @@ TEST(Progress, StagesFillTheirPartOfTheWhole) {
     Progress progress(screen.output(false));
     const Stage whole(progress, "report");
     const auto said = [&](const Stage& stage, double fraction) {
-        screen.now += 1h * 1000;  // no time left is said
+        screen.now += 1h * 1000;  // no remaining time is shown
         stage.at(fraction, "x");
         return screen.lines.back();
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Radiance pictures by hand: every order, both run-length codes, and files that lie.
+// Radiance pictures made by hand: every orientation, both run-length codes, and files with wrong headers.
 #include "shared/image/radiance.h"
 #include "shared/image/atomic_file.h"
 #include "tests/unit/files.h"
@@ -33,7 +33,7 @@ std::string faultOf(const std::string& file, std::uint64_t most = limits::imageB
 }
 
 TEST(Radiance, AMantissaIsTheMiddleOfItsStep) {
-    // Exponent 129 is 2^1, and a mantissa m stands for (m + 1/2) / 256 of that.
+    // Exponent 129 is 2^1, and a mantissa m is (m + 1/2) / 256 of that.
     const Image image = read(hdr("-Y 1 +X 2", "\x80\x40\x00\x81\x09\x09\x09\x00"s));
     ASSERT_EQ(image.width, 2);
     ASSERT_EQ(image.height, 1);
@@ -75,8 +75,8 @@ TEST(Radiance, EveryOrderOfTheEight) {
 }
 
 TEST(Radiance, OldRunsInARowAreDigits) {
-    // One pixel, 43 more, 1 x 256 more: 300. Then one by itself, which starts the digits anew, and a run of
-    // 299.
+    // One pixel, 43 more, 1 x 256 more: 300. Then a single pixel, after which the digits start anew, and a
+    // run of 299.
     const std::string first = "\x80\x00\x00\x81\x01\x01\x01\x2b\x01\x01\x01\x01"s;
     const std::string second = "\xc0\x00\x00\x81\x01\x01\x01\x2b\x01\x01\x01\x01"s;
     const Image image = read(hdr("-Y 2 +X 300", first + second));
@@ -131,7 +131,7 @@ TEST(Radiance, FaultsAreNamed) {
                                  " bytes cannot hold them");
     EXPECT_EQ(faultOf(hdr("-Y 20 +X 20", pixel), 4799),
               "a.hdr: claims 20 x 20 pixels of 12 bytes: 0 MiB are read at most");
-    // 65536 lines of one run each would be 48 GiB from 786 kB; the first one is missing its end.
+    // 65536 lines of one run each would expand 786 kB to 48 GiB; the first one is truncated.
     EXPECT_EQ(faultOf(hdr("-Y 5000 +X 65536", std::string(40000, '\x03'))), "a.hdr: is cut short")
         << "walked through before 3.7 GiB are taken";
 }
@@ -154,7 +154,7 @@ TEST(Radiance, WrittenPicturesComeBackWithinAStep) {
         for (std::size_t i = 0; i < image.pixels(); ++i) {
             const float* a = image.pixel(i);
             const float* b = back.pixel(i);
-            // Half a step of a mantissa of 128 at least, of the largest component.
+            // Half a step of a mantissa of at least 128, relative to the largest component.
             const float step = std::max({a[0], a[1], a[2]}) / 256;
             for (int c = 0; c < 3; ++c) EXPECT_LE(std::abs(a[c] - b[c]), step) << i;
         }

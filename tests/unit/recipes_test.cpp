@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The recipes "to add X, touch" of the documentation are what the sources say: the files that a recipe names
-// are those that mention an example that is there already, no more and no fewer. The table itself is the
-// data; here stands only by which words an example is known.
+// Checks the documentation's recipes "to add X, touch" against the sources: the files that a recipe names
+// are exactly those that mention an existing example. The table in the documentation is the data; this file
+// only has the words that identify each example.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,8 +28,8 @@ using Faults = std::vector<std::string>;
 constexpr const char* table_file = "tests/architecture/README.md";
 constexpr const char* table_head = "| to add | touch |";
 
-// A row of the table, and whole words by which the files that know of its example are found. Words in
-// comments of code do not count; text in quotes does.
+// A row of the table, and the whole words that identify the files of its example. Words in comments are
+// ignored, words in quotes are not.
 struct Example {
     std::string row;
     std::vector<std::string> words;
@@ -50,7 +50,7 @@ const std::vector<Example> examples = {
     {"a figure", {"mae"}},
 };
 
-// The rooms of the program: what a test mentions is no part of a recipe, and neither is prose.
+// The program's sources; tests and documentation are not part of a recipe.
 const Files& sources() {
     static const Files files = [] {
         const fs::path root = DIPTYCH_SOURCE_DIR;
@@ -73,13 +73,13 @@ std::string tablePage() {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// A file in which comments are as in C++.
+// Whether the file has C++ style comments.
 bool isCode(const std::string& path) {
     static const std::set<std::string> endings{".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".js"};
     return endings.contains(fs::path(path).extension().string());
 }
 
-// Without what stands behind "//" to the line's end or between "/*" and "*/", but for those in quotes.
+// Removes comments, except inside quotes.
 std::string withoutComments(const std::string& text) {
     std::string code;
     char quote = 0;
@@ -134,7 +134,7 @@ std::map<std::string, std::set<std::string>> recipesOf(const std::string& page) 
     std::istringstream lines(page.substr(std::min(page.find(table_head), page.size())));
     std::string line;
     for (int number = 0; std::getline(lines, line) && line.starts_with('|'); ++number) {
-        if (number < 2) continue;  // the head and the rule below it
+        if (number < 2) continue;  // the header and the rule below it
         const std::size_t middle = line.find(" | ", 2);
         std::set<std::string>& named = recipes[line.substr(2, middle - 2)];
         const std::string cell = line.substr(middle);
@@ -184,7 +184,7 @@ TEST(Recipes, NameTheFilesThatMentionAnExample) {
 
 TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
     const std::string page = tablePage();
-    Files named;  // without all others, of which the recipes say nothing
+    Files named;  // only files that the recipes mention
     for (const auto& [row, names] : recipesOf(page))
         for (const auto& source : sources())
             if (std::ranges::any_of(names, [&](const auto& name) { return source.first.starts_with(name); }))

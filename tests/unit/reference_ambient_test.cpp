@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light that is the same from everywhere: the reference's integral against closed forms and brute force, and
-// the paths' against the reference's.
+// Light that is equal from all directions: the reference's integral against closed forms and brute force,
+// and the paths' integral against the reference's.
 #include "tests/unit/reference_maker.h"
 
 #include "compare/reference/ambient.h"
@@ -14,15 +14,14 @@ Reflected ambientAlbedo(const Surface& s) {
     return {diffuseAlbedo(s), specularAlbedo(s)};
 }
 
-// Without an angle of its own: every direction of the hemisphere, in parameters that know nothing of the
-// lobe.
+// Integrates over all directions of the hemisphere, with parameters that do not depend on the lobe.
 Reflected bruteForce(const Surface& surface) {
     const Brdf brdf(surface);
     const auto integrand = [&](double u, double v) {
         const double cosine = u, sine = std::sqrt(1 - u * u), phi = 2 * pi * v;
         return brdf({sine * std::cos(phi), sine * std::sin(phi), cosine}) * (2 * pi);
     };
-    // 8 x 8 cells at least, and then as many as it takes.
+    // At least 8 x 8 cells, then adaptively.
     const auto mustSplit = [](const Cell& cell) {
         return cell.u1 - cell.u0 > 0.125 ? Split::u : cell.v1 - cell.v0 > 0.125 ? Split::v : Split::none;
     };
@@ -71,8 +70,8 @@ TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
                 s.dielectric_f0 = glm::dvec3(0.04);
                 s.dielectric_f90 = 1;
                 const Reflected share = ambientAlbedo(s);
-                // A base under Schlick's layer is given 1 - F by the half vector, and so gains at grazing
-                // angles.
+                // A base under Schlick's layer is weighted by 1 - F of the half vector, and so gains energy
+                // at grazing angles.
                 EXPECT_LE(share.specular.g, 1 + 1e-6);
                 EXPECT_LE(share.diffuse.g, 1 + 1e-6);
                 EXPECT_GE(share.size(), 0);
@@ -80,8 +79,8 @@ TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
         }
 }
 
-// The paths' own integrals, another derivation in other words, from the mirror to the roughest, from grazing
-// to straight on.
+// The paths' own integrals are derived differently; compared from the smoothest to the roughest, at all
+// angles.
 TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
     for (const double roughness : {0.045, 0.07, 0.15, 0.3, 0.6, 1.0})
         for (const double cosine : {1e-4, 1e-3, 0.004, 0.02, 0.1, 0.35, 0.8, 1.0}) {

@@ -64,7 +64,7 @@ TEST(ReferenceCheckpoint, WhereverTheFileEndsWhatIsWholeCounts) {
         const std::size_t whole = size < head ? 0 : (size - head) / record;
         EXPECT_EQ(numbersAt(stem).size(), whole) << size;
         if (size < head) continue;
-        // And goes on behind it.
+        // Writing continues after it.
         write(file, bytes.substr(0, size));
         {
             Checkpoint checkpoint(stem, key, 3);
@@ -95,7 +95,7 @@ TEST(ReferenceCheckpoint, AnotherPictureHasAnotherFile) {
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << "nothing is lost";
 }
 
-// Pictures whose keys differ in what the name does not show, or whose records are of another size.
+// Pictures whose keys differ only in the half that is not in the name, or whose records have another size.
 TEST(ReferenceCheckpoint, WhatHasItsNameByChanceIsLeftAlone) {
     const Path stem = twoRecords();
     EXPECT_TRUE(numbersAt(stem, key ^ 1).empty());
@@ -145,7 +145,7 @@ TEST(ReferenceCheckpoint, TwoAtOnceHaveAFileEach) {
         two.keep(13, second);
         two.keep(12, second);
     }
-    // Both have ended, and neither has finished.
+    // Both programs have ended without finishing.
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
     EXPECT_EQ(namesIn(stem.parent_path()), Names{name}) << "one file holds it all";
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
@@ -157,7 +157,7 @@ TEST(ReferenceCheckpoint, TheFirstToFinishTakesNothingFromTheOther) {
         Checkpoint one(stem, key, 3), two(stem, key, 3);
         two.keep(12, second);
         one.remove();
-        one.keep(13, second);  // nothing is kept any more
+        one.keep(13, second);  // after remove() nothing is kept
         EXPECT_EQ(namesIn(stem.parent_path()), Names{std::string(name) + "-2"});
     }
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12})) << "with what it had from the first";
@@ -180,7 +180,7 @@ TEST(ReferenceCheckpoint, WhatCannotBeWrittenIsNamed) {
     }
 }
 
-// A disk that is full: here a limit that only the head keeps to.
+// A full disk, simulated by a limit that only leaves room for the head.
 TEST(ReferenceCheckpoint, WhatFindsNoRoomIsAnError) {
     const Path stem = folder() / "kept";
     struct rlimit before {};

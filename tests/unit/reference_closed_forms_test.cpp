@@ -9,7 +9,7 @@
 namespace diptych::reference {
 namespace {
 
-// What the reference's quadrature is asked for is 1e-7 a patch.
+// The quadrature's tolerance is 2e-6 of the integral; its actual error is far smaller.
 constexpr double exact = 1e-6;
 
 void expectRelative(double value, double expected, double tolerance = exact) {
@@ -70,7 +70,7 @@ TEST(ReferenceClosedForms, RectanglesByLambertsFormula) {
             }
 }
 
-// Most of what arrives is from a millionth of the light.
+// Most of the light arrives from a millionth of its area.
 TEST(ReferenceClosedForms, ALargeLightNearby) {
     for (const double height : {1e-4, 1e-2}) {
         Light rect = lightOf(LightKind::rect, {31, 17, height});
@@ -114,8 +114,8 @@ TEST(ReferenceClosedForms, LightsEndAtTheirRangeExactly) {
 
 // ---- tube --------------------------------------------------------------------------------------------
 
-// The outline of a cylinder from the origin: two lines along the side, and at each end the near half of the
-// rim or, where the cap is seen, the far one.
+// The outline of a cylinder seen from the origin: two lines along its side and, at each end, half of the
+// rim: the far half if the cap is visible, otherwise the near half.
 std::vector<glm::dvec3> outlineOf(const Light& tube) {
     const glm::dvec3 axis = tube.axis, c = tube.position;
     const double radius = tube.radius, half_length = double{tube.length} / 2, along = -glm::dot(c, axis);
@@ -149,7 +149,7 @@ TEST(ReferenceClosedForms, TubesByTheirOutline) {
         {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.1f, 1},          // above
         {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.9f, 3},          // thick and near
         {{3, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.3f, 2},          // beside its end, which is seen
-        {{1.5, 0.1, 0}, {1, 0, 0}, {1, 0, 0.2}, 0.4f, 2},    // in its prolongation: the cap alone
+        {{1.5, 0.1, 0}, {1, 0, 0}, {1, 0, 0.2}, 0.4f, 2},    // on its axis: only the cap is visible
         {{0, 0, 2}, {0.2, 0.1, 1}, {0, 0, 1}, 0.25f, 1},     // cap and side
         {{0.7, 0.4, 0.2}, {0, 0.3, 1}, {0, 0, 1}, 0.2f, 3},  // its axis through the horizon
         {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.3f, 1},          // its axis on the horizon
@@ -166,7 +166,7 @@ TEST(ReferenceClosedForms, TubesByTheirOutline) {
     }
 }
 
-// A line of infinite length, d away, sends E = pi r L / d on what faces it, as its radius r goes to 0.
+// As its radius r goes to 0, an infinite tube at distance d gives E = pi r L / d on a surface that faces it.
 TEST(ReferenceClosedForms, ALongThinTubeIsALine) {
     Light tube = lightOf(LightKind::tube, {0, 0, 2});
     tube.axis = {0, 1, 0};
@@ -191,12 +191,12 @@ TEST(ReferenceClosedForms, ASunsIlluminanceDoesNotDependOnItsAngle) {
         sun.angle = angle;
         sun.intensity = 7;
         expectRelative(irradianceBy(sun, lambertian()), 7);
-        // Whole above the horizon, a disc's irradiance is that of its middle.
+        // A disc wholly above the horizon has the irradiance of its centre.
         if (angle < 1) expectRelative(irradianceBy(sun, lambertian({1, 0, 1})), 7 / std::sqrt(2.0));
     }
 }
 
-// What of it is above counts.
+// Only the part above the horizon counts.
 TEST(ReferenceClosedForms, ASunOnTheHorizon) {
     for (const double lift : {-0.05, 0.0, 0.03}) {
         Light sun = lightOf(LightKind::directional, {0, 0, 0}, {-1, 0, -lift});
@@ -211,8 +211,8 @@ TEST(ReferenceClosedForms, ASunOnTheHorizon) {
     }
 }
 
-// What is rough enough sees no difference between a small disc and a direction: it goes with the angle
-// squared.
+// On a sufficiently rough surface a small disc is equal to a direction, with a difference proportional to
+// the square of the angle.
 TEST(ReferenceClosedForms, ASunsDiscGoesToADirection) {
     Surface s = mirror(0.5, 0.7);
     s.metallic = 0.5;

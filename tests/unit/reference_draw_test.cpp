@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole pictures of the reference: every light and channel, shadows, threads, and what is gone on from.
+// Whole pictures of the reference: every light and channel, shadows, threads, resuming.
 #include "tests/unit/reference_scene.h"
 
 #include "compare/reference/checkpoint.h"
@@ -18,7 +18,7 @@ namespace {
 const LightKind kinds[] = {LightKind::directional, LightKind::point, LightKind::spot,
                            LightKind::rect,        LightKind::disc,  LightKind::tube};
 
-// Of one pixel, straight down on the floor's middle. The picture is float32.
+// The value of one pixel that looks straight down at the floor's centre, in float32.
 double seenBelow(const Scene& scene, bool shadows = false) {
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows);
     return double{d[gpu::DEBUG_lit].at(0, 0, 0)};
@@ -26,7 +26,8 @@ double seenBelow(const Scene& scene, bool shadows = false) {
 
 // ---- kinds and channels ------------------------------------------------------------------------------
 
-// What each kind sends onto the floor below it, by its formula; a kind without a case here fails.
+// The irradiance of each kind of light on the floor below it, by its formula; a kind that is missing here
+// fails.
 double irradianceOf(const Light& light) {
     switch (light.kind) {
         case LightKind::directional:
@@ -39,7 +40,7 @@ double irradianceOf(const Light& light) {
         case LightKind::disc:
             return light.intensity * pi * 0.25 / (0.25 + 4);
         case LightKind::tube:
-            return -1;  // its outline is in the tests of closed forms
+            return -1;  // tested with the closed forms
     }
     ADD_FAILURE() << "a kind of light without a test";
     return 0;
@@ -138,7 +139,7 @@ TEST(ReferenceDraw, WhatCastsAShadow) {
     EXPECT_NEAR(below(roofed(m)), 0.25, 1e-6) << "cut out";
     m.base_color.a = 0.51f;
     EXPECT_EQ(below(roofed(m)), 0);
-    // Beyond the light, and beside it.
+    // Occluders beyond the light and beside it cast no shadow.
     Scene scene = roofed(matte());
     scene.lights[0].position.z = 0.9;
     EXPECT_NEAR(below(scene), 1 / 0.81, 1e-5);
@@ -161,8 +162,8 @@ TEST(ReferenceDraw, AMaskThrowsTheShadowOfItsHoles) {
     EXPECT_EQ(below(scene), 0);
 }
 
-// Light from behind the triangle does not reach it, where shadows are; without them the shading normal alone
-// tells.
+// With shadows, light from behind the triangle does not reach it; without them only the shading normal
+// decides.
 TEST(ReferenceDraw, LightFromBehindTheTriangle) {
     Scene scene = floorScene();
     for (glm::vec3& n : scene.meshes[0].primitives[0].normals) n = glm::normalize(glm::vec3(1, 0, 1));
@@ -184,8 +185,8 @@ TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
     EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 8 + 0.75 * 1), 1e-6);
 }
 
-// A lamp that lies on a ceiling, whose float32 vertices are above it, in it or below it by a rounding: its
-// light comes through, and what hangs between is seen.
+// A lamp on a ceiling whose float32 vertices are rounded to above it, in it or below it: its light arrives,
+// and an object between still casts a shadow.
 TEST(ReferenceDraw, ALampMayLieOnACeiling) {
     for (const double height : {2.0, 2.3, 2.5, 2.7}) {
         Scene scene = floorScene();
@@ -209,8 +210,8 @@ TEST(ReferenceDraw, ALampMayLieOnACeiling) {
     }
 }
 
-// Many samples of a coarse picture are the mean of a fine one, at silhouettes too, wherever a pixel's centre
-// is.
+// The mean of many samples of a coarse picture equals that of a fine one, also at silhouettes, wherever the
+// pixels' centres are.
 TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
     Scene scene = floorScene();
     scene.materials[0].emissive = {1, 1, 1};
@@ -271,13 +272,13 @@ TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
     expectSame(whole.picture, again.picture);
     EXPECT_GE(rest, 1);
     EXPECT_LE(rest, 9 - 4) << "of nine tiles four are done";
-    // Whole, it stays until whoever asked for it is done with all.
+    // The finished file remains until the caller removes it.
     rest = 0;
     expectSame(whole.picture, drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; }).picture);
     EXPECT_EQ(rest, 0);
 }
 
-// What decides a pixel decides whether a file is of the same picture.
+// Everything that decides a pixel also decides whether a file belongs to the same picture.
 TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
     Scene scene = sampledScene();
     scene.lights[0].kind = LightKind::point;
@@ -302,7 +303,7 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
         Scene changed = scene;
         View view = sampledView;
         change(changed, view);
-        // The first tile's share tells how many there are to do.
+        // The first progress report tells the number of tiles that are left.
         std::mutex one;
         double least = 1;
         const auto first = [&](double fraction) {

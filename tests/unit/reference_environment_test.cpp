@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference under a sky: directions, furnaces, and what it says of its own confidence.
+// The reference under environments: directions, furnaces, and its stated confidence.
 #include "tests/unit/reference_maker.h"
 
 #include "compare/reference/environment.h"
@@ -11,7 +11,7 @@ Environment constantSky(float radiance, int width = 8, int height = 4) {
     return {"sky", Image(width, height, 3, radiance)};
 }
 
-// One texel of radiance 1000 before 0.1.
+// One texel of radiance 1000, all others 0.1.
 Environment sunnySky(int x, int y) {
     Environment sky = constantSky(0.1f, 16, 8);
     for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = 1000;
@@ -62,7 +62,7 @@ TEST(ReferenceEnvironment, PolesAndSeamAreContinuous) {
                                 std::abs(y) == 1 ? 101 : 1e-3)
                         << y << " " << turn;
         }
-    // Straight through a pole: rows go on half a turn further.
+    // Through a pole: rows continue half a turn further.
     for (int i = 0; i < 16; ++i) {
         const double turn = 2 * pi * i / 16;
         const glm::dvec3 aside(step * std::sin(turn), 0, step * std::cos(turn)), up(0, 1, 0);
@@ -73,7 +73,7 @@ TEST(ReferenceEnvironment, PolesAndSeamAreContinuous) {
     }
 }
 
-// The density is that of the samples, and nowhere 0 where there is light that counts.
+// The stated density is that of the samples, and is never 0 where there is light that matters.
 TEST(ReferenceEnvironment, SamplesComeAsOftenAsTheDensitySays) {
     const Environment sky = sunnySky(15, 1);
     const EnvironmentLight light(sky, 1);
@@ -104,7 +104,7 @@ TEST(ReferenceEnvironment, SamplesComeAsOftenAsTheDensitySays) {
                 sum += density * solid;
             }
         EXPECT_NEAR(sum, 1, 1e-12);
-        // A step of the grid either way at each edge.
+        // One step of the grid in either direction at each edge is allowed.
         for (std::size_t i = 0; i < drawn.size(); ++i)
             EXPECT_NEAR(drawn[i], said[i], 4.0 / steps * said[i] + 2e-3) << i;
     }
@@ -116,8 +116,8 @@ TEST(ReferenceEnvironment, ABlackSkyIsNone) {
     EXPECT_EQ(under(constantSky(1), lambertian(), 1, 0).reflected.size(), 0);
 }
 
-// A plane under a constant sky is its albedo; the furnace's figures where F = 1. Errors by the stated
-// confidence: of independent ones 95 % are within it, and four times it is beyond any chance.
+// A plane under a constant sky shows its albedo; with F = 1 the furnace's figures. Of independent errors 95
+// % are within the stated confidence, and none beyond four times of it.
 void expectConfident(const Environment& sky, const Surface& s, double expected, double worst) {
     int within = 0;
     double mean = 0;
@@ -143,7 +143,7 @@ TEST(ReferenceEnvironment, ALambertianPlaneUnderAConstantSkyIsItsAlbedo) {
 TEST(ReferenceEnvironment, TheWhiteFurnacesFigures) {
     expectConfident(constantSky(1), mirror(0.5, 0), 0.9158, samplingError);
     expectConfident(constantSky(1), mirror(1, 0), 0.3069, samplingError);
-    // The narrowest lobe loses next to nothing: its albedo, by sums over its half vectors, is 0.99998.
+    // The narrowest lobe loses almost nothing: its albedo, by sums over its half vectors, is 0.99998.
     expectConfident(constantSky(1), mirror(0.045, 0), 0.99998, samplingError);
 }
 
@@ -165,7 +165,8 @@ TEST(ReferenceEnvironment, OneBrightTexel) {
     }
 }
 
-// Skies of few pixels, which reach over the horizon from far below it, and a lobe that sees nothing of that.
+// Skies with few pixels, which extend from far below to above the horizon, and a lobe that sees nothing of
+// that part.
 TEST(ReferenceEnvironment, ASmoothLayerOverAWhiteBaseUnderACoarseSky) {
     Surface s = lambertian({0.2, 1, 0.1});
     s.roughness = 0.045;
@@ -177,7 +178,7 @@ TEST(ReferenceEnvironment, ASmoothLayerOverAWhiteBaseUnderACoarseSky) {
         expectConfident(constantSky(1, size.x, size.y), s, 0.96 + 0.04 * 0.99998, samplingError);
 }
 
-// Noise that neighbours share would be a picture of its own.
+// Noise correlated between neighbours would be visible as a pattern.
 TEST(ReferenceEnvironment, NeighboursErrAlone) {
     const Environment sky = constantSky(1);
     constexpr int pixels = 400;

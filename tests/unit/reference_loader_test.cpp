@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a glTF file to the reference's numbers, computed by hand: a loader that both paths and the reference
-// share hides no fault.
+// The reference's results for glTF files, against values computed by hand: a fault in the loader, which both
+// paths and the reference share, would not show otherwise.
 #include "tests/unit/gltf_maker.h"
 #include "tests/unit/png_maker.h"
 #include "tests/unit/reference_scene.h"
@@ -31,7 +31,7 @@ GltfFile square(const Json& material = Json::object()) {
     return f;
 }
 
-// RGB pixels as texture 0, each its own from here to its edges.
+// Adds RGB pixels as texture 0, without interpolation between them.
 void addTexture(GltfFile& f, std::uint32_t width, const std::vector<std::vector<std::uint8_t>>& rows) {
     std::ofstream(testFolder() / "texture.png", std::ios::binary) << pngOf({.width = width, .rows = rows});
     f.json["images"] = {{{"uri", "texture.png"}}};
@@ -77,7 +77,7 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
     f.json["nodes"] = {{{"children", {1, 2}}, {"rotation", {-s, 0, 0, s}}},
                        {{"mesh", 0}, {"scale", {1, 2, 1}}},
                        {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {5, 5, 5}}}};
-    // It shines along -Z of its node: turned with it, along -Y.
+    // The light shines along -Z of its node: rotated with it, along -Y.
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 2}, {"color", {1, 0.5, 0.25}}}};
     const glm::dvec3 place(1.0 / 3, 1.0 / 3, -2.0 / 3);
@@ -113,7 +113,7 @@ TEST(ReferenceLoader, ASpotInItsUnits) {
     for (const int x : {1, 2})
         for (const int y : {1, 2})
             EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, expected, 1e-6 * expected);
-    // Its edge is at tan(0.5) 2 = 1.09 m, the corners' at 1.06.
+    // The cone's edge is at tan(0.5) 2 = 1.09 m, the corner pixels' centres at 1.06.
     EXPECT_GT(d[gpu::DEBUG_lit].at(0, 0, 1), 0);
     EXPECT_LT(d[gpu::DEBUG_lit].at(0, 0, 1), 0.01f);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference draws what skins, morph targets and animations make of a scene at a time.
+// The reference's pictures of animated scenes: skins, morph targets and animations at a given time.
 #include "tests/unit/reference_scene.h"
 
 #include "compare/reference/geometry.h"
@@ -37,8 +37,8 @@ bool isSurface(const Picture& picture, int x, int y) {
     return at(picture, gpu::DEBUG_material_id, x, y).x >= 0;
 }
 
-// A patch of 1 m at x = -1, of which an animation from 0 s to 1 s makes something, over an empty world. Seen
-// from +Z with one pixel a metre: 5 by 5 pixels around the origin.
+// A patch of 1 m at x = -1, animated from 0 s to 1 s, without other objects. Seen from +Z with one pixel a
+// metre: 5 by 5 pixels around the origin.
 Scene patch() {
     Scene scene;
     scene.materials = {matte()};
@@ -62,7 +62,7 @@ void animate(Scene& scene, int node, AnimatedPart part, std::vector<float> value
     scene.transforms.emplace_back();
 }
 
-// Each carries the patch from x = -1 to x = 1 and 1 m up.
+// Each moves the patch from x = -1 to x = 1, and 1 m up.
 Scene byItsNode() {
     Scene scene = patch();
     animate(scene, 0, AnimatedPart::translation, {0, 0, 0, 2, 0, 1}, 3);
@@ -72,7 +72,8 @@ Scene byAJoint() {
     Scene scene = patch();
     Primitive& p = scene.meshes[0].primitives[0];
     p.joint_sets = {{std::vector<glm::u16vec4>(4, {1, 0, 0, 0}), std::vector<glm::vec4>(4, {1, 0, 0, 0})}};
-    scene.skins = {{"", {2, 1}, {glm::mat4(1), glm::mat4(1)}, -1}};  // the first stays, and moves nothing
+    // The first joint is at rest and moves nothing.
+    scene.skins = {{"", {2, 1}, {glm::mat4(1), glm::mat4(1)}, -1}};
     scene.nodes[0].skin = 0;
     animate(scene, 1, AnimatedPart::translation, {0, 0, 0, 2, 0, 1}, 3);
     return scene;
@@ -104,8 +105,8 @@ TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
     }
 }
 
-// A half-way joint bends the patch: its shading normal is the joints' own, its triangles' follow from the
-// corners.
+// A joint with half the weight bends the patch: its shading normal follows from the joints, its geometric
+// normal from the corners.
 TEST(ReferenceMotion, NormalsArePosedToo) {
     Scene scene = byAJoint();
     scene.animations.clear();
@@ -137,7 +138,8 @@ TEST(ReferenceMotion, ShadowsGoWithWhatMoves) {
     }
 }
 
-// Mode surface stands beside a path that draws meshes undeformed: so must what throws its shadows.
+// Mode surface is compared with a path that draws meshes undeformed: shadows must be cast by undeformed
+// meshes, too.
 TEST(ReferenceMotion, BesideAPathMeshesAreUndeformed) {
     const Scene scene = byATarget();
     const Pose pose = poseAt(scene, 1);
@@ -151,7 +153,7 @@ TEST(ReferenceMotion, BesideAPathMeshesAreUndeformed) {
     EXPECT_TRUE(met(true, 1));
 }
 
-// A vertex that is nowhere takes its triangle along, and nothing else.
+// A vertex without a valid position removes its triangle, and nothing else.
 TEST(ReferenceMotion, WhatIsMovedOutOfReachIsNotThere) {
     Scene scene = byATarget();
     scene.meshes[0].primitives[0].targets[0].positions = {{0, 0, 0}, {1e18f, 0, 0}, {0, 0, 0}, {0, 0, 0}};
@@ -162,7 +164,7 @@ TEST(ReferenceMotion, WhatIsMovedOutOfReachIsNotThere) {
     EXPECT_TRUE(isSurface(picture, 1, 2)) << "above it";
 }
 
-// A file of the same picture at another time is not gone on from, whatever it is that moves.
+// A checkpoint of the same picture at another time is not used, whatever it is that moves.
 TEST(ReferenceMotion, APictureOfAnotherTimeIsBegunAnew) {
     View view = fromAbove;
     view.width = view.height = 40;  // nine tiles

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's shadows of lights with extent, against what is left of their polygon.
+// The reference's shadows of area lights, against the visible part of their polygon.
 #include "tests/unit/reference_maker.h"
 
 #include "compare/reference/sampling.h"
@@ -7,14 +7,14 @@
 namespace diptych::reference {
 namespace {
 
-// A square of 1 m, 1 m above the origin. What stands half-way up hides what is twice as far aside.
+// A square light of 1 m, 1 m above the origin. An occluder at half the height hides twice its size.
 Light square() {
     Light light = lightOf(LightKind::rect, {0, 0, 1});
     light.axis = {1, 0, 0};
     return light;
 }
 
-// Hides of the square what is between these.
+// Hides the part of the square between these bounds.
 struct Screen {
     double x0, x1, y0, y1;
     bool operator()(const glm::dvec3& d, double distance) const {
@@ -46,7 +46,7 @@ Record recordOf(int seeds, const Surface& s, Expected&& expected) {
         record.worst = std::max(record.worst, error / (shading.uncertainty + 1e-9));
         record.mean += (shading.reflected.diffuse.g + shading.reflected.specular.g - value) / seeds;
         ++record.seeds;
-        // Relative to the light without the shadow: what is nearly hid is not worth any number of samples.
+        // Relative to the light without the shadow: a nearly hidden light is not worth many samples.
         EXPECT_LE(shading.uncertainty, 1.01 * samplingError * part(-0.5, 0.5, -0.5, 0.5));
     }
     return record;
@@ -78,7 +78,7 @@ TEST(ReferenceShadow, AnEdgeAcrossARectangle) {
     EXPECT_NEAR(record.mean, 0, samplingError / 10 * whole) << "no bias";
 }
 
-// What is narrow falls between samples: the confidence must know.
+// Narrow occluders fall between samples: the stated confidence must include that.
 TEST(ReferenceShadow, WhatIsSmallBeforeALight) {
     for (const double size : {0.02, 0.05, 0.1, 0.2}) {
         const Record record = recordOf(200, lambertian(), [&](Random& random) {
@@ -91,7 +91,7 @@ TEST(ReferenceShadow, WhatIsSmallBeforeALight) {
     }
 }
 
-// Found where it lets through what the sampling goes on to, a hundredth; of less nothing is claimed.
+// A hole that lets through at least samplingError, a hundredth, is found; smaller ones may be missed.
 TEST(ReferenceShadow, ASmallHoleBeforeALight) {
     for (const double size : {0.1, 0.2}) {
         const Record record = recordOf(200, lambertian(), [&](Random& random) {
@@ -105,7 +105,7 @@ TEST(ReferenceShadow, ASmallHoleBeforeALight) {
     }
 }
 
-// Negative control: a light a hundredth brighter is not within what is claimed.
+// Negative control: a light brighter by a hundredth is outside the stated confidence.
 TEST(ReferenceShadow, AHundredthIsBeyondTheConfidence) {
     const Record record = recordOf(100, lambertian(), [&](Random& random) {
         const double x = random() * 0.5 - 0.5;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the reference sees of a texture, against means over the texels; and where its rays meet triangles.
+// The reference's texture filtering against means over the texels; and its intersections of rays and
+// triangles.
 #include "tests/unit/reference_scene.h"
 
 #include "compare/reference/geometry.h"
@@ -8,7 +9,7 @@
 namespace diptych::reference {
 namespace {
 
-// Codes without a pattern, opaque.
+// Random codes, opaque.
 TextureImage noise(int width, int height) {
     TextureImage image{"noise", width, height, {}};
     std::uint32_t state = 1;
@@ -45,7 +46,7 @@ TEST(ReferenceTexture, PyramidsKeepTheMeanOfAnySize) {
         const int last = levels.levels() - 1;
         EXPECT_EQ(levels.width(last), 1);
         EXPECT_EQ(levels.height(last), 1);
-        // Texels of a level are float32, each level once.
+        // Every level is rounded to float32 once.
         for (int level = 0; level <= last; ++level) {
             double sum = 0;
             const int w = levels.width(level), h = levels.height(level);
@@ -107,9 +108,9 @@ TEST(ReferenceTexture, MagnifiedAndWrapped) {
             }
 }
 
-// A box mean, by very many places. The reference's 64 are apart by a texel of the level it reads: what is
-// between them it has by bilinear interpolation, which spreads a texel over its neighbours; of noise of 0.29
-// that leaves a few hundredths over the 8 x 8 texels of the least box here, and less over more.
+// The mean over a box, by very many points. The reference's 64 points are a texel of their level apart, and
+// bilinear interpolation spreads texels over their neighbours: with noise of 0.29 that leaves an error of a
+// few hundredths for the smallest box here, 8 x 8 texels, and less for larger ones.
 TEST(ReferenceTexture, FootprintsAreMeans) {
     const TextureImage image = noise(64, 64);
     const Scene scene = sceneOf(image, {});
@@ -137,12 +138,12 @@ TEST(ReferenceTexture, FootprintsAreMeans) {
                     0.29 / std::sqrt(std::min(texels, 4096.0)) + 1e-3)
             << f.dx.x << " " << texels;
     }
-    // A whole period is the mean itself.
+    // Over a whole period it is the mean itself.
     EXPECT_NEAR(textures(scene.textures[0], false, {{0.5, 0.5}, {1, 0}, {0, 1}}).r,
                 Pyramid(image, false).texel(6, 0, 0).r, 2e-3);
 }
 
-// At a grazing angle: within a stripe of four rows, whichever way the stripes run, straight and rolled.
+// At a grazing angle: within a stripe of four rows, in every orientation of stripes and footprint.
 TEST(ReferenceTexture, LongFootprintsAreNotBlurredAcross) {
     for (const bool rows : {true, false}) {
         TextureImage image{"stripes", 64, 64, {}};
@@ -154,7 +155,8 @@ TEST(ReferenceTexture, LongFootprintsAreNotBlurredAcross) {
         const auto turned = [&](const glm::dvec2& v) { return rows ? v : glm::dvec2(v.y, v.x); };
         for (const double length : {0.1, 0.25, 0.5, 0.9})
             for (const double roll : {0.0, 0.5}) {
-                // Two rows wide in the middle of rows 20 to 23: bilinear interpolation stays inside.
+                // Two rows wide in the middle of rows 20 to 23: bilinear interpolation stays inside the
+                // stripe.
                 const glm::dvec2 along(length, 1.0 / 64), side(roll * length, (1 + roll) / 64);
                 const Footprint f{turned({0.5, 22 / 64.0}), turned({along.x, 0}), turned({side.x, side.y})};
                 EXPECT_NEAR(textures(scene.textures[0], false, f).r, 1, 1e-3) << rows << length << roll;
@@ -220,7 +222,8 @@ TEST(ReferenceGeometry, RaysEndWhereTheyShould) {
     EXPECT_FALSE(geometry.nearest({{0, 0, 0}, down, 0, 9}, [](const Hit&) { return false; }));
 }
 
-// Counter-clockwise is the front; a mirroring node turns nothing round; a side is where the ray comes from.
+// Counter-clockwise is the front; a mirroring node does not swap sides; `front` tells from which side the
+// ray comes.
 TEST(ReferenceGeometry, BackFacesAndMirrors) {
     for (const double mirror : {1.0, -1.0}) {
         Scene scene = floorScene();
