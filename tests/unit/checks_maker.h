@@ -56,7 +56,7 @@ inline Scene sceneOf(Primitive primitive) {
     scene.nodes.emplace_back().mesh = 0;
     return scene;
 }
-// The same with nothing to tell, and a texture that a slot may read.
+// The same without any feature, and a texture that a slot may read.
 inline Scene plainScene() {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.materials[0].double_sided = false;
@@ -70,7 +70,7 @@ inline std::vector<FeatureChecks> checksIn(const Scene& scene, const View& view,
     return visualChecksOf(scene, poseAt(scene, 0), view, ids, positions);
 }
 
-// The boxes of a scene that has one feature at most.
+// The boxes of a scene that has at most one feature.
 inline std::vector<PixelBox> boxesOf(const std::vector<FeatureChecks>& features) {
     EXPECT_LE(features.size(), 1u);
     std::vector<PixelBox> boxes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// glTF files of KHR_draco_mesh_compression that a test makes with Draco's own encoder.
+// glTF files with KHR_draco_mesh_compression, made with Draco's own encoder.
 #pragma once
 
 #include "tests/unit/gltf_maker.h"
@@ -12,7 +12,7 @@
 
 namespace diptych {
 
-// How a surface is encoded; without bits it is encoded exactly.
+// Encoder settings; without bits the encoding is exact.
 struct DracoWay {
     int method = draco::MESH_EDGEBREAKER_ENCODING;
     int speed = 5;
@@ -25,7 +25,7 @@ struct DracoStream {
     std::size_t vertices, triangles;
 };
 
-// Attributes as functions of the position, so that a vertex can be checked wherever the encoder put it.
+// Attributes as functions of the position, so that a vertex can be checked wherever the encoder puts it.
 inline glm::vec2 texcoordAt(const glm::vec3& p) {
     return {p.x / 4, p.y / 8};
 }
@@ -93,7 +93,7 @@ inline DracoStream encoded(int n, const DracoWay& way = {}) {
     return {{buffer.data(), buffer.size()}, encoder.num_encoded_points(), encoder.num_encoded_faces()};
 }
 
-// Accessors without data, as the extension has them.
+// Accessors without data, as the extension requires.
 inline int declared(GltfFile& f, std::size_t count, int componentType, const char* type,
                     bool normalized = false) {
     f.json["accessors"].push_back(

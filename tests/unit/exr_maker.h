@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR files of several parts, written by OpenEXR itself, whose values are known by part, channel and place.
+// EXR files of several parts, written by OpenEXR itself, with known values for each part, channel and place.
 #pragma once
 
 #include "tests/unit/files.h"
@@ -26,8 +26,8 @@ inline Imath::Box2i box(int left, int top, int right, int bottom) {
     return {Imath::V2i(left, top), Imath::V2i(right, bottom)};
 }
 
-// Small integers, which half holds as well: channel `c` of part `part` at a place of the data window, in a
-// level.
+// Small integers, which half can represent: channel `c` of part `part` at a place of the data window, in a
+// mip level.
 inline int valueAt(int part, int c, int x, int y, int level = 0) {
     return 100 * part + 40 * c + 5 * (y & 7) + (x & 3) + 1000 * level;
 }
@@ -39,7 +39,7 @@ struct MadePart {
     Imf::Compression compression = Imf::ZIP_COMPRESSION;
     int tile = 0;  // pixels a side; 0: lines
     Imf::LevelMode levels = Imf::ONE_LEVEL;
-    bool deep = false;  // declared, without pixels
+    bool deep = false;  // only declared, without pixels
 };
 
 inline Imf::Header headerOf(const MadePart& part) {
@@ -54,7 +54,7 @@ inline Imf::Header headerOf(const MadePart& part) {
     return head;
 }
 
-// The numbers of one level, as long as they are to be written.
+// The pixels of one level; must live until they are written.
 class MadePixels {
 public:
     MadePixels(const MadePart& part, int number, const Imath::Box2i& window, int level) {
@@ -102,7 +102,7 @@ inline void writePart(Imf::MultiPartOutputFile& file, const MadePart& part, int 
         }
 }
 
-// The file's bytes. `change` may add to the headers.
+// Returns the file's bytes. `change` may modify the headers.
 template <class Change>
 std::string exrOf(const std::vector<MadePart>& parts, const Change& change) {
     std::vector<Imf::Header> heads;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that a test makes and looks at.
+// Helpers for files in tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace diptych {
 
-// A folder of the running test's own, empty.
+// An empty folder of the running test.
 inline std::filesystem::path folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     const std::filesystem::path path =
@@ -28,7 +28,7 @@ inline std::string contentsOf(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Names in the folder, hidden ones too, sorted.
+// All names in the folder, hidden ones too, sorted.
 inline std::vector<std::string> namesIn(const std::filesystem::path& path) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// glTF files that a test makes: a small one that is right, then one thing changed.
+// glTF files for tests: a small valid one, in which a test changes one thing.
 #pragma once
 
 #include "shared/scene/load.h"
@@ -17,7 +17,7 @@
 
 namespace diptych {
 
-// A folder of the running test's own; what is in it stays while the test runs.
+// A folder of the running test; its contents stay while the test runs.
 inline std::filesystem::path testFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     const auto path =
@@ -29,7 +29,7 @@ inline std::filesystem::path testFolder() {
 // Component types.
 constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126;
 
-// A file in the making: buffer 0 grows, and every accessor has a bufferView of its own.
+// A file under construction: buffer 0 grows, and every accessor has its own bufferView.
 struct GltfFile {
     nlohmann::json json = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"scene", 0}};
     std::string data;
@@ -95,7 +95,7 @@ struct GltfFile {
     }
 };
 
-// What loading these bytes as a file ends in; empty: a scene.
+// The error of loading these bytes as a file; empty: it loads.
 inline std::string loadBytes(const std::string& bytes, const char* name = "scene.glb") {
     std::ofstream(testFolder() / name, std::ios::binary) << bytes;
     try {

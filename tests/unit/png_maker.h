@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG files of every kind, written by libpng from rows as they are stored.
+// PNG files of every kind, written by libpng from rows in their stored form.
 #pragma once
 
 #include <png.h>
@@ -23,7 +23,7 @@ struct MadePng {
     bool profile = false;
 };
 
-// libpng ends the program where it fails: what it refuses is a fault of the test.
+// libpng terminates the program on an error, which would be a fault of the test.
 inline std::string pngOf(const MadePng& made) {
     std::string bytes;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -46,7 +46,7 @@ inline std::string pngOf(const MadePng& made) {
     transparent.gray = static_cast<png_uint_16>(made.transparent_gray);
     if (made.transparent_gray >= 0) png_set_tRNS(png, info, nullptr, 0, &transparent);
     png_write_info(png, info);
-    // By hand: libpng writes no gamma that contradicts sRGB, and no profile without one in it.
+    // Written by hand: libpng writes no gamma that contradicts sRGB, and no invalid profile.
     const auto chunk = [&](const char* name, const std::vector<png_byte>& data) {
         png_write_chunk(png, reinterpret_cast<png_const_bytep>(name), data.data(), data.size());
     };
@@ -54,7 +54,7 @@ inline std::string pngOf(const MadePng& made) {
     if (gamma > 0)
         chunk("gAMA", {png_byte(gamma >> 24), png_byte(gamma >> 16), png_byte(gamma >> 8), png_byte(gamma)});
     if (made.srgb) chunk("sRGB", {0});
-    if (made.profile) chunk("iCCP", {'a', 0, 0});  // a name, a method, no data: it is not unpacked
+    if (made.profile) chunk("iCCP", {'a', 0, 0});  // a name, a method, no data: profiles are not decompressed
     const int passes = png_set_interlace_handling(png);
     for (int pass = 0; pass < passes; ++pass)
         for (const std::vector<std::uint8_t>& row : made.rows) png_write_row(png, row.data());

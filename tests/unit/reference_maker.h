@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces, lights and scenes that the tests of the reference hold against what is known of them.
+// Surfaces, lights and scenes for the reference's tests, and formulas for their expected values.
 #pragma once
 
 #include "compare/reference/lighting.h"
@@ -20,7 +20,7 @@ namespace diptych::reference {
 
 constexpr double pi = std::numbers::pi;
 
-// White, and without the dielectric's layer: what it sends is E / pi.
+// White, without a dielectric layer: its radiance is E / pi.
 inline Surface lambertian(const glm::dvec3& normal = {0, 0, 1}, const glm::dvec3& position = {0, 0, 0}) {
     Surface s;
     s.position = position;
@@ -30,7 +30,7 @@ inline Surface lambertian(const glm::dvec3& normal = {0, 0, 1}, const glm::dvec3
     return s;
 }
 
-// F = 1 everywhere: what the specular lobe of `roughness` does alone, seen at an angle from the normal +Z.
+// F = 1 everywhere: only the specular lobe of `roughness`, seen at an angle from the normal +Z.
 inline Surface mirror(double roughness, double angle) {
     Surface s = lambertian();
     s.to_viewer = {std::sin(angle), 0, std::cos(angle)};
@@ -62,9 +62,10 @@ inline double irradianceBy(const Light& light, const Surface& surface) {
     return reflectedBy(light, surface) * pi;
 }
 
-// Lambert's formula for a polygon of radiance 1 seen from the origin, over what of it is above the horizon:
-// half the sum over its edges of the angle each takes, times the cosine of its plane's normal. (Lambert 1760,
-// "Photometria"; Baum, Rushmeier and Winget 1989.) Any outline of a convex body, planar or not, will do.
+// Lambert's formula for a polygon of radiance 1 seen from the origin, for the part above the horizon: half
+// the sum over its edges of the angle that each subtends, times the cosine of its plane's normal. (Lambert
+// 1760, "Photometria"; Baum, Rushmeier and Winget 1989.) Valid for any outline of a convex body, planar or
+// not.
 inline double lambertIrradiance(const std::vector<glm::dvec3>& outline, const glm::dvec3& n) {
     std::vector<glm::dvec3> above;
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -89,7 +90,8 @@ inline std::vector<glm::dvec3> cornersOf(const Light& rect, const glm::dvec3& fr
     return {c - x - y, c + x - y, c + x + y, c - x + y};
 }
 
-// A circle, or an arc of it, as a polygon: its area lacks (angle / corners)^2 / 6 of itself, below 2e-8 here.
+// A circle, or an arc of it, as a polygon; its area is too small by (angle / corners)^2 / 6, below 2e-8
+// here.
 inline void addArc(std::vector<glm::dvec3>& outline, const glm::dvec3& centre, const glm::dvec3& x,
                    const glm::dvec3& y, double from, double to) {
     constexpr int corners = 20000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scenes that the tests of the reference draw whole.
+// Small scenes of which the reference's tests draw whole pictures.
 #pragma once
 
 #include "tests/unit/reference_maker.h"
@@ -25,7 +25,7 @@ inline Primitive quad(const glm::vec3& corner, const glm::vec3& x, const glm::ve
     return p;
 }
 
-// White, and nothing but Lambertian.
+// White and purely Lambertian.
 inline Material matte() {
     Material m;
     m.metallic = 0;
@@ -62,7 +62,7 @@ inline View viewFrom(const glm::dvec3& eye, const glm::dvec3& target, int width,
     return view;
 }
 
-// Keeps tiles in a file of that stem, which `checkpoint` then owns; nowhere where the stem is empty.
+// Keeps tiles in a file of that stem, owned by `checkpoint`; an empty stem keeps nothing.
 inline auto keptAt(const std::filesystem::path& stem, std::optional<Checkpoint>& checkpoint) {
     std::function<Checkpoint&(std::uint64_t, std::size_t)> keep;
     if (!stem.empty())

@@ -11,7 +11,7 @@ using namespace diptych;
 
 namespace {
 
-// One triangle of material 0; material 1 is used by nothing.
+// One triangle of material 0; no triangle uses material 1.
 Scene plainScene() {
     Scene scene;
     scene.materials.resize(2);
@@ -53,7 +53,7 @@ TEST(Requirements, PlainSceneNeedsNothing) {
     EXPECT_EQ(r.vertices, 6u);
 }
 
-// Each feature alone switches its own requirement on, and only on a material that is drawn.
+// Each feature alone sets its own requirement, and only if its material is drawn.
 TEST(Requirements, EachFeatureAsksForItself) {
     struct Case {
         const char* name;
@@ -109,8 +109,8 @@ TEST(Requirements, OcclusionOfStrengthZeroIsNone) {
     EXPECT_FALSE(of(scene).occlusion);
 }
 
-// An unlit surface is one that emits its base colour and has neither F0 nor F90: even a black one needs the
-// latter said. What it ignores asks for nothing.
+// An unlit surface emits its base colour and has neither F0 nor F90: even a black one needs the channel for
+// the latter. What it ignores requires nothing.
 TEST(Requirements, UnlitAsksForEmissionAndSpecularAlone) {
     Scene scene = plainScene();
     Material& m = scene.materials[0];
@@ -164,7 +164,7 @@ TEST(Requirements, LightsAreCountedByKind) {
     EXPECT_EQ(r.lights(), 4u);
 }
 
-// No path draws discs of suns and environments yet: each says so, and no other line changes.
+// No path draws discs of suns or environments yet: each is listed as left out, and no other line changes.
 TEST(Requirements, AreaLightsAreModelledDiscsOfSunsAndEnvironmentsLeftOut) {
     Scene scene = plainScene();
     const auto before = of(scene).lines();
@@ -208,7 +208,7 @@ TEST(Requirements, APathSaysWhatLightItLeavesOut) {
     EXPECT_TRUE(leftOutLight(Path::reference, needs).empty()) << "it draws all";
 }
 
-// Counted by mesh, however many primitives it has; a target of weight 0 moves nothing.
+// Counted once for each mesh, whatever its number of primitives; a target of weight 0 has no effect.
 TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     Scene scene = plainScene();
     const auto before = of(scene).lines();

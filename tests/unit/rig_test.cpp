@@ -117,8 +117,9 @@ TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
 }
 
 TEST(Rig, SixPointLightsReachTheMiddle) {
-    // The mean count over points half a room wide around the middle. Ranges there stay inside this cube, so
-    // the expectation is exactly 6; a low-discrepancy sequence of 512 misses it by a few per cent at most.
+    // The mean count over points half the box wide around the middle. Ranges there stay inside this cube, so
+    // that the expectation is exactly 6; a low-discrepancy sequence of 512 deviates by a few per cent at
+    // most.
     const Bounds cube{{0, 0, 0}, {10, 10, 10}};
     const auto lights = makeLights("point:512", 5, cube);
     ASSERT_LT(lights[0].range, 2.5f);

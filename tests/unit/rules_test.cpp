@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tolerance files: what they may say, what they decide, and the line where they are wrong.
+// Tolerance files: their syntax, the decisions they make, and the line named in errors.
 #include "compare/verdict/rules.h"
 #include "shared/text/wildcard.h"
 
@@ -159,7 +159,7 @@ TEST(Rules, FaultsWordByWord) {
     EXPECT_EQ(fault(std::string(200, '[')), "dir/t.json: nests deeper than 128");
 }
 
-// The schema that editors read knows the same figures.
+// The JSON schema for editors has the same figures.
 TEST(Rules, TheSchemaNamesEveryFigure) {
     std::ifstream stream(DIPTYCH_SOURCE_DIR "/compare/verdict/tolerances.schema.json");
     const Json schema = Json::parse(stream);

@@ -18,7 +18,7 @@
 namespace diptych {
 namespace {
 
-// Every member changed; a member that is added to Settings and not to fields() keeps its usual value here.
+// Every member changed; a member of Settings that is missing in fields() would keep its default here.
 Settings everythingChanged() {
     Settings s;
     s.path = Path::deferred;
@@ -72,7 +72,7 @@ TEST(Settings, JsonRoundTripIsExactForEveryKindOfFloat) {
         Settings s;
         const auto bits = static_cast<std::uint32_t>(random());
         std::memcpy(&s.evsm_exponent, &bits, sizeof bits);
-        if (s.evsm_exponent - s.evsm_exponent != 0) continue;  // infinite or no number
+        if (s.evsm_exponent - s.evsm_exponent != 0) continue;  // infinite or NaN
         const std::uint64_t wide = (std::uint64_t(random()) << 32) | random();
         std::memcpy(&s.time, &wide, sizeof wide);
         if (s.time - s.time != 0) s.time = 0;
@@ -100,8 +100,7 @@ TEST(Settings, FieldsNameEachMemberOnce) {
     }
 }
 
-// Values other than the default that a Setting can have, in words: what a sweep tries, and one more of each
-// kind.
+// Values of a Setting other than the default, as text: those that a sweep tries, and one more of each kind.
 std::vector<std::string> otherValues(const Field& field) {
     const Settings defaults;
     std::vector<std::string> values = sweptValues(defaults, field.option);
@@ -154,7 +153,7 @@ TEST(Settings, TheFuzzersDictionaryNamesThemAll) {
     }
 }
 
-// What a row calls ignored by a path is gone from that path's effective Settings, and nothing else is.
+// The effective Settings of a path lack what its row says is ignored, and nothing else.
 TEST(Settings, EffectiveOnesAreWithoutWhatTheirPathIgnores) {
     for (const auto& [path, name] : enumNames<Path>())
         for (const Field& field : settingFields()) {
@@ -189,7 +188,7 @@ TEST(Settings, TheReferenceFollowsWhatItsRowsSayAndNothingElse) {
         }
 }
 
-// Whatever was asked for, the reference in mode surface shades the same surfaces of one scene, view and time.
+// Whatever was requested, mode surface always captures the same surfaces for one scene, view and time.
 TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     Settings asked = everythingChanged();
     asked.spp = 1;
@@ -386,7 +385,8 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
               "--reference-mode scene has no meaning without --path reference; use surface");
 }
 
-// The reference traces shadows and takes samples: what belongs to one technique of them changes no picture.
+// The reference traces shadows and samples lights: Settings of particular techniques for these do not affect
+// it.
 TEST(Settings, TheReferenceIgnoresHowShadowsAndSamplesAreMade) {
     Settings plain;
     plain.path = Path::reference;
@@ -401,7 +401,7 @@ TEST(Settings, TheReferenceIgnoresHowShadowsAndSamplesAreMade) {
     }
 }
 
-// They belong to one technique of shadows, not to any.
+// The Settings of moments belong to one shadow technique only.
 TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
     Settings s;
     s.path = Path::reference;
@@ -415,7 +415,7 @@ TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
     EXPECT_EQ(s.problem().value_or("none"), "none");
 }
 
-// Beside a path's capture it stands where the path does.
+// In mode surface it shades a path's capture, so the time is the path's.
 TEST(Settings, OnlyTheReferenceInModeSceneKnowsTime) {
     Settings s;
     s.time = 1.5;
@@ -509,7 +509,7 @@ TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
     }
 }
 
-// What others' files and scripts rely on: these never change.
+// Other programs' files and scripts rely on these numbers: they never change.
 TEST(DebugModes, ZeroToNineAreFixed) {
     const char* const names[] = {"lit",      "albedo",    "normals",  "metallic",    "roughness",
                                  "emission", "occlusion", "specular", "material_id", "texcoords"};

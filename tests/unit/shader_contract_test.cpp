@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The tables of shared/contract against the modules that the program embeds: which features a pass reads, and
-// which descriptors its shaders declare. Each check has a negative control: a table with a planted fault,
-// which it must find.
+// The tables of shared/contract against the modules that the program embeds: which features a pass reads,
+// and which descriptors its shaders declare. Each check has a negative control: a table with a planted
+// fault, which must be found.
 #include "shared/contract/bindings.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light.h"
@@ -35,7 +35,7 @@ std::string joined(const Faults& faults) {
     return all;
 }
 
-// What the test reads of each embedded module, read once.
+// The facts about each embedded module, read once.
 struct Module {
     std::string_view name;
     std::set<std::uint32_t> features;
@@ -53,7 +53,7 @@ const std::vector<Module>& modules() {
     return all;
 }
 
-// The passes that a module belongs to, by its name; nothing where no picture is made with it.
+// The passes that use a module, by its name; empty for modules that draw no picture.
 struct ModuleKind {
     std::string_view prefix;
     gpu::uint passes;
@@ -95,15 +95,15 @@ constexpr PassName passNames[] = {{gpu::PASS_DEPTH, "depth"},
                                   {gpu::PASS_LIGHTING, "deferred lighting"},
                                   {gpu::PASS_LISTS, "light lists"}};
 
-// The depth pass of alpha-masked materials shares surface.vert with passes that shade. What only the
-// irradiance at vertices depends on is no matter there, as depth_mask.frag does not read it.
+// The depth pass of alpha-masked materials shares surface.vert with shading passes. Outputs of it that
+// depend on features of shading do not matter there, since depth_mask.frag does not read them.
 bool unreadOutput(gpu::uint pass, std::string_view module, gpu::uint feature) {
     return pass == gpu::PASS_DEPTH && module.starts_with("surface.vert") &&
            (feature == gpu::FEATURE_object_lights || feature == gpu::FEATURE_double_sided);
 }
 
-// Features that a module of a pass uses and the table does not say so, and features of which the table says
-// that a pass reads them and no module of it does.
+// Features that a module of a pass uses but the table lacks, and features that the table assigns to a pass
+// none of whose modules uses them.
 Faults wrongReaders(const std::function<gpu::uint(const FeatureRow&)>& passesOf) {
     Faults faults;
     for (const auto& [pass, name] : passNames) {
@@ -137,7 +137,7 @@ TEST(ShaderContract, AForgottenReaderOfAFeatureIsFound) {
                                         std::pair(gpu::FEATURE_lightmap, gpu::PASS_GBUFFER),
                                         std::pair(gpu::FEATURE_spot_lights, gpu::PASS_LISTS),
                                         std::pair(gpu::FEATURE_capture_7, gpu::PASS_LIGHTING)}) {
-        // Leaving the column out, and for another feature naming a pass too many, are one fault each.
+        // Removing a feature's readers, and adding a reader to another feature, are one fault each.
         const auto without = [&](const FeatureRow& row) {
             return row.id == feature ? row.passes & ~pass : row.passes;
         };
@@ -167,13 +167,13 @@ TEST(ShaderContract, MasksAreTheColumnsOfTheTable) {
     EXPECT_FALSE(some.any(featuresSetBy(FeatureSource::pass)));
 }
 
-// A row of a binding table, as the modules have it.
+// A row of a binding table, in terms of the modules.
 using Kind = SpirvModule::Kind;
 struct Declared {
     std::string name;
     std::uint32_t set, number;
     Kind kind;
-    bool kernels;  // of the kernels that make light lists, whose set 1 is their own
+    bool kernels;  // for the kernels that make light lists, which have their own set 1
 };
 
 std::vector<Declared> bindingTables() {
@@ -210,8 +210,8 @@ std::vector<Declared> bindingTables() {
     return rows;
 }
 
-// Descriptors that a module of a pass declares and no row has, or a row has as another kind; rows that
-// nothing declares.
+// Descriptors that a module of a pass declares but no row has, or a row has with another type; and rows that
+// no module declares.
 Faults wrongBindings(const std::vector<Declared>& rows) {
     Faults faults;
     std::set<std::string> declared;
@@ -259,7 +259,7 @@ TEST(ShaderContract, AWrongRowOfABindingTableIsFound) {
     }
 }
 
-// PACKED_VIEW and PACKED_GRID: what one side packs by the table the other unpacks by it.
+// PACKED_VIEW and PACKED_GRID: both sides pack and unpack by the same table.
 TEST(ShaderContract, ThePackedViewHoldsEveryField) {
     gpu::View view{};
     gpu::LightGrid grid{};
@@ -310,7 +310,7 @@ TEST(ShaderContract, ALaneThatIsFilledTwiceOrNotAtAllIsFound) {
     EXPECT_FALSE(eachLaneOnce(lanes));
 }
 
-// CONTRACT_LANE, which stands beside each struct that shaders read as texels.
+// CONTRACT_LANE, beside each struct that shaders read as texels.
 TEST(ShaderContract, AMemberThatMovesToAnotherLaneIsFound) {
     struct Swapped {
         float inverse_range_squared;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a compiled shader module declares and uses, read from its words as the SPIR-V specification's
-// section 2.3 lays them out: a header of five words, then instructions whose first word is length << 16 |
-// opcode.
+// What a compiled shader module declares and uses, parsed according to section 2.3 of the SPIR-V
+// specification: a header of five words, then instructions whose first word is length << 16 | opcode.
 #pragma once
 
 #include <cstddef>
@@ -33,9 +32,9 @@ public:
     SpirvModule(const SpirvModule&) = delete;
     SpirvModule& operator=(const SpirvModule&) = delete;
 
-    // The numbers (constant_id) of the specialization constants that code reachable from the entry point
-    // uses, directly or in a constant expression. A global variable that is written and never read counts for
-    // nothing, nor does the call whose result is all that is written there.
+    // The numbers (constant_id) of the specialization constants used by code reachable from the entry point,
+    // directly or in a constant expression. A global variable that is written but never read does not count,
+    // nor does a call whose result is only written there.
     std::set<std::uint32_t> usedConstants() const {
         std::set<std::uint32_t> used, functions;
         const std::set<std::uint32_t> dead = deadCalls();
@@ -127,7 +126,7 @@ private:
         }
     }
 
-    // The ids that an instruction reads, without its literal words.
+    // The ids that an instruction reads, without its literal operands.
     static std::vector<std::uint32_t> operands(const Instruction& in) {
         const auto& w = in.words;
         const auto some = [&](std::size_t first, std::size_t end) {
@@ -166,7 +165,7 @@ private:
                 break;
         }
         std::vector<std::uint32_t> ids = some(in.op == op_ext_inst ? 4 : 2, w.size());
-        // Image operands and group operations: one word is no id.
+        // Image operands and group operations have one word that is not an id.
         std::size_t literal = w.size();
         if (in.op >= op_image_first && in.op <= op_image_last) literal = in.op >= op_image_gather ? 5 : 4;
         if (in.op >= op_group_first && in.op <= op_group_last) literal = 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Structural similarity against its formula written out, and where it is closed.
+// Structural similarity against its formula written out, and against closed forms.
 #include "compare/metrics/ssim.h"
 
 #include "compare/metrics/plain.h"
@@ -29,7 +29,7 @@ std::vector<std::uint8_t> everywhere(const Image& image) {
     return std::vector<std::uint8_t>(image.pixels(), 1);
 }
 
-// One window around (x, y), as the paper has it: weighted means, then weighted squares of what is left.
+// One window around (x, y), as in the paper: weighted means, then weighted squares of the deviations.
 double window(const Image& a, const Image& b, int x, int y) {
     double weights = 0, ma = 0, mb = 0, va = 0, vb = 0, covariance = 0;
     const auto each = [&](auto use) {
@@ -53,7 +53,7 @@ double window(const Image& a, const Image& b, int x, int y) {
     return (2 * ma * mb + c1) * (2 * covariance + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
 }
 
-// Variances of some 0.08 as differences of floats below 2 are off by some 1e-6 of it.
+// Variances of some 0.08, computed as differences of floats below 2, have a relative error of some 1e-6.
 constexpr double floats = 1e-5;
 
 TEST(Ssim, IsTheMeanOfItsWindows) {

@@ -15,7 +15,7 @@ using namespace diptych;
 
 namespace {
 
-// One rounding of a unit vector's components to float, and some for the sums before it.
+// A rounding of a unit vector's components to float, plus the sums before it.
 constexpr float slack = 1e-6f;
 
 Primitive quad(const std::array<glm::vec2, 4>& uv) {
@@ -42,7 +42,7 @@ void expectUnitFrames(const Primitive& p) {
     }
 }
 
-// A closed ball whose UVs do not tear: u, v are positions, so that every vertex is one vertex.
+// A closed sphere without UV seams: u and v are positions, so that no vertex is split.
 Primitive ball() {
     constexpr int rings = 8, sectors = 12;
     constexpr double pi = 3.14159265358979323846;
@@ -88,7 +88,7 @@ TEST(Tangents, PictureUpsideDownHasNegativeSign) {
     for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, -1);
 }
 
-// The picture turned by 90 degrees: its right is world +Y, its top world -X.
+// The picture rotated by 90 degrees: its right is world +Y, its top world -X.
 TEST(Tangents, RotatedPictureRotatesTangent) {
     Primitive p = quad({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}});
     makeTangents(p, 0);
@@ -129,8 +129,8 @@ TEST(Tangents, MirroredPictureSplitsTheSharedEdge) {
     }
 }
 
-// Vertices that are apart in the list but equal in every respect count as one: as two loose triangles the
-// quad gives what it gives as one sheet, also where the two derivatives differ.
+// Vertices that are separate in the list but equal in every respect are welded: the quad made of two
+// separate triangles gives the same result as one sheet, also where the two derivatives differ.
 TEST(Tangents, EqualVerticesAreWelded) {
     Primitive sheet = quad({{{0, 1}, {1, 1}, {0.7f, 0.2f}, {0, 0}}}), loose = sheet;
     loose.positions.clear(), loose.normals.clear(), loose.texcoords[0].clear(), loose.indices.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small pictures to compare.
+// Small pictures for tests of metrics.
 #pragma once
 
 #include "shared/image/image.h"
@@ -30,7 +30,7 @@ inline void set(Image& image, int x, int y, float v) {
     for (int c = 0; c < 3; ++c) image.at(x, y, c) = v;
 }
 
-// Every component of every pixel on its own, in [low, high].
+// Independent random components in [low, high].
 inline Image noise(int width, int height, unsigned seed, float low = 0, float high = 1) {
     Image image(width, height, 3);
     std::mt19937 random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strings from outside: one line of them for a message, and the shape of JSON before anything parses it.
+// Untrusted strings: their form in messages, and the shape of JSON before it is parsed.
 #include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 

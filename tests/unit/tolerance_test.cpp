@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The derived bounds against the encodings themselves, redone here in double from the G-buffer's description,
-// and against the table of measured figures.
+// The derived bounds against the encodings themselves, reimplemented here in double from the G-buffer's
+// description, and against the table of measured figures.
 #include "compare/verdict/tolerance.h"
 #include "compare/verdict/comparison.h"
 #include "shared/contract/constants.h"
@@ -17,7 +17,7 @@
 namespace diptych {
 namespace {
 
-// Every channel of two 1 x 1 Frames, so that a tolerance can be asked for.
+// Two 1 x 1 Frames with every channel, as arguments of a tolerance.
 struct Pair {
     Frame deferred, forward;
     Requirements needs;
@@ -142,7 +142,7 @@ TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
                 e == GBufferEncoding::compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS;
             double worst = 0;
             for (int i = 0; i < 300'000; ++i) {
-                // The corners matter most: bright albedo, dark F0, any metallic.
+                // Corner cases matter most: bright albedo, dark F0, any metallic.
                 const double a = 1 - 0.05 * uniform(random), m = uniform(random),
                              f = stored ? 0.02 * uniform(random) : double{gpu::DEFAULT_DIELECTRIC_F0};
                 const double qa = quantisedSqrt(a, gpu::ALBEDO_BITS), qm = quantised(m, metallicBits),
@@ -169,8 +169,8 @@ TEST(Tolerance, EmissionIsHalfOfNineBits) {
 }
 
 TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
-    // Textures darken emission to where 9.9.9.e5 has a fixed step of 2^-24; a mean of 2^-20 puts the least
-    // denominator at 2^-30, so half a step is up to 2^-25 / (1e-3 x 2^-20) of it.
+    // Textures can darken emission to where 9.9.9.e5 has a fixed step of 2^-24; a mean of 2^-20 puts the
+    // least denominator at 1e-3 x 2^-20, so that half a step is up to 2^-25 / (1e-3 x 2^-20) of it.
     Pair p;
     p.needs.emission = true;
     p.needs.min_emission = p.needs.max_emission = 1;
@@ -222,7 +222,7 @@ TEST(Tolerance, EveryChannelSaysWhy) {
             }
 }
 
-// lit: what the encoding does to forward+ alone is granted, and nothing else.
+// lit: the effect of the encoding on forward+ alone is tolerated, and nothing else.
 Pair litPair() {
     Pair p;
     p.forward.channels[gpu::DEBUG_lit] = Image(1, 1, 3, 1.0f);
@@ -241,7 +241,7 @@ TEST(Tolerance, LitIsGrantedTheEncodingsMeasuredEffect) {
 
 TEST(Tolerance, LitThatTheEncodingDoesNotExplainIsFound) {
     Pair p = litPair();
-    // Closer to forward+ than the tolerance, and yet not what the encoding gives.
+    // Closer to forward+ than the tolerance, and yet different from what the encoding gives.
     p.deferred.channels[gpu::DEBUG_lit].data[1] = std::nextafter(1.25f, 2.0f);
     EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 1u);
     p.cpu = false;

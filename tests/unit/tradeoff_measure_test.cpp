@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Enlarging, and the errors of a row.
+// Upsampling, and the errors of a row.
 #include "compare/tradeoff/measure.h"
 #include "compare/tradeoff/upsample.h"
 #include "shared/contract/debug_mode.h"
@@ -39,7 +39,8 @@ std::vector<float> rowOf(const Image& image, int y) {
 }
 
 TEST(TradeoffUpsample, IsBilinearBetweenPixelCentres) {
-    // Two pixels to four: centres of the new at -0.25 (clamped), 0.25, 0.75 and 1.25 (clamped) of the old.
+    // From two pixels to four: the new centres are at -0.25 (clamped), 0.25, 0.75 and 1.25 (clamped) of the
+    // old.
     const Frame wide = upsampled(frameOf(2, 1, {0, 8}), {4, 1});
     EXPECT_EQ(rowOf(wide.channels.at(lit), 0), (std::vector<float>{0, 2, 6, 8}));
     EXPECT_EQ(rowOf(wide.channels.at(ids), 0), (std::vector<float>{0, 0, 1, 1}));
@@ -66,7 +67,7 @@ TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
     EXPECT_THROW(upsampled(without, {4, 4}), std::runtime_error);
 }
 
-// What compare says of the same pictures.
+// The figures that compare gives for the same pictures.
 TEST(TradeoffErrors, AreThoseOfTheReport) {
     const Image reference = noise(40, 30, 1), test = noise(40, 30, 2);
     Frame a = frameOf(40, 30, std::vector<float>(1200, 1)), b = a;

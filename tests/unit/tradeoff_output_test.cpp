@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep leaves: table, CSV, JSON, plots and page.
+// The output of a sweep: table, CSV, JSON, plots and page.
 #include "compare/cli/command_line.h"
 #include "compare/plot/log_axis.h"
 #include "compare/tradeoff/html.h"
@@ -54,7 +54,7 @@ Tradeoff several() {
     return tradeoff;
 }
 
-// RFC 4180, written without a look at the writer.
+// RFC 4180, implemented independently of the writer.
 std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
     std::vector<std::vector<std::string>> lines(1, {""});
     bool quoted = false;
@@ -97,7 +97,7 @@ TEST(TradeoffOutput, CsvHasEveryRowAndReadsBack) {
     EXPECT_EQ(at(3, "compare"), "") << "not as large as the reference";
 }
 
-// The command line reads them back as what they say.
+// The command line parses the printed commands back to the row's Settings.
 TEST(TradeoffOutput, CommandsAreOfTheRow) {
     Tradeoff tradeoff = several();
     tradeoff.scene = "builtin:one";
@@ -120,7 +120,7 @@ TEST(TradeoffOutput, CommandsAreOfTheRow) {
     EXPECT_EQ(half.settings.size, tradeoff.given.size) << "the reference's";
     EXPECT_EQ(half.grid, R"({"settings":{"size":"320x180"}})");
     EXPECT_EQ(parse(renderingCommand(tradeoff, tradeoff.rows[2])).settings, tradeoff.rows[2].settings);
-    // What the reference depends on stays as it was given, but for the row itself.
+    // Settings that the reference depends on stay as given, except in the row itself.
     tradeoff.rows[1].settings.shadows = Shadows::pcf;
     tradeoff.given.spp = 16;
     const Options shadowed = parse(measuringCommand(tradeoff, tradeoff.rows[1]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which Settings a sweep draws.
+// The Settings that a sweep draws.
 #include "compare/tradeoff/sweep.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
     }
 }
 
-// Whatever Settings there are: each swept value of each is a row of each path, or a skip with a reason.
+// For any base Settings, each swept value of each Setting is a row for each path, or a skip with a reason.
 TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
     const Settings given;
     const SweepRows sweep = usualSweep(given);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far a reference is known, through its EXR and back: a path is judged against the file as against the
-// Frame.
+// The reference's uncertainty survives writing and reading its EXR: a path is judged against the file as it
+// is against the Frame.
 #include "compare/files/frame_exr.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/baseline.h"
@@ -33,7 +33,7 @@ Frame frameOf(Path path, float left, float right) {
     return frame;
 }
 
-// Sampled, and known to a third and to a hundredth.
+// A sampled reference with uncertainties of a third and of a hundredth.
 Frame sampled() {
     Frame truth = frameOf(Path::reference, 1, 2);
     truth.uncertainty = Image(2, 1, 1);
@@ -68,7 +68,7 @@ TEST(Uncertainty, ComesBackAsItWas) {
     EXPECT_EQ(back.channels.at(lit).data, truth.channels.at(lit).data);
 }
 
-// What is not finite does, too: nothing is refused that was written here.
+// Infinite and NaN uncertainties are read back, too: a reader accepts all that this program writes.
 TEST(Uncertainty, OfAnySizeComesBack) {
     for (const double relative : {0.0, 1e-300, 5e-324, 1e300, std::numeric_limits<double>::infinity()}) {
         Frame truth = sampled();
@@ -94,7 +94,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
         EXPECT_EQ(stored.tolerance.because, now.tolerance.because);
         EXPECT_EQ(stored.reason, now.reason);
     }
-    // Without it the same picture would fail.
+    // Without the uncertainty the same picture would fail.
     Frame bare = back;
     bare.uncertainty = {};
     EXPECT_EQ(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).verdict, Verdict::fail);

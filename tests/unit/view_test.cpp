@@ -49,7 +49,7 @@ std::string errorOf(const std::string& choice, const Scene& scene = squareAt({0,
     return "";
 }
 
-// What the shaders do with gpu::View: a pixel and its depth back to a position, in float.
+// As the shaders use gpu::View: from a pixel and its depth to a position, in float.
 glm::vec3 reconstruct(const gpu::View& v, const glm::vec2& pixel, float z) {
     const float d =
         (v.depth_numerator.x + v.depth_numerator.y * z) / (v.depth_denominator.x + v.depth_denominator.y * z);
@@ -129,7 +129,7 @@ TEST(View, OrthographicMatrixByHand) {
     EXPECT_EQ(gpu.depth_numerator, gpu::vec2(5, -4));
 }
 
-// World to clip to pixel and float depth and back, over the whole picture and the whole depth.
+// From world to clip space, pixel and float depth and back, over the whole picture and all depths.
 TEST(View, PixelAndDepthGiveThePositionBack) {
     struct Case {
         bool orthographic;
@@ -157,7 +157,7 @@ TEST(View, PixelAndDepthGiveThePositionBack) {
                             std::max({glm::length(position), 1.0, c.orthographic ? c.far : 0.0});
                         EXPECT_NEAR(glm::length(glm::dvec3(back) - position), 0, 12 * 6e-8 * span)
                             << width << "x" << height << " at " << x << " " << y << " " << z;
-                        // And the depth along the axis is the one that d means.
+                        // The depth along the axis is d.
                         const double depth = -glm::dot(position, view.backward());
                         if (z == 1) {
                             EXPECT_NEAR(depth, c.near, 1e-9 * std::max(span, 1.0));
@@ -218,7 +218,7 @@ TEST(MakeView, DefaultChangesSidesWhereNothingFacesIt) {
     EXPECT_NEAR(glm::length(viewOf(back, "").backward() + away), 0, 1e-12);
     back.materials[0].double_sided = true;
     EXPECT_NEAR(glm::length(viewOf(back, "").backward() - away), 0, 1e-12);
-    // A mirroring node turns the front with it: scaled by -1 along z, the square faces -Z.
+    // A mirroring node also flips the front: scaled by -1 along z, the square faces -Z.
     EXPECT_NEAR(glm::length(viewOf(squareAt({0, 0, 0}, false, -1), "").backward() + away), 0, 1e-12);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person must look at: where it is, how many there are, and what they are called.
+// Visual checks: where they are in the picture, their number, and their names.
 #include "compare/checks/material_pixels.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/motion/bounds.h"
@@ -30,8 +30,8 @@ TEST(VisualChecks, NothingBehindTheCameraOrBesideThePicture) {
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(5.5f, 0, -2)), viewOf())), Boxes{}) << "from pixel 212 on";
 }
 
-// A floor 1 m below the eye from 2 m ahead to 5 m behind is seen from 1 m, where 2 m are 100 pixels, on; with
-// a far plane at 3 m a floor that goes on to 10 m ends at 50 + 50 / 3 = 66.7 pixels.
+// A floor 1 m below the eye, from 2 m ahead to 5 m behind, is visible from 1 m on, where 2 m are 100 pixels;
+// with a far plane at 3 m, a floor that extends to 10 m ends at 50 + 50 / 3 = 66.7 pixels.
 TEST(VisualChecks, WhatReachesThroughAPlaneIsCutOff) {
     const Scene through = sceneOf(shapeOf({{-1, -1, -2}, {1, -1, -2}, {1, -1, 5}, {-1, -1, 5}}));
     EXPECT_EQ(boxesOf(checksIn(through, viewOf())), (Boxes{{50, 75, 150, 100}}));
@@ -83,7 +83,7 @@ TEST(VisualChecks, WhatNoPixelShowsIsHidden) {
     EXPECT_EQ(seen[0].checks[0].pixels, 2u);
 }
 
-// One behind the other, of one material; the picture shows the nearer one alone.
+// One behind the other, with the same material; the picture shows only the closer one.
 TEST(VisualChecks, PositionsTellInstancesOfOneMaterialApart) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.nodes.emplace_back().mesh = 0;
@@ -102,7 +102,7 @@ TEST(VisualChecks, PositionsTellInstancesOfOneMaterialApart) {
     EXPECT_EQ(checks[0].checks[0].pixels, 2500u);
 }
 
-// Against counting pixel by pixel, over sizes that tiles do not divide.
+// Compared with counting pixel by pixel, for sizes that are no multiples of the tiles'.
 TEST(VisualChecks, MaterialPixelsAreWhatIsThere) {
     std::mt19937 random(1);
     Image ids(53, 37, 1), positions(53, 37, 3);
@@ -138,7 +138,7 @@ TEST(VisualChecks, MaterialPixelsAreWhatIsThere) {
 TEST(VisualChecks, TheLargestComeFirstAndAllAreCounted) {
     Scene scene = sceneOf(squareAt(0, 0, 0));
     scene.nodes.clear();
-    for (int i = 0; i < 30; ++i) {  // the 10th is nearest, two are as far as each other
+    for (int i = 0; i < 30; ++i) {  // the 10th is nearest, two are equally far away
         Node& node = scene.nodes.emplace_back();
         node.name = "node " + std::to_string(i);
         node.mesh = 0;
@@ -185,7 +185,7 @@ TEST(VisualChecks, LongNamesAreCutBetweenCharacters) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.nodes[0].name = "x";
     for (int i = 0; i < 1000; ++i)
-        scene.nodes[0].name += "\u00e9";  // of two bytes; the 60th byte is its second
+        scene.nodes[0].name += "\u00e9";  // two bytes; the 60th byte of the name is its second
     const std::string name = checksIn(scene, viewOf()).at(0).checks.at(0).name;
     std::string expected = "x";
     for (int i = 0; i < 29; ++i) expected += "\u00e9";
