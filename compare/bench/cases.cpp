@@ -62,7 +62,7 @@ std::string sceneOfLights(const std::string& scene) {
     return std::string(prefix) + name;
 }
 
-// The scene and the Settings with so many lights.
+// Puts `count` lights into the scene or the Settings.
 void putLights(std::uint32_t count, std::string& scene, Settings& settings) {
     const std::string parametric = sceneOfLights(scene);
     if (!parametric.empty() && settings.lights.empty()) {
@@ -121,12 +121,12 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
                                                      options.light_counts.end());
     if (counts.empty()) counts.emplace_back();
 
-    BenchCases plan;
+    BenchCases cases;
     const auto skip = [&](const BenchSkip& skipped) {
         const auto same = [&](const BenchSkip& s) {
             return s.path == skipped.path && s.assign == skipped.assign && s.reason == skipped.reason;
         };
-        if (std::ranges::none_of(plan.skips, same)) plan.skips.push_back(skipped);
+        if (std::ranges::none_of(cases.skips, same)) cases.skips.push_back(skipped);
     };
     for (const std::optional<std::uint32_t>& count : counts) {
         BenchGroup group{count, scene, {}};
@@ -144,12 +144,12 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
                     else
                         group.settings.push_back(settings);
                 }
-        if (!group.settings.empty()) plan.groups.push_back(std::move(group));
+        if (!group.settings.empty()) cases.groups.push_back(std::move(group));
     }
-    if (plan.groups.empty())
-        throw std::runtime_error(
-            fmt::format("nothing to time: {}: {}", skipName(plan.skips.front()), plan.skips.front().reason));
-    return plan;
+    if (cases.groups.empty())
+        throw std::runtime_error(fmt::format("nothing to time: {}: {}", skipName(cases.skips.front()),
+                                             cases.skips.front().reason));
+    return cases;
 }
 
 std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, double>> measured,

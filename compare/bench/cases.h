@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which Settings a benchmark times side by side, and which it does not and why.
+// Which Settings a benchmark times side by side, which it skips, and why.
 #pragma once
 
 #include "shared/frame/settings.h"

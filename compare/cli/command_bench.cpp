@@ -37,7 +37,7 @@ void checkOptions(const Options& options) {
         throw std::runtime_error("--path reference: is no path to be timed; use another");
 }
 
-BenchCases planOf(const Options& options, const BenchOptions& bench) {
+BenchCases casesOf(const Options& options, const BenchOptions& bench) {
     if (!bench.frames) return {};
     Settings given = options.settings;
     given.camera = options.cameras.front();
@@ -55,8 +55,8 @@ BenchOptions benchOptions(const Options& options) {
 
 int runBench(const Options& options) {
     checkOptions(options);
-    const BenchOptions asked = benchOptions(options);
-    const BenchCases plan = planOf(options, asked);
+    const BenchOptions requested = benchOptions(options);
+    const BenchCases cases = casesOf(options, requested);
     const std::filesystem::path folder = folderOf(options);
     if (options.debug_given) note(options, "--debug is not used: a benchmark makes no picture");
     if (!options.channels.empty()) note(options, "--channels is not used: a benchmark makes no channels");
@@ -66,11 +66,11 @@ int runBench(const Options& options) {
     say(options, "on " + device.info().name);
     Bench bench{options.scenes.front(),
                 options.settings,
-                asked,
+                requested,
                 reportDevice(device),
                 options.runs,
                 {},
-                plan.skips,
+                cases.skips,
                 {}};
     const bool prints = !options.json && !options.quiet;
     const auto print = [&](const std::string& text) {
@@ -80,9 +80,9 @@ int runBench(const Options& options) {
         std::fflush(stdout);
     };
     const Stage whole(progress, bench.scene);
-    const double groups = static_cast<double>(plan.groups.size()) + (asked.kernels ? 0.5 : 0.0);
-    for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-        const BenchGroup& group = plan.groups[i];
+    const double groups = static_cast<double>(cases.groups.size()) + (requested.kernels ? 0.5 : 0.0);
+    for (std::size_t i = 0; i < cases.groups.size(); ++i) {
+        const BenchGroup& group = cases.groups[i];
         const double from = static_cast<double>(i) / groups, to = static_cast<double>(i + 1) / groups;
         const double read = from + 0.1 * (to - from);
         const Scene scene = loadShown(group.scene, options.settings, whole.part(from, read));
@@ -90,10 +90,10 @@ int runBench(const Options& options) {
         measureGroup(device, group, scene, bench, whole.part(read, to));
         print(benchTable(bench, first));
     }
-    if (asked.kernels)
+    if (requested.kernels)
         bench.kernels =
             measureKernels(device, std::max(options.runs, fewestKernelRuns),
-                           whole.part(static_cast<double>(plan.groups.size()) / groups, 1).about("kernels"));
+                           whole.part(static_cast<double>(cases.groups.size()) / groups, 1).about("kernels"));
     checkValidation(device);
     const std::string json = writeBench(bench, folder, options.force);
     progress.wipe();

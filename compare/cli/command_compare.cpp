@@ -40,10 +40,10 @@ CompareOptions compareOptions(const Options& options) {
 
 // What both paths drew, of every scene and camera.
 struct Drawn {
-    std::vector<Frame> frames;  // two by two; three by three where the truth comes first
+    std::vector<Frame> frames;  // two by two; three by three where the reference comes first
     std::vector<Requirements> needs;
     // Per scene and camera: what a person must look at, and the materials' names by id.
-    std::vector<std::vector<FeatureChecks>> marks;
+    std::vector<std::vector<FeatureChecks>> visual_checks;
     std::vector<std::vector<std::string>> materials;
 };
 
@@ -107,7 +107,8 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Device
         std::vector<Frame> frames = renderAll(device, views, settings, render);
         for (std::size_t k = 0; k < frames.size(); k += together) {
             const Frame& shown = frames[k + together - 2];
-            drawn.marks.push_back(visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
+            drawn.visual_checks.push_back(
+                visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
             drawn.materials.push_back(materialNames(scene));
         }
         std::ranges::move(frames, std::back_inserter(drawn.frames));
@@ -140,9 +141,10 @@ Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> basel
     compare.progress = progress;
     if (againstReference(options))
         return makeReferenceReport(std::move(drawn.frames), drawn.needs, device, compare,
-                                   std::move(drawn.marks), drawn.materials);
+                                   std::move(drawn.visual_checks), drawn.materials);
     if (!baseline)
-        return makeReport(std::move(drawn.frames), drawn.needs, device, compare, std::move(drawn.marks));
+        return makeReport(std::move(drawn.frames), drawn.needs, device, compare,
+                          std::move(drawn.visual_checks));
     baseline->requested = drawn.frames.front().requested;
     return makeBaselineReport(std::move(*baseline), std::move(drawn.frames), drawn.needs.front(), device,
                               compare, baselineMismatches(*baseline, drawn.frames.front(), device));

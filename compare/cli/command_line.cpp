@@ -63,69 +63,70 @@ Settings settingsFromFile(const std::string& file) {
     }
 }
 
-Settings settingsOf(const ParsedOptions& said) {
+Settings settingsOf(const ParsedOptions& parsed) {
     Settings settings;
-    if (!said.settings_file.empty()) settings = settingsFromFile(said.settings_file);
-    for (const auto& [option, value] : said.settings) settings.set(option, value);
-    if (!said.cameras.empty()) settings.camera = said.cameras.front();
+    if (!parsed.settings_file.empty()) settings = settingsFromFile(parsed.settings_file);
+    for (const auto& [option, value] : parsed.settings) settings.set(option, value);
+    if (!parsed.cameras.empty()) settings.camera = parsed.cameras.front();
     return settings;
 }
 
-void resolveBaseline(Options& options, const ParsedOptions& said) {
+void resolveBaseline(Options& options, const ParsedOptions& parsed) {
     const auto path =
-        std::ranges::find(enumNames<Path>(), said.baseline, &std::pair<Path, std::string_view>::second);
+        std::ranges::find(enumNames<Path>(), parsed.baseline, &std::pair<Path, std::string_view>::second);
     const bool isPath = path != enumNames<Path>().end();
     if (isPath) options.baseline = path->first;
-    if (!isPath && !said.baseline.ends_with(".exr"))
-        throw std::runtime_error(fmt::format(
-            "--baseline {}: is none of deferred, forward_plus, reference, and no .exr file", said.baseline));
-    if (!isPath) options.baseline_file = said.baseline;
+    if (!isPath && !parsed.baseline.ends_with(".exr"))
+        throw std::runtime_error(
+            fmt::format("--baseline {}: is none of deferred, forward_plus, reference, and no .exr file",
+                        parsed.baseline));
+    if (!isPath) options.baseline_file = parsed.baseline;
     if (options.update_baseline && isPath)
         throw std::runtime_error("--update-baseline: --baseline FILE.exr says which file");
 }
 
-void resolveWhatCounts(Options& options, const ParsedOptions& said) {
+void resolveWhatCounts(Options& options, const ParsedOptions& parsed) {
     PictureDiffOptions& diff = options.diff;
-    if (!said.crop.empty()) options.selection.crop = diff.selection.crop = cropOf(said.crop);
-    diff.metric = figureOfMetric(said.metric.empty() ? "flip" : said.metric);
-    diff.metric_given = !said.metric.empty();
+    if (!parsed.crop.empty()) options.selection.crop = diff.selection.crop = cropOf(parsed.crop);
+    diff.metric = figureOfMetric(parsed.metric.empty() ? "flip" : parsed.metric);
+    diff.metric_given = !parsed.metric.empty();
     if (diff.failing && diff.metric_given)
         throw std::runtime_error("--failing: counts pixels by the channel's own errors; leave out --metric");
     if (!std::isfinite(diff.blur)) throw std::runtime_error("--blur: is no number of pixels");
     const Figure& figure = *findFigure(diff.metric);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
-    diff.tolerance = said.tolerance.value_or(identity);
+    diff.tolerance = parsed.tolerance.value_or(identity);
     if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !figure.more_is_better))
         throw std::runtime_error(fmt::format("--tolerance {}: 0 or more", diff.tolerance));
-    if (diff.failing && !said.tolerance)
+    if (diff.failing && !parsed.tolerance)
         throw std::runtime_error("--failing: --tolerance says above which error a pixel fails");
 }
 
-void resolveBench(BenchOptions& bench, const ParsedOptions& said) {
-    if (!said.bench_paths.empty()) bench.paths = benchPaths(said.bench_paths);
-    if (!said.bench_assign.empty()) bench.assign = benchAssignments(said.bench_assign);
-    if (!said.bench_sizes.empty()) bench.sizes = benchSizes(said.bench_sizes);
-    if (!said.light_counts.empty()) bench.light_counts = benchLightCounts(said.light_counts);
-    bench.max_ms = said.max_ms;
-    if (!(said.max_ms > 0) || !std::isfinite(said.max_ms))
-        throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", said.max_ms));
-    if (said.kernels != "on" && said.kernels != "off" && said.kernels != "only")
-        throw std::runtime_error(fmt::format("--kernels {}: takes on, off or only", said.kernels));
-    bench.kernels = said.kernels != "off";
-    bench.frames = said.kernels != "only";
+void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
+    if (!parsed.bench_paths.empty()) bench.paths = benchPaths(parsed.bench_paths);
+    if (!parsed.bench_assign.empty()) bench.assign = benchAssignments(parsed.bench_assign);
+    if (!parsed.bench_sizes.empty()) bench.sizes = benchSizes(parsed.bench_sizes);
+    if (!parsed.light_counts.empty()) bench.light_counts = benchLightCounts(parsed.light_counts);
+    bench.max_ms = parsed.max_ms;
+    if (!(parsed.max_ms > 0) || !std::isfinite(parsed.max_ms))
+        throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", parsed.max_ms));
+    if (parsed.kernels != "on" && parsed.kernels != "off" && parsed.kernels != "only")
+        throw std::runtime_error(fmt::format("--kernels {}: takes on, off or only", parsed.kernels));
+    bench.kernels = parsed.kernels != "off";
+    bench.frames = parsed.kernels != "only";
 }
 
 // What each word means together with the others.
-void resolve(Options& options, const ParsedOptions& said) {
-    options.settings = settingsOf(said);
-    options.cameras = said.cameras.empty() ? std::vector{options.settings.camera} : said.cameras;
+void resolve(Options& options, const ParsedOptions& parsed) {
+    options.settings = settingsOf(parsed);
+    options.cameras = parsed.cameras.empty() ? std::vector{options.settings.camera} : parsed.cameras;
     options.path_given =
-        std::ranges::any_of(said.settings, [](const auto& pair) { return pair.first == "path"; });
-    options.debug_given = !said.debug.empty();
-    if (options.debug_given) options.shown = channelNumber(said.debug, "--debug");
+        std::ranges::any_of(parsed.settings, [](const auto& pair) { return pair.first == "path"; });
+    options.debug_given = !parsed.debug.empty();
+    if (options.debug_given) options.shown = channelNumber(parsed.debug, "--debug");
     if (options.heat) options.shown = static_cast<int>(gpu::DEBUG_light_count);
-    if (said.channels != "all") options.channels = channelNumbers(said.channels);
+    if (parsed.channels != "all") options.channels = channelNumbers(parsed.channels);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
 
     if (options.runs < 0) throw std::runtime_error(fmt::format("--runs {}: 0 or more", options.runs));
@@ -134,16 +135,16 @@ void resolve(Options& options, const ParsedOptions& said) {
         throw std::runtime_error(fmt::format("--exposure {}: above 0, finite", *options.picture.exposure));
     if (options.picture.ev100 && !std::isfinite(*options.picture.ev100))
         throw std::runtime_error(fmt::format("--ev100 {}: finite", *options.picture.ev100));
-    if (!(said.fps > 0) || !std::isfinite(said.fps))
-        throw std::runtime_error(fmt::format("--fps {}: above 0", said.fps));
-    if (said.frames < 1) throw std::runtime_error(fmt::format("--frames {}: 1 or more", said.frames));
+    if (!(parsed.fps > 0) || !std::isfinite(parsed.fps))
+        throw std::runtime_error(fmt::format("--fps {}: above 0", parsed.fps));
+    if (parsed.frames < 1) throw std::runtime_error(fmt::format("--frames {}: 1 or more", parsed.frames));
 
-    if (said.frames != 1)
-        throw std::runtime_error(fmt::format("--frames {} is not built yet; use 1", said.frames));
-    if (!said.not_built.empty()) throw std::runtime_error(said.not_built.front() + " is not built yet");
-    resolveBaseline(options, said);
-    resolveWhatCounts(options, said);
-    resolveBench(options.bench, said);
+    if (parsed.frames != 1)
+        throw std::runtime_error(fmt::format("--frames {} is not built yet; use 1", parsed.frames));
+    if (!parsed.not_built.empty()) throw std::runtime_error(parsed.not_built.front() + " is not built yet");
+    resolveBaseline(options, parsed);
+    resolveWhatCounts(options, parsed);
+    resolveBench(options.bench, parsed);
 }
 
 // CLI11 calls an option that was given too often "--size: At Most 1 required but received 3".
@@ -160,7 +161,7 @@ std::string inOurWords(const std::string& error) {
 Options parseCommandLine(const std::vector<std::string>& words) {
     Options options;
     options.scenes.clear();
-    ParsedOptions said;
+    ParsedOptions parsed;
 
     CLI::App app(
         "Draws one glTF scene through a deferred and a forward+ path and says where the two differ,\n"
@@ -176,7 +177,7 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         CLI::App& sub =
             *app.add_subcommand(command.name, command.does + (command.built ? "" : " (not built yet)"));
         sub.footer("Example: " + command.example);
-        describe(sub, command.name, options, said);
+        describe(sub, command.name, options, parsed);
     }
 
     const auto known = [&](const Command& command) { return command.name == words.front(); };
@@ -206,7 +207,7 @@ Options parseCommandLine(const std::vector<std::string>& words) {
     options.command = chosen->get_name();
     const auto command = std::ranges::find(allCommands(), options.command, &Command::name);
     if (!command->built) throw std::runtime_error(options.command + " is not built yet");
-    resolve(options, said);
+    resolve(options, parsed);
     return options;
 }
 

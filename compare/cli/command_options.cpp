@@ -37,17 +37,17 @@ const char* const device_group = "Device and timing";
 const char* const later_group = "Not built yet";
 
 // An option of the contract that cannot be done yet.
-void addLater(CLI::App& app, ParsedOptions& said, const std::string& option, const std::string& type,
+void addLater(CLI::App& app, ParsedOptions& parsed, const std::string& option, const std::string& type,
               const std::string& help) {
     app.add_option_function<std::string>(
            option,
-           [&said, option](const std::string& value) { said.not_built.push_back(option + " " + value); },
+           [&parsed, option](const std::string& value) { parsed.not_built.push_back(option + " " + value); },
            help)
         ->type_name(type)
         ->group(later_group);
 }
 
-void addSettings(CLI::App& app, ParsedOptions& said, const std::string& except = "") {
+void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except = "") {
     app.option_defaults()->group(pixel_group);
     const Settings usual;
     for (const Field& field : settingFields()) {
@@ -56,29 +56,29 @@ void addSettings(CLI::App& app, ParsedOptions& said, const std::string& except =
         const std::string value = usual.valueOf(option);
         app.add_option_function<std::string>(
                "--" + option,
-               [&said, option](const std::string& words) { said.settings.emplace_back(option, words); },
+               [&parsed, option](const std::string& words) { parsed.settings.emplace_back(option, words); },
                std::string(field.help) + (value.empty() ? "" : " (" + value + ")"))
             ->type_name(acceptedValues(option));
     }
-    app.add_option("--camera", said.cameras,
+    app.add_option("--camera", parsed.cameras,
                    std::string(settingField("camera").help) + "; may be given several times")
         ->type_name("CAMERA")
         ->allow_extra_args(false);
-    app.add_option("--settings", said.settings_file,
+    app.add_option("--settings", parsed.settings_file,
                    "any of these as JSON, as every report prints them; applied first")
         ->type_name("FILE.json");
-    app.add_option("--frames", said.frames, "frames of an animation (1)")->type_name("N");
-    app.add_option("--fps", said.fps, "their rate (30)")->type_name("F");
+    app.add_option("--frames", parsed.frames, "frames of an animation (1)")->type_name("N");
+    app.add_option("--fps", parsed.fps, "their rate (30)")->type_name("F");
 }
 
-void addPicture(CLI::App& app, Options& options, ParsedOptions& said) {
+void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
     app.option_defaults()->group(picture_group);
-    app.add_option("--debug", said.debug, "the channel that the picture shows (lit)")
+    app.add_option("--debug", parsed.debug, "the channel that the picture shows (lit)")
         ->type_name("NAME|NUMBER");
     app.add_flag(
         "--heat", options.heat,
         "the picture shows how many lights each pixel evaluates, with a legend, whatever --debug says");
-    app.add_option("--channels", said.channels, "the channels to make, separated by commas (all)")
+    app.add_option("--channels", parsed.channels, "the channels to make, separated by commas (all)")
         ->type_name("NAME|NUMBER,...");
     CLI::Option* exposure =
         app.add_option("--exposure", options.picture.exposure, "factor on the radiance, pictures only")
@@ -104,7 +104,7 @@ void addFiles(CLI::App& app, Options& options, const std::string& usual) {
 }
 
 // Which pixels count.
-void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& said) {
+void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& parsed) {
     app.option_defaults()->group(selection_group);
     app.add_option("--mask", selection.mask, "compare only where this picture is at least half white")
         ->type_name("FILE");
@@ -116,7 +116,7 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& sai
                    "leave out what is within N pixels of another object")
         ->type_name("N")
         ->check(CLI::Range(0, 1000));
-    app.add_option("--crop", said.crop, "compare only this rectangle, from the top left")
+    app.add_option("--crop", parsed.crop, "compare only this rectangle, from the top left")
         ->type_name("X,Y,WxH");
 }
 
@@ -127,12 +127,13 @@ void addTolerances(CLI::App& app, Options& options) {
         ->type_name("FILE.json");
 }
 
-void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& said) {
+void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed) {
     app.option_defaults()->group(selection_group);
-    app.add_option("--metric", said.metric,
+    app.add_option("--metric", parsed.metric,
                    "the figure that decides: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)")
         ->type_name("NAME");
-    app.add_option("--tolerance", said.tolerance, "the most that passes; psnr and ssim: the least (identity)")
+    app.add_option("--tolerance", parsed.tolerance,
+                   "the most that passes; psnr and ssim: the least (identity)")
         ->type_name("T");
     app.add_option("--warn", diff.warn, "what is beyond it is warned of")->type_name("T");
     app.add_option("--failing", diff.failing,
@@ -165,21 +166,21 @@ void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& said) {
 }
 
 // What is timed; every list is separated by commas.
-void addBench(CLI::App& app, ParsedOptions& said) {
+void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("What is timed");
-    app.add_option("--paths", said.bench_paths, "the paths (deferred,forward_plus)")->type_name("PATH,...");
-    app.add_option("--assign", said.bench_assign, "the assignments (all that can be drawn)")
+    app.add_option("--paths", parsed.bench_paths, "the paths (deferred,forward_plus)")->type_name("PATH,...");
+    app.add_option("--assign", parsed.bench_assign, "the assignments (all that can be drawn)")
         ->type_name(acceptedValues("assign") + ",...");
-    app.add_option("--sizes", said.bench_sizes, "picture sizes (--size)")->type_name("WxH,...");
+    app.add_option("--sizes", parsed.bench_sizes, "picture sizes (--size)")->type_name("WxH,...");
     app.add_option(
-           "--light-counts", said.light_counts,
+           "--light-counts", parsed.light_counts,
            "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "
            "seeded rig (the scene's own)")
         ->type_name("N,...");
-    app.add_option("--max-ms", said.max_ms,
+    app.add_option("--max-ms", parsed.max_ms,
                    "a frame that takes longer is not repeated, nor tried with more lights (2000)")
         ->type_name("T");
-    app.add_option("--kernels", said.kernels,
+    app.add_option("--kernels", parsed.kernels,
                    "one light at one pixel beside hand-written AVX2: on, off, or only (on)")
         ->type_name("on|off|only");
 }
@@ -197,10 +198,10 @@ std::span<const Command> allCommands() {
     return commands;
 }
 
-void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& said) {
+void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed) {
     if (command == "devices") {
-        addSettings(app, said);
-        addPicture(app, options, said);
+        addSettings(app, parsed);
+        addPicture(app, options, parsed);
         addDevice(app, options);
         addFiles(app, options, "refused: devices writes no file, --json prints one");
         return addOutput(app, options);
@@ -211,8 +212,8 @@ void describe(CLI::App& app, const std::string& command, Options& options, Parse
             ->type_name("A B")
             ->expected(2)
             ->required();
-        addDiff(app, options.diff, said);
-        addSelection(app, options.diff.selection, said);
+        addDiff(app, options.diff, parsed);
+        addSelection(app, options.diff.selection, parsed);
         addTolerances(app, options);
         addFiles(
             app, options,
@@ -223,25 +224,25 @@ void describe(CLI::App& app, const std::string& command, Options& options, Parse
 
     app.add_option("scene", options.scenes, "glTF files, or builtin:NAME (builtin:gallery)")
         ->type_name("SCENE...");
-    addSettings(app, said, command == "bench" ? "assign" : "");
-    addPicture(app, options, said);
+    addSettings(app, parsed, command == "bench" ? "assign" : "");
+    addPicture(app, options, parsed);
     addDevice(app, options);
     app.add_option("--runs", options.runs, "timed frames; 0 measures no time (5)")->type_name("N");
 
     if (command == "compare") {
         addFiles(app, options, "folder of the report (diptych-report)");
-        app.add_option("--baseline", said.baseline,
+        app.add_option("--baseline", parsed.baseline,
                        "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "
                        "compared (deferred)")
             ->type_name("PATH|FILE.exr");
         app.add_flag("--single-file", options.single_file, "embed the pictures in index.html at half size");
         app.add_flag("--update-baseline", options.update_baseline,
                      "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
-        addSelection(app, options.selection, said);
+        addSelection(app, options.selection, parsed);
         addTolerances(app, options);
         app.add_flag("--allow-noise", options.allow_noise,
                      "GPU: grant what two runs of one path differ by on top of a tolerance");
-        addLater(app, said, "--pixel", "X,Y", "one pixel's whole story");
+        addLater(app, parsed, "--pixel", "X,Y", "one pixel's whole story");
     } else if (command == "render") {
         addFiles(app, options,
                  "X.exr: every channel; X.png: the picture; else a folder for both (diptych-render)");
@@ -260,15 +261,15 @@ void describe(CLI::App& app, const std::string& command, Options& options, Parse
         addFiles(app, options,
                  command == "plan" ? "refused: plan writes no file, --json prints one" : "where to write");
     }
-    if (command == "bench") addBench(app, said);
+    if (command == "bench") addBench(app, parsed);
     addOutput(app, options);
     if (command == "choose") {
-        addLater(app, said, "--max-error", "E", "error budget");
-        addLater(app, said, "--max-ms", "T", "time budget, milliseconds");
-        addLater(app, said, "--max-bytes", "B", "memory budget");
+        addLater(app, parsed, "--max-error", "E", "error budget");
+        addLater(app, parsed, "--max-ms", "T", "time budget, milliseconds");
+        addLater(app, parsed, "--max-bytes", "B", "memory budget");
     } else if (command == "audit") {
-        addLater(app, said, "--quantity", "NAME,...", "what to push");
-        addLater(app, said, "--require", "NAME=MAGNITUDE", "how far each must go");
+        addLater(app, parsed, "--quantity", "NAME,...", "what to push");
+        addLater(app, parsed, "--require", "NAME=MAGNITUDE", "how far each must go");
     }
 }
 

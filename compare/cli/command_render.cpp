@@ -23,8 +23,8 @@ Output outputIn(const Options& options) {
     return outputOf(options.out.empty() ? "diptych-render" : options.out);
 }
 
-constexpr const char* single_mark = "frame.json";    // in a folder that holds one Frame
-constexpr const char* several_mark = "frames.json";  // in a folder that holds a folder for each Frame
+constexpr const char* single_manifest = "frame.json";    // in a folder that holds one Frame
+constexpr const char* several_manifest = "frames.json";  // in a folder that holds a folder for each Frame
 
 std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame) {
     return folder / std::to_string(frame + 1);
@@ -33,19 +33,19 @@ std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t 
 // One Frame may replace several and the other way round. Whatever cannot be replaced is said before the
 // first Frame is drawn.
 void checkFolder(const Output& output, std::size_t count, bool force) {
-    const bool single = output.kind != OutputKind::folder || isOurManifest(output.path / single_mark);
-    checkReplaceable(output, single ? single_mark : several_mark, force);
+    const bool single = output.kind != OutputKind::folder || isOurManifest(output.path / single_manifest);
+    checkReplaceable(output, single ? single_manifest : several_manifest, force);
     for (std::size_t i = 0; count > 1 && i < count; ++i)
-        checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_mark, force);
+        checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_manifest, force);
 }
 
 // What an earlier render left, one Frame or several.
 std::vector<std::string> earlierIn(const std::filesystem::path& folder) {
-    std::vector<std::string> names = manifestFiles(folder, single_mark);
-    if (!isOurManifest(folder / several_mark)) return names;
-    names.emplace_back(several_mark);
-    for (std::size_t i = 0; isOurManifest(numbered(folder, i) / single_mark); ++i)
-        for (const std::string& name : manifestFiles(numbered(folder, i), single_mark))
+    std::vector<std::string> names = manifestFiles(folder, single_manifest);
+    if (!isOurManifest(folder / several_manifest)) return names;
+    names.emplace_back(several_manifest);
+    for (std::size_t i = 0; isOurManifest(numbered(folder, i) / single_manifest); ++i)
+        for (const std::string& name : manifestFiles(numbered(folder, i), single_manifest))
             names.push_back(fmt::format("{}/{}", i + 1, name));
     return names;
 }
@@ -80,14 +80,14 @@ void checkChannels(const Options& options) {
 
 // What the files need: an EXR the channels asked for; a picture the one that it shows, lit for its exposure,
 // and which pixels are background.
-std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> asked) {
+std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> requested) {
     constexpr auto lit = static_cast<int>(gpu::DEBUG_lit),
                    background = static_cast<int>(gpu::DEBUG_material_id);
-    if (kind == OutputKind::exr) return asked;
+    if (kind == OutputKind::exr) return requested;
     if (kind == OutputKind::png) return {lit, options.shown, background};
     for (const int needed : {lit, options.shown, background})
-        if (std::ranges::count(asked, needed) == 0) asked.push_back(needed);
-    return asked;
+        if (std::ranges::count(requested, needed) == 0) requested.push_back(needed);
+    return requested;
 }
 
 std::string jsonText(const Json& json) {
@@ -153,8 +153,8 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const std::v
         result["frames"][i]["file"] = places.back().string();
     }
     if (frames.size() > 1) {
-        writeFile(folder / several_mark, jsonText(result));
-        files.emplace_back(several_mark);
+        writeFile(folder / several_manifest, jsonText(result));
+        files.emplace_back(several_manifest);
     }
     folder.put(files, earlier);
     return places;
@@ -162,9 +162,9 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const std::v
 
 // What was asked for and the path ignores.
 void noteIgnored(const Options& options) {
-    const Settings &asked = options.settings, usual;
+    const Settings &given = options.settings, usual;
     for (const Field& field : settingFields()) {
-        const std::string_view why = ignoredBecause(asked.path, field.option);
+        const std::string_view why = ignoredBecause(given.path, field.option);
         if (!why.empty() && asked.valueOf(field.option) != usual.valueOf(field.option))
             note(options, fmt::format("--{} is not used: {}", field.option, why));
     }

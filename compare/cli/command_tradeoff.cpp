@@ -54,9 +54,9 @@ void checkOptions(const Options& options) {
         throw std::runtime_error(*problem);
 }
 
-// All that a row depends on beside its Settings. The truth's pixels stand for the scene's contents, whatever
-// files they come from; the file's size and time for what is not in view.
-Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFrames& truth) {
+// All that a row depends on beside its Settings. The reference's pixels stand for the scene's contents,
+// whatever files they come from; the file's size and time for what is not in view.
+Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFrames& references) {
     const std::string& scene = options.scenes.front();
     std::error_code error;
     Json file = nullptr;
@@ -67,11 +67,11 @@ Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFram
             {"commit", commitName()},
             {"scene", scene},
             {"file", file},
-            {"truth", fingerprint(truth)},
+            {"truth", fingerprint(references)},
             {"settings", Json::parse(toJson(tradeoff.reference))},
             {"cameras", options.cameras},
-            {"exposure", truth.exposure.factor},
-            {"tonemap", truth.exposure.tonemap},
+            {"exposure", references.exposure.factor},
+            {"tonemap", references.exposure.tonemap},
             {"runs", options.runs},
             {"device", tradeoff.device.name},
             {"driver", tradeoff.device.driver}};
@@ -89,9 +89,9 @@ int firstVisit(const Options& options) {
 
 class Sweep {
 public:
-    Sweep(const Options& options, const SweepRows& plan)
+    Sweep(const Options& options, const SweepRows& sweep)
         : options_(options),
-          plan_(plan),
+          sweep_(sweep),
           folder_(folderOf(options)),
           references_(folder_, true),
           progress_(progressOutput(options)),
@@ -103,13 +103,13 @@ public:
         tradeoff_.reference = referenceSettings(options.settings);
         tradeoff_.device = reportDevice(device_);
         tradeoff_.runs = options.runs;
-        tradeoff_.skips = plan.skips;
+        tradeoff_.skips = sweep.skips;
     }
 
     int run() {
         const RenderOptions render = renderOptions(options_);
         const double loading =
-            loadingShare(tradeoff_.scene, render, plan_.rows.size() * options_.cameras.size());
+            loadingShare(tradeoff_.scene, render, sweep_.rows.size() * options_.cameras.size());
         const Stage stage(progress_, tradeoff_.scene);
         const Scene scene = loadShown(tradeoff_.scene, options_.settings, stage.part(0, loading));
         tradeoff_.notes = scene.notes;
@@ -117,35 +117,36 @@ public:
         SceneViews views(scene);
         Renderer renderer(device_, views);
         tradeoff_.cost.reading = msSince(start_);
-        const double truthDone = loading + (1 - loading) / static_cast<double>(plan_.rows.size() + 1);
+        const double referenceDone = loading + (1 - loading) / static_cast<double>(sweep_.rows.size() + 1);
         const Clock::time_point uploaded = Clock::now();
         RenderOptions drawing = render;
-        drawing.progress = stage.part(loading, truthDone).about(tradeoff_.scene + ": reference");
+        drawing.progress = stage.part(loading, referenceDone).about(tradeoff_.scene + ": reference");
         drawing.keep = [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
             return references_.open(key, floats);
         };
-        const ReferenceFrames truth =
+        const ReferenceFrames references =
             drawReferenceFrames(renderer, options_.settings, options_.cameras, options_.picture, drawing);
         tradeoff_.cost.reference = msSince(uploaded);
-        for (const Frame& frame : truth.frames)
+        for (const Frame& frame : references.frames)
             for (const std::string& line : frame.notes)
                 if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
         noteLeftOut(views.at(viewRequest(options_.settings)).needs);
-        SweepState state(folder_, keyOf(options_, tradeoff_, truth));
+        SweepState state(folder_, keyOf(options_, tradeoff_, references));
         if (state.isRenewed())
             note(options_,
                  "what a sweep that was cut short left is of another scene, device or Settings: anew");
         sayWhenInterrupted(fmt::format("the rows so far are kept in {}: the same command goes on from there",
                                        SweepState::folderOf(folder_).string()));
         const double drawn =
-            truthDone + (0.98 - truthDone) * 0.7;  // captures and errors are in the first visit
-        measure(renderer, truth, state, stage.part(truthDone, drawn));
-        timeAgain(renderer, truth, state, stage.part(drawn, 0.98));
+            referenceDone + (0.98 - referenceDone) * 0.7;  // captures and errors are in the first visit
+        measure(renderer, references, state, stage.part(referenceDone, drawn));
+        timeAgain(renderer, references, state, stage.part(drawn, 0.98));
         checkValidation(device_);
         stage.at(0.98, "write");
         tradeoff_.cost.whole = msSince(start_);
-        const std::string json = writeTradeoff(
-            tradeoff_, folder_, state / "", thumbnail(truth.frames.front(), truth.exposure), options_.force);
+        const std::string json =
+            writeTradeoff(tradeoff_, folder_, state / "",
+                          thumbnail(references.frames.front(), references.exposure), options_.force);
         references_.remove();
         state.remove();
         progress_.wipe();
@@ -158,12 +159,13 @@ public:
 private:
     bool prints() const { return !options_.json && !options_.quiet; }
 
-    void measure(Renderer& renderer, const ReferenceFrames& truth, SweepState& state, const Stage& stage) {
-        const TradeoffTable table(tradeoff_, plan_.rows);
+    void measure(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
+                 const Stage& stage) {
+        const TradeoffTable table(tradeoff_, sweep_.rows);
         double all = 0, done = 0;
-        for (const Settings& row : plan_.rows) all += weightOf(row);
+        for (const Settings& row : sweep_.rows) all += weightOf(row);
         if (prints()) print(table.head());
-        for (const Settings& settings : plan_.rows) {
+        for (const Settings& settings : sweep_.rows) {
             const double from = done / all;
             done += weightOf(settings);
             std::optional<TradeoffRow> kept = state.find(settings);
@@ -174,7 +176,7 @@ private:
                 RenderOptions render = renderOptions(options_);
                 render.runs = firstVisit(options_);
                 render.progress = stage.part(from, done / all);
-                MeasuredRow measured = measureRow(renderer, settings, truth, render);
+                MeasuredRow measured = measureRow(renderer, settings, references, render);
                 tradeoff_.cost.drawing += measured.row.drawing_ms;
                 state.keep(measured);
                 tradeoff_.rows.push_back(std::move(measured.row));
@@ -186,7 +188,7 @@ private:
     // What of the scene's light and motion the rows' paths leave out, which is part of their error.
     void noteLeftOut(const Requirements& needs) {
         std::vector<Path> told;
-        for (const Settings& row : plan_.rows) {
+        for (const Settings& row : sweep_.rows) {
             if (std::ranges::count(told, row.path) > 0) continue;
             told.push_back(row.path);
             for (const auto& lines : {leftOutLight(row.path, needs), leftOutMotion(row.path, needs)})
@@ -204,7 +206,8 @@ private:
     }
 
     // The other half of the frames, the last row first: a device that slows down does so for all alike.
-    void timeAgain(Renderer& renderer, const ReferenceFrames& truth, SweepState& state, const Stage& stage) {
+    void timeAgain(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
+                   const Stage& stage) {
         RenderOptions render = renderOptions(options_);
         render.runs = options_.runs - firstVisit(options_);
         if (render.runs == 0) return;
@@ -216,14 +219,14 @@ private:
             if (row.cameras.front().visits.size() > 1) continue;
             render.progress = stage.part(from, done / all);
             const double before = row.drawing_ms;
-            tradeoff::timeAgain(renderer, row, truth, render);
+            tradeoff::timeAgain(renderer, row, references, render);
             tradeoff_.cost.drawing += row.drawing_ms - before;
             state.renew(row);
         }
     }
 
     const Options& options_;
-    const SweepRows& plan_;
+    const SweepRows& sweep_;
     const Clock::time_point start_ = Clock::now();
     const std::filesystem::path folder_;
     KeptReferences references_;
@@ -237,11 +240,11 @@ private:
 int runTradeoff(const Options& options) {
     checkOptions(options);
     const Settings& given = options.settings;
-    const SweepRows plan =
+    const SweepRows sweep =
         makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
     if (options.debug_given) note(options, "--debug is not used: errors are of lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are of lit");
-    return Sweep(options, plan).run();
+    return Sweep(options, sweep).run();
 }
 
 }  // namespace diptych::cli

@@ -30,7 +30,7 @@ std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>
             Settings settings = options.settings;
             settings.camera = camera;
             settings.path = path;
-            // Beside the truth a path is not asked for what the truth alone has.
+            // A path drawn beside the reference gets no Setting that only the reference reads.
             if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
                 settings = withoutReference(settings);
             if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
@@ -75,7 +75,7 @@ void checkValidation(const Device& device) {
 }
 
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
-    // In frames drawn, roughly: files differ by far, ours are made at once.
+    // In multiples of drawing one frame, roughly: files differ widely, built-in scenes are made at once.
     const double load = scene.starts_with("builtin:") ? 0.1 : 4;
     return load / (load + framesIn(render) * static_cast<double>(frames));
 }

@@ -36,7 +36,7 @@ int runDevices(const Options& options);
 // One Settings per camera and path, the paths of one camera side by side. Throws the first problem().
 std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths);
 
-// Standard error, unless they want nothing.
+// Standard error; empty with --quiet.
 std::optional<ProgressOutput> progressOutput(const Options& options);
 
 RenderOptions renderOptions(const Options& options);
@@ -49,13 +49,13 @@ void refuseOut(const Options& options);
 // With --validate any message of the layers is a failure: throws how many there were and the first one.
 void checkValidation(const Device& device);
 
-// The share of loading in what a scene takes until `frames` Frames of it are drawn, from 0 to 1.
+// The share of loading in the time until `frames` Frames of a scene are drawn, 0 to 1.
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
 
-// loadScene(), which fills `progress`, under the environment of the settings.
+// Loads the scene with the environment of the settings; reports to `progress`.
 Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
 
-// A line on stderr, for people: unless they want none; where they asked for more.
+// Print a line on stderr: note() unless --quiet was given, say() only with --verbose.
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);
 

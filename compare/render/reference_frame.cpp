@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), background = static_cast<int>(gpu::DEBUG_material_id);
 
-// The uncertainty that 99.9 % of the surface's pixels keep to, relative to the pixel.
+// The 99.9th percentile of the uncertainty over the surface's pixels, relative to the pixel.
 double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverage& covered) {
     const PixelError error(Metric::relative, ChannelKind::color, image, covered);
     std::vector<double> all;

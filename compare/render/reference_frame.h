@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's Frame: compare/reference and what the tool gives it.
+// Makes a Frame with the reference renderer of compare/reference.
 #pragma once
 
 #include "compare/reference/checkpoint.h"

@@ -31,7 +31,7 @@ std::string textIn(const std::string& file) {
     return text;
 }
 
-// A key that stands twice in an object would be taken once, without a word.
+// Rejects a key that stands twice in an object: the JSON library would silently keep one of them.
 Json parse(const std::string& text) {
     if (jsonShape(text).depth > json_depth)
         throw std::runtime_error(fmt::format("nests deeper than {}", json_depth));
@@ -74,7 +74,7 @@ std::string optionOf(const std::string& key) {
     return option;
 }
 
-// A word of the command line, or JSON as reports print it.
+// The value in words, from a word of the command line or from JSON as reports print it.
 std::string valueFrom(const std::string& key, const std::string& option, const Json& json,
                       const Settings& given) {
     Settings settings = given;

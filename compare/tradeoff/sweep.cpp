@@ -22,7 +22,8 @@ std::pair<std::string, std::vector<std::string>> axis(const Settings& given, std
     return {std::string(option), sweptValues(given, option)};
 }
 
-// Every combination of the values of what is paired with each other Setting: from there those are tried.
+// Adds a start for every combination of the Settings that sweepPairs pairs with each other one; the other
+// Settings are varied from every start.
 void addStarts(const Settings& given, std::vector<Settings>& starts) {
     starts.push_back(given);
     for (const SweepPair& pair : sweepPairs()) {
@@ -44,30 +45,30 @@ bool isCrossedWithEach(std::string_view option) {
                                [&](const SweepPair& pair) { return pair.b == each && pair.a == option; });
 }
 
-class Planner {
+class SweepBuilder {
 public:
-    explicit Planner(const Settings& given) : given_(given) {}
+    explicit SweepBuilder(const Settings& given) : given_(given) {}
 
     void add(const std::vector<Choice>& choices) {
-        Settings asked = given_;
-        for (const auto& [option, value] : choices) asked.set(option, value);
-        const std::vector<Choice> tried = changed(asked);
-        if (asked.path == Path::reference)
+        Settings requested = given_;
+        for (const auto& [option, value] : choices) requested.set(option, value);
+        const std::vector<Choice> tried = changed(requested);
+        if (requested.path == Path::reference)
             return skip({{"path", "reference"}}, "is what the others are measured against");
         for (const auto& [option, value] : tried)
-            if (const std::string_view why = ignoredBecause(asked.path, option); !why.empty())
-                skip({{"path", std::string(nameOf(asked.path))}, {option, value}}, std::string(why));
-        const Settings row = effectiveSettings(asked);
+            if (const std::string_view why = ignoredBecause(requested.path, option); !why.empty())
+                skip({{"path", std::string(nameOf(requested.path))}, {option, value}}, std::string(why));
+        const Settings row = effectiveSettings(requested);
         if (const auto problem = row.problem()) return skip(tried, *problem);
-        if (std::ranges::count(plan_.rows, row) == 0) plan_.rows.push_back(row);
+        if (std::ranges::count(sweep_.rows, row) == 0) sweep_.rows.push_back(row);
     }
-    SweepRows done() { return std::move(plan_); }
+    SweepRows done() { return std::move(sweep_); }
 
 private:
-    std::vector<Choice> changed(const Settings& asked) const {
+    std::vector<Choice> changed(const Settings& requested) const {
         std::vector<Choice> choices;
         for (const Field& field : settingFields()) {
-            const std::string value = asked.valueOf(field.option);
+            const std::string value = requested.valueOf(field.option);
             if (field.option == "path" || value != given_.valueOf(field.option))
                 choices.emplace_back(field.option, value);
         }
@@ -80,21 +81,21 @@ private:
                        return std::ranges::count(tried, choice) > 0;
                    });
         };
-        if (std::ranges::none_of(plan_.skips, covers)) plan_.skips.push_back({tried, reason});
+        if (std::ranges::none_of(sweep_.skips, covers)) sweep_.skips.push_back({tried, reason});
     }
 
     const Settings& given_;
-    SweepRows plan_;
+    SweepRows sweep_;
 };
 
-// As an odometer counts, the last Setting the fastest.
-void addProduct(const Grid& grid, Planner& planner) {
+// Adds every combination of the grid, the last Setting changing fastest.
+void addProduct(const Grid& grid, SweepBuilder& builder) {
     std::vector<std::size_t> at(grid.size(), 0);
     for (std::size_t digit = 1; digit > 0;) {
         std::vector<Choice> choices;
         for (std::size_t i = 0; i < grid.size(); ++i)
             choices.emplace_back(grid[i].first, grid[i].second[at[i]]);
-        planner.add(choices);
+        builder.add(choices);
         for (digit = grid.size(); digit > 0; at[--digit] = 0)
             if (++at[digit - 1] < grid[digit - 1].second.size()) break;
     }
@@ -105,7 +106,7 @@ void addProduct(const Grid& grid, Planner& planner) {
 std::vector<Grid> usualGrids(const Settings& given) {
     std::vector<Settings> starts;
     addStarts(given, starts);
-    // The start in words, and the axes beside it that it does not fix.
+    // A grid that holds the values of the start.
     const auto from = [&](const Settings& start) {
         Grid grid;
         for (const SweepPair& pair : sweepPairs())
@@ -145,15 +146,15 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
         throw std::runtime_error(
             fmt::format("--grid: {:.4g} combinations, and one sweep tries up to {}; divide it into several",
                         combinations, mostCombinations));
-    Planner planner(given);
-    for (const Grid& grid : grids) addProduct(grid, planner);
-    SweepRows plan = planner.done();
-    if (plan.rows.empty())
-        throw std::runtime_error(plan.skips.empty() ? "--grid: asks for nothing"
-                                                    : fmt::format("nothing to sweep: {}: {}",
-                                                                  inWords(plan.skips.front().tried),
-                                                                  plan.skips.front().reason));
-    return plan;
+    SweepBuilder builder(given);
+    for (const Grid& grid : grids) addProduct(grid, builder);
+    SweepRows sweep = builder.done();
+    if (sweep.rows.empty())
+        throw std::runtime_error(sweep.skips.empty() ? "--grid: asks for nothing"
+                                                     : fmt::format("nothing to sweep: {}: {}",
+                                                                   inWords(sweep.skips.front().tried),
+                                                                   sweep.skips.front().reason));
+    return sweep;
 }
 
 std::vector<Choice> choicesOf(const Settings& row, const Settings& given) {
