@@ -36,14 +36,14 @@ Settings smallFrame(Path path) {
 void expectSame(const std::string& name, const Settings& settings,
                 const std::function<void(PreparedView&)>& change) {
     const Scene scene = loadScene(name);
-    const Image spared = litWith(scene, settings, [](PreparedView&) {}),
+    const Image reduced = litWith(scene, settings, [](PreparedView&) {}),
                 plain = litWith(scene, settings, change);
-    EXPECT_EQ(differingPixels(spared, plain, true), 0u) << name << ", " << nameOf(settings.path);
+    EXPECT_EQ(differingPixels(reduced, plain, true), 0u) << name << ", " << nameOf(settings.path);
     if (name == "builtin:empty" || name == "builtin:background") return;
-    EXPECT_GT(*std::max_element(spared.data.begin(), spared.data.end()), 0.0f) << name;
+    EXPECT_GT(*std::max_element(reduced.data.begin(), reduced.data.end()), 0.0f) << name;
 }
 
-TEST(Spared, TheViewIsTheSameFromEverySource) {
+TEST(SkippedWork, TheViewIsTheSameFromEverySource) {
     const auto uniform = [](PreparedView& view) {
         EXPECT_EQ(view.inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM,
                   device().info().isCpu());
@@ -61,7 +61,7 @@ TEST(Spared, TheViewIsTheSameFromEverySource) {
 }
 
 // A texture transform needs all inputs; one on a material without texture has no effect.
-TEST(Spared, FewerInputsBringTheSamePictureAsAll) {
+TEST(SkippedWork, FewerInputsBringTheSamePictureAsAll) {
     std::size_t scene = 0;
     for (const std::string& name : builtinScenes())
         expectSame(name, smallFrame(scene++ % 2 == 0 ? Path::deferred : Path::forward_plus),
@@ -72,7 +72,7 @@ TEST(Spared, FewerInputsBringTheSamePictureAsAll) {
 }
 
 // The timed frame computes no normals of triangles; a frame whose normals are captured is drawn again.
-TEST(Spared, WhatIsCapturedChangesNoOtherChannel) {
+TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
     const Scene scene = loadScene("builtin:gallery");
     for (const Path path : {Path::deferred, Path::forward_plus})
         for (const GBufferEncoding encoding :
@@ -91,7 +91,7 @@ TEST(Spared, WhatIsCapturedChangesNoOtherChannel) {
 
 // Nearest objects are drawn first: hidden fragments then fail the depth test before they are shaded. This
 // also holds for an orthographic camera, whose w is always 1.
-TEST(Spared, DrawsGoFromNearToFar) {
+TEST(SkippedWork, DrawsGoFromNearToFar) {
     for (const char* name : {"builtin:spheres", "builtin:ortho"}) {
         const Scene scene = loadScene(name);
         SharedResources shared(device(), scene);

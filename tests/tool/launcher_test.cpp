@@ -21,9 +21,10 @@ using Clock = std::chrono::steady_clock;
 class Launcher : public testing::Test {
 protected:
     void SetUp() override {
-        fs::create_directories(home_.path() / "house");
-        fs::copy(fs::path(DIPTYCH_SOURCE_DIR) / "diptych", home_ / "house/diptych");
-        home_.write("house/packages.txt", "# build\nalpha\n\nbeta-dev\n\n# to test: gamma, too\ngamma\n");
+        fs::create_directories(home_.path() / "repository");
+        fs::copy(fs::path(DIPTYCH_SOURCE_DIR) / "diptych", home_ / "repository/diptych");
+        home_.write("repository/packages.txt",
+                    "# build\nalpha\n\nbeta-dev\n\n# to test: gamma, too\ngamma\n");
         installed("alpha beta-dev gamma");
         home_.write("bin/id", "#!/bin/sh\necho 0\n", true);
         home_.write("bin/apt-get", "#!/bin/sh\necho \"$@\" >>'" + (home_ / "apt.log").string() + "'\n", true);
@@ -47,7 +48,7 @@ protected:
                 "mkdir -p \"$build/compare\"\n"
                 ": >\"$build/build.ninja\"\n"
                 "echo 'CMAKE_HOME_DIRECTORY:INTERNAL=" +
-                (home_ / "house").string() +
+                (home_ / "repository").string() +
                 "' >\"$build/CMakeCache.txt\"\n"
                 "printf '#!/bin/sh\\nprintf \"<%%s>\" \"$@\"\\npwd\\nexit 3\\n' >\"$build/compare/diptych\"\n"
                 "chmod +x \"$build/compare/diptych\"\n"
@@ -59,11 +60,11 @@ protected:
         home_.write("bin/dpkg-query",
                     "#!/bin/sh\nfor p in " + packages + "; do echo \"installed $p\"; done\n", true);
     }
-    std::string build() const { return (home_ / "house/build").string(); }
+    std::string build() const { return (home_ / "repository/build").string(); }
     Ran run(const std::string& arguments, const std::string& from = "") {
         return runShell(home_,
                         "PATH='" + (home_ / "bin").string() + "':\"$PATH\" '" +
-                            (home_ / "house/diptych").string() + "' " + arguments,
+                            (home_ / "repository/diptych").string() + "' " + arguments,
                         home_.path() / from);
     }
 
@@ -84,9 +85,9 @@ TEST_F(Launcher, WhereAllIsUpToDateOnlyTheProgramSpeaks) {
     EXPECT_FALSE(fs::exists(home_ / "apt.log"));
 }
 
-TEST_F(Launcher, FindsItsHouseThroughALink) {
+TEST_F(Launcher, FindsItsRepositoryThroughALink) {
     fs::create_directories(home_ / "elsewhere");
-    fs::create_symlink("../house/diptych", home_ / "elsewhere/link");
+    fs::create_symlink("../repository/diptych", home_ / "elsewhere/link");
     const Ran ran = runShell(home_, "PATH='" + (home_ / "bin").string() + "':\"$PATH\" ./link devices",
                              home_ / "elsewhere");
     EXPECT_EQ(ran.out, "<devices>" + (home_ / "elsewhere").string() + "\n") << ran.err;
@@ -138,9 +139,9 @@ TEST_F(Launcher, TestBuildsEverythingAndHandsOnToCtest) {
     EXPECT_NE(contentsOf(home_ / "cmake.log").find("--target all"), std::string::npos);
 }
 
-TEST_F(Launcher, AMovedHouseIsConfiguredAnew) {
+TEST_F(Launcher, AMovedRepositoryIsConfiguredAnew) {
     run("compare");
-    home_.write("house/build/CMakeCache.txt", "CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n");
+    home_.write("repository/build/CMakeCache.txt", "CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n");
     fs::remove(home_ / "cmake.log");
     EXPECT_EQ(run("compare").code, 3);
     EXPECT_NE(contentsOf(home_ / "cmake.log").find("--fresh"), std::string::npos);
@@ -148,7 +149,7 @@ TEST_F(Launcher, AMovedHouseIsConfiguredAnew) {
 
 TEST_F(Launcher, TwoAtOnceBuildOneAfterTheOther) {
     const std::string one = "PATH='" + (home_ / "bin").string() + "':\"$PATH\" '" +
-                            (home_ / "house/diptych").string() +
+                            (home_ / "repository/diptych").string() +
                             "' devices >/dev/null 2>&1; [ $? = 3 ] && echo good";
     const Ran ran =
         runShell(home_, "( " + one + " ) & ( " + one + " ) & ( " + one + " ) & wait", home_.path());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference's material, and what of lights with extent it reflects, against formulas and sums of the
-// tests' own.
+// The reference's material, and its reflection of area lights, against formulas and sums made independently
+// here.
 #include "tests/unit/reference_maker.h"
 
 #include "compare/reference/brdf.h"
@@ -53,7 +53,7 @@ TEST(ReferenceLobes, TheMaterialIsAppendixB) {
                     for (const double turn : {0.0, 1.0, pi}) {
                         const Surface s = plastic(roughness, view, metallic);
                         const double expected = appendixB(s, direction(light, turn));
-                        // Of the narrowest lobe (n.h)^2 (a^2 - 1) + 1 keeps 2e-16 / a^2 of itself.
+                        // For the narrowest lobe the rounding error of (n.h)^2 (a^2 - 1) + 1 is 2e-16 / a^2.
                         EXPECT_NEAR(red(Brdf(s)(direction(light, turn))), expected, 1e-9 * expected);
                     }
     EXPECT_EQ(red(Brdf(plastic(0.3, 0.5, 0.5))(direction(1.6, 0))), 0) << "below the horizon";
@@ -72,7 +72,7 @@ TEST(ReferenceLobes, LightAndViewerMayChangePlaces) {
             }
 }
 
-// What the model bounds it says (compare/reference/README.md, "The model"): smoother than 0.045 is 0.045.
+// A bound of the model (compare/reference/README.md, "The model"): a roughness below 0.045 is 0.045.
 TEST(ReferenceLobes, AMirrorIsAsRoughAsTheModelsSmoothest) {
     const glm::dvec3 l = direction(0.501, pi);
     EXPECT_EQ(red(Brdf(mirror(0, 0.5))(l)), red(Brdf(mirror(0.045, 0.5))(l)));
@@ -81,9 +81,9 @@ TEST(ReferenceLobes, AMirrorIsAsRoughAsTheModelsSmoothest) {
 
 // ---- light from all around ---------------------------------------------------------------------------
 
-// Over the hemisphere, by half vectors drawn as D (n.h) is (Walter et al. 2007): even steps in both numbers,
-// and `steps` of each over half a turn: the viewer is in the plane of x and z. The mirror's image is where
-// they are densest.
+// Integrates over the hemisphere by half vectors distributed as D (n.h) (Walter et al. 2007), with even
+// steps in both random numbers and `steps` over half a turn; the viewer is in the plane of x and z. They are
+// densest at the mirrored direction.
 double hemisphere(const Surface& s, int steps) {
     const Brdf brdf(s);
     const double a2 = std::pow(std::max(s.roughness, 0.045), 4);
@@ -109,7 +109,7 @@ TEST(ReferenceLobes, TheWhiteFurnacesFigures) {
             EXPECT_LE(hemisphere(mirror(roughness, angle), 200), 1 + 1e-4);
 }
 
-// The loss over a whole hemisphere of light and viewers, cosine-weighted, %.
+// The loss in %, averaged over all directions of light and viewer, cosine-weighted.
 TEST(ReferenceLobes, TheWhiteFurnacesLosses) {
     const std::vector<std::pair<double, double>> losses{{0.2, 0.59}, {0.4, 5.97}, {0.5, 11.8},
                                                         {0.6, 19.7}, {0.8, 39.6}, {1.0, 59.1}};
@@ -124,8 +124,8 @@ TEST(ReferenceLobes, TheWhiteFurnacesLosses) {
 
 // ---- light from an area ------------------------------------------------------------------------------
 
-// Simpson's rule in a parameter t with x = middle + width sinh t: points crowd where the lobe is, `width`
-// wide. One more factor is the step's.
+// Simpson's rule with the substitution x = middle + width sinh t: points are dense within `width` of the
+// lobe's middle. The derivative is a further factor.
 struct Crowded {
     double from, to, middle, width;
     template <class F>
@@ -164,8 +164,8 @@ Light ceilingRect(const glm::dvec4& e) {
     return light;
 }
 
-// Wherever the mirror's image is: in the middle, in a corner, on an edge, beside the light; sizes that
-// float32 has.
+// The mirrored direction in the middle of the light, in a corner, on an edge, and beside it; sizes are exact
+// in float32.
 TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
     for (const double roughness : {0.045, 0.1, 0.3, 1.0})
         for (const double angle : {0.0, 0.6, 1.2})
@@ -177,7 +177,7 @@ TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
                                                 {0, 8, -4, 4},
                                                 {0.125, 1, 0.25, 1},
                                                 {-0.015625, 0.5, -0.015625, 0.0625}}) {
-                    // In float32 the middle is not exactly where it was put: of the narrowest lobe 1e-7 /
+                    // In float32 the light's centre is not exact: relative to the narrowest lobe, by 1e-7 /
                     // alpha.
                     Light light = ceilingRect(place);
                     light.position.x += m.x;
@@ -191,7 +191,7 @@ TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
             }
 }
 
-// Seen so flat that the lobe is a streak: the plane's horizon cuts it.
+// At a grazing angle the lobe becomes a streak, which the plane's horizon cuts.
 TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
     for (const double roughness : {0.045, 0.2, 0.6}) {
         const Surface s = plastic(roughness, 1.5, 0);
@@ -212,8 +212,8 @@ TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
     }
 }
 
-// A disc and a tube that fill the lobe, whatever their outline, show the mirror's radiance: the part of F,
-// masking and D that is left of 1 is what the hemisphere's sum says.
+// A disc and a tube that fill the lobe show a mirror's radiance, whatever their outline: the sum over the
+// hemisphere tells how much of 1 F, masking and D leave.
 TEST(ReferenceLobes, ALightThatFillsTheLobeIsSeenInIt) {
     const Surface s = mirror(0.045, 0.4);
     const double all = hemisphere(s, 300);
@@ -234,7 +234,7 @@ TEST(ReferenceLobes, ASunInAMirror) {
     Light sun = lightOf(LightKind::directional, {0, 0, 0}, -direction(0.3, pi));
     sun.angle = 0.0093f;
     sun.intensity = 1;
-    // Polar around its middle: the lobe is smooth in it.
+    // In polar coordinates around the sun's centre the lobe is smooth.
     const glm::dvec3 z = -sun.direction, x = sun.axis, y = glm::cross(z, x);
     const double edge = double{sun.angle} / 2;
     double sum = 0;

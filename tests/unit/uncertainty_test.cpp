@@ -35,11 +35,11 @@ Frame frameOf(Path path, float left, float right) {
 
 // A sampled reference with uncertainties of a third and of a hundredth.
 Frame sampled() {
-    Frame truth = frameOf(Path::reference, 1, 2);
-    truth.uncertainty = Image(2, 1, 1);
-    truth.uncertainty.data = {1.0f / 3, 0.01f};
-    truth.relative_uncertainty = 0.1 + 0.2;
-    return truth;
+    Frame referenceFrame = frameOf(Path::reference, 1, 2);
+    referenceFrame.uncertainty = Image(2, 1, 1);
+    referenceFrame.uncertainty.data = {1.0f / 3, 0.01f};
+    referenceFrame.relative_uncertainty = 0.1 + 0.2;
+    return referenceFrame;
 }
 
 Frame throughExr(const Frame& frame) {
@@ -48,43 +48,43 @@ Frame throughExr(const Frame& frame) {
     return frameFromExr(file);
 }
 
-ChannelDiff judged(const Frame& truth, const Frame& path) {
+ChannelDiff judged(const Frame& referenceFrame, const Frame& path) {
     Report report;
     report.device = device;
-    report.frames = {truth, path};
+    report.frames = {referenceFrame, path};
     return compareFrames(report, 0, 1, Requirements()).channels.front();
 }
 
 TEST(Uncertainty, ComesBackAsItWas) {
-    const Frame truth = sampled(), back = throughExr(truth);
+    const Frame referenceFrame = sampled(), back = throughExr(referenceFrame);
     ASSERT_TRUE(isReferenceFrame(back));
     EXPECT_EQ(back.uncertainty.width, 2);
     EXPECT_EQ(back.uncertainty.height, 1);
     EXPECT_EQ(back.uncertainty.components, 1);
-    EXPECT_EQ(back.uncertainty.data, truth.uncertainty.data);
-    EXPECT_EQ(back.relative_uncertainty, truth.relative_uncertainty);
-    EXPECT_EQ(back.notes, std::vector<std::string>{uncertaintyNote(truth.relative_uncertainty)});
+    EXPECT_EQ(back.uncertainty.data, referenceFrame.uncertainty.data);
+    EXPECT_EQ(back.relative_uncertainty, referenceFrame.relative_uncertainty);
+    EXPECT_EQ(back.notes, std::vector<std::string>{uncertaintyNote(referenceFrame.relative_uncertainty)});
     EXPECT_EQ(back.channels.size(), 2u) << "it is no channel";
-    EXPECT_EQ(back.channels.at(lit).data, truth.channels.at(lit).data);
+    EXPECT_EQ(back.channels.at(lit).data, referenceFrame.channels.at(lit).data);
 }
 
 // Infinite and NaN uncertainties are read back, too: a reader accepts all that this program writes.
 TEST(Uncertainty, OfAnySizeComesBack) {
     for (const double relative : {0.0, 1e-300, 5e-324, 1e300, std::numeric_limits<double>::infinity()}) {
-        Frame truth = sampled();
-        truth.relative_uncertainty = relative;
-        truth.uncertainty.data = {std::numeric_limits<float>::infinity(), 0};
-        const Frame back = throughExr(truth);
+        Frame referenceFrame = sampled();
+        referenceFrame.relative_uncertainty = relative;
+        referenceFrame.uncertainty.data = {std::numeric_limits<float>::infinity(), 0};
+        const Frame back = throughExr(referenceFrame);
         EXPECT_EQ(back.relative_uncertainty, relative);
-        EXPECT_EQ(back.uncertainty.data, truth.uncertainty.data);
+        EXPECT_EQ(back.uncertainty.data, referenceFrame.uncertainty.data);
     }
 }
 
 TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
-    const Frame truth = sampled(), back = throughExr(truth);
+    const Frame referenceFrame = sampled(), back = throughExr(referenceFrame);
     for (const float right : {2.0f, 2.02f, 2.2f}) {
         const Frame path = frameOf(Path::forward_plus, 1.5f, right);
-        const ChannelDiff now = judged(truth, path), stored = judged(back, path);
+        const ChannelDiff now = judged(referenceFrame, path), stored = judged(back, path);
         ASSERT_EQ(now.mode->number, lit);
         EXPECT_EQ(now.verdict, right > 2.1f ? Verdict::fail : Verdict::pass) << right;
         EXPECT_EQ(stored.verdict, now.verdict) << right;
@@ -101,12 +101,12 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
 }
 
 TEST(Uncertainty, IsWrittenBesideLitAlone) {
-    Frame truth = sampled();
-    truth.requested = {ids};
-    EXPECT_TRUE(throughExr(truth).uncertainty.empty());
-    truth = sampled();
-    truth.uncertainty = {};
-    const Frame exact = throughExr(truth);
+    Frame referenceFrame = sampled();
+    referenceFrame.requested = {ids};
+    EXPECT_TRUE(throughExr(referenceFrame).uncertainty.empty());
+    referenceFrame = sampled();
+    referenceFrame.uncertainty = {};
+    const Frame exact = throughExr(referenceFrame);
     EXPECT_TRUE(exact.uncertainty.empty());
     EXPECT_TRUE(exact.notes.empty());
 }
