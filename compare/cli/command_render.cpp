@@ -160,12 +160,12 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const std::v
     return places;
 }
 
-// What was asked for and the path ignores.
+// What was given for and the path ignores.
 void noteIgnored(const Options& options) {
     const Settings &given = options.settings, usual;
     for (const Field& field : settingFields()) {
         const std::string_view why = ignoredBecause(given.path, field.option);
-        if (!why.empty() && asked.valueOf(field.option) != usual.valueOf(field.option))
+        if (!why.empty() && given.valueOf(field.option) != usual.valueOf(field.option))
             note(options, fmt::format("--{} is not used: {}", field.option, why));
     }
 }
