@@ -39,7 +39,7 @@ public:
                                          .queryCount = 2,
                                          .pipelineStatistics = 0};
         VkQueryPool pool = VK_NULL_HANDLE;
-        check(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
+        checkResult(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
         pool_ = OwnedQueryPool(device.handle(), pool);
         device.submit([&](VkCommandBuffer commands) { vkCmdResetQueryPool(commands, pool_, 0, 2); });
     }
@@ -49,9 +49,9 @@ public:
     void end(VkCommandBuffer commands, std::uint32_t query) const { vkCmdEndQuery(commands, pool_, query); }
     std::array<std::uint64_t, 2> results() const {
         std::array<std::uint64_t, 2> samples{};
-        check(vkGetQueryPoolResults(device_.handle(), pool_, 0, 2, sizeof samples, samples.data(), 8,
-                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-              "vkGetQueryPoolResults");
+        checkResult(vkGetQueryPoolResults(device_.handle(), pool_, 0, 2, sizeof samples, samples.data(), 8,
+                                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                    "vkGetQueryPoolResults");
         return samples;
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistical tables (planted faults, sweeps, error tables) are run whole by a campaign alone:
+// Statistical tables (a fault planted at every call) are run whole by a campaign alone:
 // DIPTYCH_CAMPAIGN=1, or `ctest --preset campaign`. Everywhere else a slice of each is run, chosen by
 // DIPTYCH_SEED (1).
 #pragma once

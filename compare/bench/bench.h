@@ -6,7 +6,7 @@
 #include "compare/bench/kernels.h"
 #include "compare/plot/drawing.h"
 #include "compare/render/renderer.h"
-#include "compare/verdict/comparison.h"
+#include "shared/frame/frame.h"
 
 #include <filesystem>
 #include <optional>

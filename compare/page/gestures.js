@@ -104,7 +104,7 @@ addEventListener('click', event => {
   else if (button.dataset.do) actions[button.dataset.do](card);
 });
 
-// An animation that nobody clicked for is not started where the system asks for calm.
+// No animation starts by itself where the user has asked for reduced motion.
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const keys = {
   1: card => card.show('left'), 2: card => card.show('right'), w: card => card.show('wipe'),

@@ -75,13 +75,21 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings)),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
-      inputs{device,           shared.layouts,
-             shared.pipelines, shared.geometry,
-             shared.materials, draws,
-             lights,           buffers.draws(),
-             buffers.set(),    buffers.noPartialSums(),
-             buffers.lists(),  sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
-             gbuffer} {
+      inputs{
+          .device = device,
+          .layouts = shared.layouts,
+          .pipelines = shared.pipelines,
+          .geometry = shared.geometry,
+          .materials = shared.materials,
+          .draws = draws,
+          .lights = lights,
+          .draw_buffer = buffers.draws(),
+          .frame_set = buffers.set(),
+          .no_partial_sums = buffers.noPartialSums(),
+          .lists = buffers.lists(),
+          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
+          .gbuffer = gbuffer,
+      } {
     buffers.lists().specialise(inputs.variant);
     if (device.info().isCpu()) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
     const LightLists& lists = buffers.lists();

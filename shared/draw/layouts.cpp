@@ -44,7 +44,7 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material)
                                           .pushConstantRangeCount = 1,
                                           .pPushConstantRanges = &constants};
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
     pipeline = OwnedPipelineLayout(device.handle(), layout);
     nearest = makeNearestSampler(device);
     lists = ListLayouts(device, frame);

@@ -58,7 +58,7 @@ ListLayouts::ListLayouts(Device& device, VkDescriptorSetLayout frame)
     info.setLayoutCount = sets.size();
     info.pSetLayouts = sets.data();
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
     pipeline_ = OwnedPipelineLayout(device.handle(), layout);
 }
 

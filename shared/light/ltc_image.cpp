@@ -21,7 +21,7 @@ LtcImage::LtcImage(Device& device, Uploader& uploader, bool needed) {
     info.magFilter = info.minFilter = VK_FILTER_LINEAR;
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+    checkResult(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
     sampler_ = OwnedSampler(device.handle(), sampler);
 }
 

@@ -64,7 +64,7 @@ OwnedSampler makeSampler(Device& device, const Sampler& s) {
     // between magnification and minification.
     info.maxLod = s.mipmaps ? VK_LOD_CLAMP_NONE : 0.25f;
     VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+    checkResult(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
     return {device.handle(), sampler};
 }
 

@@ -16,11 +16,9 @@ Light sunOf(const Scene& scene, Pose pose) {
     return defaultSun(makeView(scene, pose, "", 1, 1).backward());
 }
 
-}  // namespace
-
-SceneView makeSceneView(const Scene& scene, const ViewRequest& request) {
+SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose) {
     SceneView result;
-    result.pose = poseAt(scene, request.time);
+    result.pose = std::move(pose);
     result.view = makeView(scene, result.pose, request.camera, request.width, request.height);
     result.lights = result.pose.lights;
     if (!request.lights.empty())
@@ -32,9 +30,18 @@ SceneView makeSceneView(const Scene& scene, const ViewRequest& request) {
     return result;
 }
 
+}  // namespace
+
+SceneView makeSceneView(const Scene& scene, const ViewRequest& request) {
+    return viewOf(scene, request, poseAt(scene, request.time));
+}
+
 const SceneView& SceneViews::at(const ViewRequest& request) {
     std::unique_ptr<SceneView>& view = views_[request];
-    if (!view) view = std::make_unique<SceneView>(makeSceneView(scene_, request));
+    if (view) return *view;
+    auto pose = poses_.find(request.time);
+    if (pose == poses_.end()) pose = poses_.emplace(request.time, poseAt(scene_, request.time)).first;
+    view = std::make_unique<SceneView>(viewOf(scene_, request, pose->second));
     return *view;
 }
 

@@ -59,7 +59,7 @@ const char* helpFor(VkResult result) {
 
 }  // namespace
 
-void check(VkResult result, const char* what) {
+void checkResult(VkResult result, const char* what) {
     if (result < 0)
         throw std::runtime_error(fmt::format("Vulkan: {}: {}{}", what, nameOf(result), helpFor(result)));
 }

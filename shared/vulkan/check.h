@@ -8,7 +8,7 @@
 namespace diptych {
 
 // Throws std::runtime_error "Vulkan: WHAT: the reason; what helps" on an error code.
-void check(VkResult result, const char* what);
+void checkResult(VkResult result, const char* what);
 std::string nameOf(VkResult result);
 
 }  // namespace diptych

@@ -17,8 +17,8 @@ OwnedDescriptorSetLayout makeSetLayout(Device& device, std::span<const VkDescrip
                                                .bindingCount = static_cast<std::uint32_t>(bindings.size()),
                                                .pBindings = bindings.data()};
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
-          "vkCreateDescriptorSetLayout");
+    checkResult(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
+                "vkCreateDescriptorSetLayout");
     return {device.handle(), layout};
 }
 
@@ -37,7 +37,7 @@ DescriptorSets::DescriptorSets(Device& device, VkDescriptorSetLayout layout,
                                               .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
                                               .pPoolSizes = sizes.data()};
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device_, &poolInfo, nullptr, &pool), "vkCreateDescriptorPool");
+    checkResult(vkCreateDescriptorPool(device_, &poolInfo, nullptr, &pool), "vkCreateDescriptorPool");
     pool_ = OwnedDescriptorPool(device_, pool);
     const std::vector<VkDescriptorSetLayout> layouts(count, layout);
     const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
@@ -46,7 +46,7 @@ DescriptorSets::DescriptorSets(Device& device, VkDescriptorSetLayout layout,
                                            .descriptorSetCount = count,
                                            .pSetLayouts = layouts.data()};
     sets_.resize(count);
-    check(vkAllocateDescriptorSets(device_, &info, sets_.data()), "vkAllocateDescriptorSets");
+    checkResult(vkAllocateDescriptorSets(device_, &info, sets_.data()), "vkAllocateDescriptorSets");
 }
 
 void DescriptorSets::write(std::size_t set, std::uint32_t binding, const VkDescriptorBufferInfo* buffer,

@@ -108,7 +108,7 @@ public:
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
         messages.pNext = nullptr;
-        check(create(handle_, &messages, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+        checkResult(create(handle_, &messages, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
     }
     ~Instance() {
         if (messenger_ != VK_NULL_HANDLE)
@@ -123,9 +123,9 @@ public:
 
     std::vector<VkPhysicalDevice> devices() const {
         std::uint32_t count = 0;
-        check(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "vkEnumeratePhysicalDevices");
+        checkResult(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "vkEnumeratePhysicalDevices");
         std::vector<VkPhysicalDevice> found(count);
-        check(vkEnumeratePhysicalDevices(handle_, &count, found.data()), "vkEnumeratePhysicalDevices");
+        checkResult(vkEnumeratePhysicalDevices(handle_, &count, found.data()), "vkEnumeratePhysicalDevices");
         return found;
     }
 
@@ -189,18 +189,19 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
                                            .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
                                            .queueFamilyIndex = family};
     VkCommandPool pool = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(s.device.get(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
+    checkResult(vkCreateCommandPool(s.device.get(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
     s.pool = OwnedCommandPool(s.device.get(), pool);
     const VkCommandBufferAllocateInfo bufferInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                  .pNext = nullptr,
                                                  .commandPool = pool,
                                                  .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                  .commandBufferCount = 1};
-    check(vkAllocateCommandBuffers(s.device.get(), &bufferInfo, &s.commands), "vkAllocateCommandBuffers");
+    checkResult(vkAllocateCommandBuffers(s.device.get(), &bufferInfo, &s.commands),
+                "vkAllocateCommandBuffers");
     const VkFenceCreateInfo fenceInfo{
         .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
     VkFence fence = VK_NULL_HANDLE;
-    check(vkCreateFence(s.device.get(), &fenceInfo, nullptr, &fence), "vkCreateFence");
+    checkResult(vkCreateFence(s.device.get(), &fenceInfo, nullptr, &fence), "vkCreateFence");
     s.fence = OwnedFence(s.device.get(), fence);
     if (options.validate) {
         const auto load = [&](const char* name) { return vkGetDeviceProcAddr(s.device.get(), name); };
@@ -242,9 +243,9 @@ double Device::submit(const std::function<void(VkCommandBuffer)>& record) {
                                          .pNext = nullptr,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
                                          .pInheritanceInfo = nullptr};
-    check(vkBeginCommandBuffer(s.commands, &begin), "vkBeginCommandBuffer");
+    checkResult(vkBeginCommandBuffer(s.commands, &begin), "vkBeginCommandBuffer");
     record(s.commands);
-    check(vkEndCommandBuffer(s.commands), "vkEndCommandBuffer");
+    checkResult(vkEndCommandBuffer(s.commands), "vkEndCommandBuffer");
     const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                              .pNext = nullptr,
                                              .commandBuffer = s.commands,
@@ -259,14 +260,14 @@ double Device::submit(const std::function<void(VkCommandBuffer)>& record) {
                                .signalSemaphoreInfoCount = 0,
                                .pSignalSemaphoreInfos = nullptr};
     const auto start = std::chrono::steady_clock::now();
-    check(vkQueueSubmit2(s.queue, 1, &submit, s.fence), "vkQueueSubmit2");
+    checkResult(vkQueueSubmit2(s.queue, 1, &submit, s.fence), "vkQueueSubmit2");
     const VkFence fence = s.fence;
     const VkResult waited = vkWaitForFences(s.device.get(), 1, &fence, VK_TRUE, UINT64_MAX);
     // What may still run must not outlive what it works on, which the exception takes down.
     if (waited != VK_SUCCESS) vkDeviceWaitIdle(s.device.get());
-    check(waited, "vkWaitForFences");
+    checkResult(waited, "vkWaitForFences");
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-    check(vkResetFences(s.device.get(), 1, &fence), "vkResetFences");
+    checkResult(vkResetFences(s.device.get(), 1, &fence), "vkResetFences");
     return elapsed.count();
 }
 
@@ -290,7 +291,7 @@ void Device::setName(VkObjectType type, std::uint64_t handle, const std::string&
                                              .objectType = type,
                                              .objectHandle = handle,
                                              .pObjectName = name.c_str()};
-    check(state_->set_name(state_->device.get(), &info), "vkSetDebugUtilsObjectNameEXT");
+    checkResult(state_->set_name(state_->device.get(), &info), "vkSetDebugUtilsObjectNameEXT");
 }
 
 std::uint64_t Device::validationMessages() const {

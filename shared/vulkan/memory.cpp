@@ -114,7 +114,7 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
             block->memory = OwnedMemory(device_, memory);
             block->free[0] = block->size;
             if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0)
-                check(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &block->mapped), "vkMapMemory");
+                checkResult(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &block->mapped), "vkMapMemory");
             blocks_.push_back(std::move(block));
         }
         Block* block = blocks_[i].get();

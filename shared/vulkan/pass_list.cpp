@@ -181,7 +181,7 @@ std::vector<double> PassList::runWithTimestamps(std::size_t first, std::size_t l
                                      .queryCount = count,
                                      .pipelineStatistics = 0};
     VkQueryPool handle = VK_NULL_HANDLE;
-    check(vkCreateQueryPool(device_.handle(), &info, nullptr, &handle), "vkCreateQueryPool");
+    checkResult(vkCreateQueryPool(device_.handle(), &info, nullptr, &handle), "vkCreateQueryPool");
     const OwnedQueryPool pool(device_.handle(), handle);
     device_.submit([&](VkCommandBuffer commands) {
         vkCmdResetQueryPool(commands, pool, 0, count);
@@ -192,9 +192,10 @@ std::vector<double> PassList::runWithTimestamps(std::size_t first, std::size_t l
         }
     });
     std::vector<std::uint64_t> ticks(count);
-    check(vkGetQueryPoolResults(device_.handle(), pool, 0, count, count * sizeof(std::uint64_t), ticks.data(),
-                                sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "vkGetQueryPoolResults");
+    checkResult(
+        vkGetQueryPoolResults(device_.handle(), pool, 0, count, count * sizeof(std::uint64_t), ticks.data(),
+                              sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "vkGetQueryPoolResults");
     std::vector<double> ms;
     for (std::size_t i = 0; i + 1 < count; ++i)
         ms.push_back(static_cast<double>(ticks[i + 1] - ticks[i]) *

@@ -232,7 +232,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
                                   .ppEnabledExtensionNames = nullptr,
                                   .pEnabledFeatures = nullptr};
     VkDevice device = VK_NULL_HANDLE;
-    check(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
+    checkResult(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
     return device;
 }
 

@@ -57,7 +57,7 @@ OwnedShaderModule makeShaderModule(Device& device, const std::string& name) {
                                         .codeSize = words.size_bytes(),
                                         .pCode = words.data()};
     VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
+    checkResult(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
     return {device.handle(), module};
 }
 
@@ -96,8 +96,8 @@ VkPipeline Pipelines::compute(const std::string& shader, const Variant& variant,
     info.stage.pSpecializationInfo = &specialization.info;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "vkCreateComputePipelines");
+    checkResult(vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+                "vkCreateComputePipelines");
     entry->second = OwnedPipeline(device_.handle(), pipeline);
     return pipeline;
 }
@@ -234,8 +234,8 @@ OwnedPipeline Pipelines::make(const PipelineKey& key) const {
                                             .basePipelineHandle = VK_NULL_HANDLE,
                                             .basePipelineIndex = 0};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "vkCreateGraphicsPipelines");
+    checkResult(vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+                "vkCreateGraphicsPipelines");
     return {device_.handle(), pipeline};
 }
 

@@ -44,7 +44,7 @@ OwnedSampler makeNearestSampler(Device& device) {
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     info.addressModeU = info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+    checkResult(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
     return {device.handle(), sampler};
 }
 
@@ -64,13 +64,13 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
                                   .queueFamilyIndexCount = 0,
                                   .pQueueFamilyIndices = nullptr};
     VkBuffer buffer = VK_NULL_HANDLE;
-    check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer), "vkCreateBuffer");
+    checkResult(vkCreateBuffer(device.handle(), &info, nullptr, &buffer), "vkCreateBuffer");
     buffer_ = OwnedBuffer(device.handle(), buffer);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
     memory_ = device.memory().allocate(needs, use, false);
-    check(vkBindBufferMemory(device.handle(), buffer, memory_.memory(), memory_.offset()),
-          "vkBindBufferMemory");
+    checkResult(vkBindBufferMemory(device.handle(), buffer, memory_.memory(), memory_.offset()),
+                "vkBindBufferMemory");
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
 }
 
@@ -91,12 +91,13 @@ GpuImage::GpuImage(Device& device, const GpuImageInfo& info) : info_(info) {
                                    .pQueueFamilyIndices = nullptr,
                                    .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     VkImage image = VK_NULL_HANDLE;
-    check(vkCreateImage(device.handle(), &create, nullptr, &image), "vkCreateImage");
+    checkResult(vkCreateImage(device.handle(), &create, nullptr, &image), "vkCreateImage");
     image_ = OwnedImage(device.handle(), image);
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(device.handle(), image, &needs);
     memory_ = device.memory().allocate(needs, MemoryUse::device, true);
-    check(vkBindImageMemory(device.handle(), image, memory_.memory(), memory_.offset()), "vkBindImageMemory");
+    checkResult(vkBindImageMemory(device.handle(), image, memory_.memory(), memory_.offset()),
+                "vkBindImageMemory");
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), info.name);
     constexpr VkImageUsageFlags viewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
@@ -111,7 +112,7 @@ GpuImage::GpuImage(Device& device, const GpuImageInfo& info) : info_(info) {
                                          .components = {},
                                          .subresourceRange = {aspect(), 0, info.levels, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
-    check(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view), "vkCreateImageView");
+    checkResult(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view), "vkCreateImageView");
     view_ = OwnedImageView(device.handle(), view);
 }
 
@@ -130,7 +131,7 @@ OwnedBufferView makeTexelView(Device& device, const std::string& name, const Gpu
                                       .offset = 0,
                                       .range = VK_WHOLE_SIZE};
     VkBufferView view = VK_NULL_HANDLE;
-    check(vkCreateBufferView(device.handle(), &info, nullptr, &view), "vkCreateBufferView");
+    checkResult(vkCreateBufferView(device.handle(), &info, nullptr, &view), "vkCreateBufferView");
     return {device.handle(), view};
 }
 

@@ -25,7 +25,7 @@ OwnedShaderModule probeModule(Device& device, const std::string& shader) {
                                         .codeSize = words.size() * 4,
                                         .pCode = words.data()};
     VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
+    checkResult(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
     return {device.handle(), module};
 }
 
@@ -52,7 +52,8 @@ struct ProbeLayout {
                                               .pushConstantRangeCount = 1,
                                               .pPushConstantRanges = &range};
         VkPipelineLayout layout = VK_NULL_HANDLE;
-        check(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+        checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+                    "vkCreatePipelineLayout");
         pipeline = OwnedPipelineLayout(device.handle(), layout);
     }
     OwnedDescriptorSetLayout set;
@@ -75,8 +76,8 @@ OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::stri
     info.stage.pSpecializationInfo = &specialization;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "vkCreateComputePipelines");
+    checkResult(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+                "vkCreateComputePipelines");
     return {device.handle(), pipeline};
 }
 

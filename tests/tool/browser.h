@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A page in headless Chromium, where there is one. It is no package that this project asks for: without it
-// the tests that need it are skipped, with a word.
+// A page in headless Chromium, which `./diptych test` installs (packages.txt). A plain CMake build may lack
+// it: the tests that need it are then skipped, and say so.
 #pragma once
 
 #include "tests/tool/run.h"

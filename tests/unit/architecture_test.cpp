@@ -178,6 +178,92 @@ TEST(Architecture, APlantedClimbIsFound) {
     EXPECT_EQ(plant("shared/draw/planted.h", "shared/light/lights.h"), 0u);
 }
 
+// Code outside of every module would have no floor and no page, and nobody would notice.
+Faults withoutModule(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) && !path.starts_with("shaders/tool/") && !moduleOf(path)) faults.push_back(path);
+    return faults;
+}
+
+TEST(Architecture, EveryFileOfCodeIsInAModule) {
+    EXPECT_EQ(joined(withoutModule(sources())), "");
+    EXPECT_EQ(withoutModule({{"compare/planted/a.cpp", ""}, {"compare/run/a.cpp", ""}}),
+              Faults{"compare/planted/a.cpp"});
+}
+
+// The libraries as CMake links them: folder -> the folders of LINKS, one step.
+std::map<std::string, std::set<std::string>> linksOf(const Files& files) {
+    static const std::regex library("diptych_library\\(\\s*(\\w+)([^)]*)\\)"), target("diptych_(\\w+)");
+    std::map<std::string, std::string> folders;  // of a library, by its name
+    std::map<std::string, std::set<std::string>> names;
+    for (const auto& [path, text] : files) {
+        if (!path.ends_with("/CMakeLists.txt")) continue;
+        const std::string folder = fs::path(path).parent_path().generic_string();
+        for (std::sregex_iterator it(text.begin(), text.end(), library), end; it != end; ++it) {
+            const std::string rest = (*it)[2].str();
+            folders.try_emplace((*it)[1].str(), folder);
+            const std::size_t links = rest.find("LINKS");
+            const std::string linked = links == rest.npos ? "" : rest.substr(links);
+            for (std::sregex_iterator t(linked.begin(), linked.end(), target); t != end; ++t)
+                names[folder].insert((*t)[1].str());
+        }
+    }
+    std::map<std::string, std::set<std::string>> result;
+    for (const auto& [folder, linked] : names)
+        for (const std::string& name : linked)
+            if (const auto found = folders.find(name); found != folders.end())
+                result[folder].insert(found->second);
+    return result;
+}
+
+// Modules that a library includes from and does not link, not even through others. Headers alone
+// (shared/contract) are linked by nobody.
+Faults includedAndNotLinked(const Files& files) {
+    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
+    const auto direct = linksOf(files);
+    std::map<std::string, std::set<std::string>> all;
+    const std::function<const std::set<std::string>&(const std::string&)> linked =
+        [&](const std::string& folder) -> const std::set<std::string>& {
+        if (const auto known = all.find(folder); known != all.end()) return known->second;
+        std::set<std::string> reached;
+        if (const auto of = direct.find(folder); of != direct.end())
+            for (const std::string& next : of->second) {
+                reached.insert(next);
+                const std::set<std::string>& further = linked(next);
+                reached.insert(further.begin(), further.end());
+            }
+        return all[folder] = std::move(reached);
+    };
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const Module* from = endsIn(path, {".cpp", ".h"}) ? moduleOf(path) : nullptr;
+        if (!from || from->path == "tests" || !files.contains(from->path + "/CMakeLists.txt")) continue;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::smatch match;
+            if (!std::regex_search(line, match, include)) continue;
+            const Module* to = moduleOf(match[1].str());
+            if (to && to != from && files.contains(to->path + "/CMakeLists.txt") &&
+                !linked(from->path).contains(to->path))
+                faults.push_back(path + " includes " + match[1].str() + ", whose library " + from->path +
+                                 " does not link");
+        }
+    }
+    return faults;
+}
+
+TEST(Architecture, WhatIsIncludedIsLinked) {
+    EXPECT_GT(linksOf(sources()).size(), 20u) << "the libraries were found";
+    EXPECT_EQ(joined(includedAndNotLinked(sources())), "");
+}
+
+TEST(Architecture, APlantedMissingLinkIsFound) {
+    Files files = sources();
+    files["compare/bench/planted.h"] = "#include \"compare/verdict/comparison.h\"\n";
+    EXPECT_EQ(includedAndNotLinked(files).size(), 1u);
+}
+
 // A header and its source are one unit. Units with circular includes could only be understood, tested and
 // built together. One line for each cycle, naming one of its units.
 Faults circularIncludes(const Files& files) {

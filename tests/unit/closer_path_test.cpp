@@ -76,7 +76,7 @@ TEST(CloserPath, WhatCannotBeToldApartIsEven) {
     EXPECT_EQ(litOf(unsure).closer, -1) << "the reference is known to less than they are apart";
 }
 
-TEST(CloserPath, WhatIsExactIsInfinitelyNearer) {
+TEST(CloserPath, WhatIsExactIsInfinitelyCloser) {
     const auto frames = threeFrames({1, 1}, {1, 1}, {1.5f, 1});
     const CloserPathChannel channel = litOf(frames);
     EXPECT_EQ(channel.closer, 0);

@@ -177,7 +177,7 @@ TEST(GltfExtras, ASunHasAnAngle) {
     }
 }
 
-TEST(GltfExtras, LightsHaveMarks) {
+TEST(GltfExtras, LightsHaveImportance) {
     const std::pair<const char*, Importance> marks[] = {{"auto", Importance::automatic},
                                                         {"important", Importance::important},
                                                         {"not_important", Importance::not_important}};
@@ -197,7 +197,7 @@ TEST(GltfExtras, LightsHaveMarks) {
     }
 }
 
-TEST(GltfExtras, AMarkThatIsNoneIsLeftOutWithANote) {
+TEST(GltfExtras, AnImportanceThatIsNoneIsLeftOutWithANote) {
     const std::pair<Json, const char*> faults[] = {
         {"high", "importance: \"high\" is none of auto, important, not_important: left out"},
         {"not important",

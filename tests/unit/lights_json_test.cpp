@@ -104,7 +104,7 @@ TEST(LightsJson, AreaLights) {
         << "a rounded pi is one";
 }
 
-TEST(LightsJson, MarksOfAnyType) {
+TEST(LightsJson, ImportanceOfAnyType) {
     for (const std::string type : {"point", "spot", "directional", "rect", "disc", "tube"}) {
         const std::string light = "{\"type\": \"" + type + "\"";
         const auto lights =

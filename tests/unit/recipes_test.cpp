@@ -55,8 +55,8 @@ const Files& sources() {
     static const Files files = [] {
         const fs::path root = DIPTYCH_SOURCE_DIR;
         Files found;
-        for (const char* room : {"shared", "shaders", "forward_plus", "deferred", "compare"})
-            for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+        for (const char* top : {"shared", "shaders", "forward_plus", "deferred", "compare"})
+            for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
                 const std::string ending = entry.path().extension().string();
                 if (!entry.is_regular_file() || ending == ".md" || ending == ".exr") continue;
                 std::ifstream stream(entry.path(), std::ios::binary);

@@ -73,7 +73,7 @@ TEST(ReportChecks, JsonTellsEachAndHowManyThereAre) {
     EXPECT_EQ(comparison["marks_found"], (Json{{"texture transforms", 2}, {"alpha masks", 900}}));
 }
 
-TEST(ReportChecks, EveryMarkHasALinkAndAFigure) {
+TEST(ReportChecks, EveryCheckHasALinkAndAFigure) {
     const std::string page = pageOf(reportOf(bothFrames(), {someChecks()}));
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     expectLinksLead(page);

@@ -59,7 +59,7 @@ TEST(VisualChecks, InstancesStandWhereTheirNodesPutThem) {
     EXPECT_EQ(boxesOf(checksIn(scene, view)), (Boxes{{87, 37, 113, 63}})) << "12.5 pixels a metre";
 }
 
-TEST(VisualChecks, TransformsThatAreNoNumbersMarkNothing) {
+TEST(VisualChecks, TransformsThatAreNoNumbersNeedNoCheck) {
     const Scene scene = sceneOf(squareAt(0, 0, -2));
     for (const double bad : {infinity, std::nan("")}) {
         Pose pose = poseAt(scene, 0);
@@ -154,7 +154,7 @@ TEST(VisualChecks, TheLargestComeFirstAndAllAreCounted) {
     EXPECT_TRUE(std::ranges::is_sorted(features[0].checks, std::greater<>(), &VisualCheck::pixels));
 }
 
-TEST(VisualChecks, ManyInstancesLeaveFewMarks) {
+TEST(VisualChecks, ManyInstancesLeaveFewChecks) {
     const Scene scene = sceneOf(squareAt(0, 0, -20));
     Pose pose = poseAt(scene, 0);
     pose.instances.resize(100'000, pose.instances[0]);
