@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 # ctest reads this when it starts: the GoogleTest suites of one program become tests of ctest, FOLDER.SUITE. A suite
 # is one process, so that its tests share one device, what was uploaded to it and the pipelines that were compiled.
-# For the same reason suites that are instantiated once a scene are run scene by scene: an asset's, under the prefix
-# Asset, are FOLDER.Asset.SCENE; the built-in scenes', under Builtin, are dealt out to a few tests, FOLDER.Builtin.N,
-# since small scenes share most of their pipelines.
+# For the same reason suites that are instantiated once a scene, under the prefix Builtin or Asset, are run scene by
+# scene: these are dealt out to four tests each, FOLDER.Builtin.N and FOLDER.Asset.N, since scenes share pipelines.
 #
 # Variables that this file reads: program; folder, its label and the first part of every name; seconds, how long a
 # test may take; results, the folder that JUnit files are written to; costs, names and seconds of the longest, which
@@ -21,7 +20,6 @@ string(REPLACE ";" "," lines "${lines}")
 string(REPLACE "\n" ";" lines "${lines}")
 
 set(groups "")
-set(scenes "")
 foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.( |$)")
     set(suite ${CMAKE_MATCH_1})
@@ -30,14 +28,12 @@ foreach(line IN LISTS lines)
     set(name ${CMAKE_MATCH_1})
     if(suite MATCHES "^(Builtin|Asset)/" AND name MATCHES "/(.+)$")
       set(scene ${CMAKE_MATCH_1})
-      set(group ${folder}.Asset.${scene})
-      if(suite MATCHES "^Builtin")
-        list(APPEND scenes ${scene})
-        list(REMOVE_DUPLICATES scenes)
-        list(FIND scenes ${scene} at)
-        math(EXPR at "${at} % 4 + 1")
-        set(group ${folder}.Builtin.${at})
-      endif()
+      string(REGEX REPLACE "/.*$" "" prefix ${suite})
+      list(APPEND ${prefix}_scenes ${scene})
+      list(REMOVE_DUPLICATES ${prefix}_scenes)
+      list(FIND ${prefix}_scenes ${scene} at)
+      math(EXPR at "${at} % 4 + 1")
+      set(group ${folder}.${prefix}.${at})
       list(APPEND filter_${group} ${suite}.${name})
     else()
       set(group ${folder}.${short})

@@ -37,8 +37,8 @@ struct SceneView {
 // Throws std::runtime_error naming --camera or --lights if the request is invalid.
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request);
 
-// Caches the views of one scene; each is made at its first request, and the scene is posed once for each time.
-// The scene must outlive it.
+// Caches the views of one scene; each is made at its first request, and the scene is posed once for each
+// time. The scene must outlive it.
 class SceneViews {
 public:
     explicit SceneViews(const Scene& scene) : scene_(scene) {}

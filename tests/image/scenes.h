@@ -26,8 +26,11 @@
 
 namespace diptych::tests {
 
+// Under the Khronos validation layers, so that whatever a test draws is validated too and no pipeline is
+// compiled twice, for pictures and for validation. validation_test.cpp fails a process that has had a
+// message.
 inline Device& device() {
-    static Device theDevice{DeviceOptions{}};
+    static Device theDevice{DeviceOptions{.choice = "", .validate = true}};
     return theDevice;
 }
 
@@ -148,12 +151,12 @@ private:
 // The scene of a name or a file. It is kept until several others have been requested after it.
 inline UploadedScene& uploaded(const std::string& name) {
     constexpr std::size_t most = 12;
+    pipelines();  // created first, with the device, because they must outlive the scenes
     static std::list<std::pair<std::string, UploadedScene>> scenes;  // the one asked for last is first
     const auto found = std::ranges::find(scenes, name, [](const auto& entry) { return entry.first; });
     if (found != scenes.end()) {
         scenes.splice(scenes.begin(), scenes, found);
     } else {
-        device();  // must be created first, since it must outlive the scenes
         if (scenes.size() == most) scenes.pop_back();
         scenes.emplace_front(std::piecewise_construct, std::forward_as_tuple(name),
                              std::forward_as_tuple(name));

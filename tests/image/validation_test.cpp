@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The Khronos validation layers, including synchronization validation, report nothing for any scene, path,
 // G-buffer encoding and assignment.
-#include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
 namespace diptych::tests {
@@ -9,14 +8,19 @@ namespace {
 
 class Validation : public testing::TestWithParam<std::string> {};
 
-// All frames are drawn by one Renderer, which shares uploads and most pipelines. Every channel is captured
-// in one encoding; another encoding only changes the last shading pass of a capture.
+// Whatever any test of this process drew on device() had no message either.
+class NoMessages : public testing::Environment {
+    void TearDown() override {
+        EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
+    }
+};
+[[maybe_unused]] testing::Environment* const noMessages = testing::AddGlobalTestEnvironment(new NoMessages);
+
+// All frames are drawn by one Renderer, which shares uploads and pipelines with the tests of the scene. Every
+// channel is captured in one encoding; another encoding only changes the last shading pass of a capture.
 TEST_P(Validation, SaysNothing) {
-    static Device validated{DeviceOptions{.choice = "", .validate = true}};
-    static const std::shared_ptr<PipelineSet> compiled = makePipelineSet(validated);
-    const std::uint64_t before = validated.validationMessages();
-    const Scene scene = loadScene(GetParam());
-    Renderer renderer(validated, scene, compiled);
+    const std::uint64_t before = device().validationMessages();
+    Renderer& renderer = uploaded(GetParam()).renderer;
     const auto draw = [&](Settings settings, bool everyChannel) {
         settings.size = {64, 36};
         RenderOptions options;
@@ -49,7 +53,7 @@ TEST_P(Validation, SaysNothing) {
         settings.light_kernel = kernel;
         draw(settings, false);
     }
-    EXPECT_EQ(validated.validationMessages(), before) << validated.firstValidationMessage();
+    EXPECT_EQ(device().validationMessages(), before) << device().firstValidationMessage();
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, Validation, testing::ValuesIn(builtinScenes()),

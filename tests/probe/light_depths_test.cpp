@@ -36,7 +36,7 @@ OwnedImageView viewOf(VkImage image) {
                                      .components = {},
                                      .subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
-    check(vkCreateImageView(probeDevice().handle(), &info, nullptr, &view), "vkCreateImageView");
+    checkResult(vkCreateImageView(probeDevice().handle(), &info, nullptr, &view), "vkCreateImageView");
     return {probeDevice().handle(), view};
 }
 
@@ -65,13 +65,13 @@ struct DepthImage {
             .pQueueFamilyIndices = nullptr,
             .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
         VkImage handle = VK_NULL_HANDLE;
-        check(vkCreateImage(probeDevice().handle(), &info, nullptr, &handle), "vkCreateImage");
+        checkResult(vkCreateImage(probeDevice().handle(), &info, nullptr, &handle), "vkCreateImage");
         image = OwnedImage(probeDevice().handle(), handle);
         VkMemoryRequirements needs;
         vkGetImageMemoryRequirements(probeDevice().handle(), handle, &needs);
         memory = probeDevice().memory().allocate(needs, MemoryUse::device, true);
-        check(vkBindImageMemory(probeDevice().handle(), handle, memory.memory(), memory.offset()),
-              "vkBindImageMemory");
+        checkResult(vkBindImageMemory(probeDevice().handle(), handle, memory.memory(), memory.offset()),
+                    "vkBindImageMemory");
         view = viewOf(handle);
     }
 };
@@ -131,8 +131,9 @@ OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask m
     info.pDynamicState = &dynamics;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(probeDevice().handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "vkCreateGraphicsPipelines");
+    checkResult(
+        vkCreateGraphicsPipelines(probeDevice().handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "vkCreateGraphicsPipelines");
     return {probeDevice().handle(), pipeline};
 }
 
@@ -156,8 +157,8 @@ public:
         info.pushConstantRangeCount = 1;
         info.pPushConstantRanges = &range;
         VkPipelineLayout layout = VK_NULL_HANDLE;
-        check(vkCreatePipelineLayout(probeDevice().handle(), &info, nullptr, &layout),
-              "vkCreatePipelineLayout");
+        checkResult(vkCreatePipelineLayout(probeDevice().handle(), &info, nullptr, &layout),
+                    "vkCreatePipelineLayout");
         layout_ = OwnedPipelineLayout(probeDevice().handle(), layout);
         for (int s = 0; s < picture.samples; ++s)
             pipelines_.push_back(depthPipeline(layout, picture.samples, 1u << s));

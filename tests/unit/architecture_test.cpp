@@ -212,7 +212,7 @@ std::map<std::string, std::set<std::string>> linksOf(const Files& files) {
     std::map<std::string, std::set<std::string>> result;
     for (const auto& [folder, linked] : names)
         for (const std::string& name : linked)
-            if (const auto found = folders.find(name); found != folders.end())
+            if (const auto found = folders.find(name); found != folders.end() && found->second != folder)
                 result[folder].insert(found->second);
     return result;
 }
