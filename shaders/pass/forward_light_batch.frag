@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// INPUTS: 0 to 3
 
 #include "shaders/lib/forward.glsl"
 #include "shaders/lib/shade.glsl"
