@@ -1,63 +1,20 @@
 // SPDX-License-Identifier: MIT
 // The rules of the architecture, checked on the project's own files. Each check has a negative control that
 // plants a fault and must find it.
-#include "shared/frame/debug_modes.h"
+#include "tests/unit/sources.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace diptych {
 namespace {
-
-namespace fs = std::filesystem;
-
-using Files = std::map<std::string, std::string>;  // path from the repository's root -> contents
-using Faults = std::vector<std::string>;
-
-// Every source, shader, script and page that belongs to the repository.
-const Files& sources() {
-    static const Files files = [] {
-        const fs::path root = DIPTYCH_SOURCE_DIR;
-        Files found;
-        const auto add = [&](const fs::path& file) {
-            std::ifstream stream(file, std::ios::binary);
-            found[fs::relative(file, root).generic_string()] = {std::istreambuf_iterator<char>(stream), {}};
-        };
-        for (const auto& entry : fs::directory_iterator(root))
-            if (entry.is_regular_file()) add(entry.path());
-        for (const char* folder :
-             {"shared", "shaders", "forward_plus", "deferred", "compare", "tests", ".ci"})
-            if (fs::is_directory(root / folder))
-                for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-                    if (entry.is_regular_file()) add(entry.path());
-        return found;
-    }();
-    return files;
-}
-
-bool endsIn(const std::string& path, std::initializer_list<const char*> endings) {
-    return std::ranges::any_of(endings, [&](const char* ending) { return path.ends_with(ending); });
-}
-bool isCode(const std::string& path) {
-    return endsIn(path, {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"});
-}
-
-std::string joined(const Faults& faults) {
-    std::string all;
-    for (const std::string& fault : faults) all += fault + "\n";
-    return all;
-}
 
 // A module may include itself and modules on lower floors; if `only` is not empty, only the modules in it.
 struct Module {
@@ -124,20 +81,11 @@ const Module* moduleOf(const std::string& path) {
 
 // Quoted includes that lead to a higher floor, to another module of the same floor, or out of the contract.
 Faults climbingIncludes(const Files& files) {
-    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     Faults faults;
     for (const auto& [path, text] : files) {
         const Module* from = isCode(path) ? moduleOf(path) : nullptr;
         if (!from) continue;
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);) {
-            std::smatch match;
-            if (!std::regex_search(line, match, include)) continue;
-            const std::string beside =
-                (fs::path(path).parent_path() / match[1].str()).lexically_normal().generic_string();
-            const std::string target = files.contains(beside)
-                                           ? beside
-                                           : fs::path(match[1].str()).lexically_normal().generic_string();
+        for (const std::string& target : quotedIncludes(files, path)) {
             const Module* to = moduleOf(target);
             if (from->floor == 0 && to != from) {
                 faults.push_back(path + " includes " + target + ", outside the contract");
@@ -220,7 +168,6 @@ std::map<std::string, std::set<std::string>> linksOf(const Files& files) {
 // Modules that a library includes from and does not link, not even through others. Headers alone
 // (shared/contract) are linked by nobody.
 Faults includedAndNotLinked(const Files& files) {
-    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     const auto direct = linksOf(files);
     std::map<std::string, std::set<std::string>> all;
     const std::function<const std::set<std::string>&(const std::string&)> linked =
@@ -239,14 +186,11 @@ Faults includedAndNotLinked(const Files& files) {
     for (const auto& [path, text] : files) {
         const Module* from = endsIn(path, {".cpp", ".h"}) ? moduleOf(path) : nullptr;
         if (!from || from->path == "tests" || !files.contains(from->path + "/CMakeLists.txt")) continue;
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);) {
-            std::smatch match;
-            if (!std::regex_search(line, match, include)) continue;
-            const Module* to = moduleOf(match[1].str());
+        for (const std::string& target : quotedIncludes(files, path)) {
+            const Module* to = moduleOf(target);
             if (to && to != from && files.contains(to->path + "/CMakeLists.txt") &&
                 !linked(from->path).contains(to->path))
-                faults.push_back(path + " includes " + match[1].str() + ", whose library " + from->path +
+                faults.push_back(path + " includes " + target + ", whose library " + from->path +
                                  " does not link");
         }
     }
@@ -267,20 +211,13 @@ TEST(Architecture, APlantedMissingLinkIsFound) {
 // A header and its source are one unit. Units with circular includes could only be understood, tested and
 // built together. One line for each cycle, naming one of its units.
 Faults circularIncludes(const Files& files) {
-    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     const auto unitOf = [](const std::string& path) {
         return endsIn(path, {".cpp", ".h"}) ? path.substr(0, path.rfind('.')) : path;
     };
     std::map<std::string, std::set<std::string>> uses;
     for (const auto& [path, text] : files) {
         if (!isCode(path)) continue;
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);) {
-            std::smatch match;
-            if (!std::regex_search(line, match, include)) continue;
-            const std::string beside =
-                (fs::path(path).parent_path() / match[1].str()).lexically_normal().generic_string();
-            const std::string target = files.contains(beside) ? beside : match[1].str();
+        for (const std::string& target : quotedIncludes(files, path)) {
             if (files.contains(target) && unitOf(target) != unitOf(path))
                 uses[unitOf(path)].insert(unitOf(target));
         }
@@ -322,25 +259,20 @@ TEST(Architecture, APlantedCircleIsFound) {
 // The reference must be independent of the paths: of the contract it may use only the channels, and of other
 // modules only what describes the scene, not how the paths draw it.
 Faults borrowedByTheReference(const Files& files) {
-    static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     static const std::regex contract("gpu::(?!DEBUG_|uint\\b)\\w+");
     static const std::vector<std::string> open{"compare/reference/", "shared/image/", "shared/frame/",
                                                "shared/scene/"};
     Faults faults;
     for (const auto& [path, text] : files) {
         if (!path.starts_with("compare/reference/") || !isCode(path)) continue;
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);) {
-            std::smatch match;
-            if (std::regex_search(line, match, include)) {
-                const std::string target = fs::path(match[1].str()).lexically_normal().generic_string();
-                const bool fine =
-                    target == "shared/contract/debug_mode.h" ||
-                    std::ranges::any_of(open, [&](const std::string& r) { return target.starts_with(r); });
-                if (!fine) faults.push_back(path + " includes " + target);
-            }
-            if (std::regex_search(line, match, contract)) faults.push_back(path + " uses " + match.str());
+        for (const std::string& target : quotedIncludes(files, path)) {
+            const bool fine =
+                target == "shared/contract/debug_mode.h" ||
+                std::ranges::any_of(open, [&](const std::string& r) { return target.starts_with(r); });
+            if (!fine) faults.push_back(path + " includes " + target);
         }
+        for (std::sregex_iterator it(text.begin(), text.end(), contract), end; it != end; ++it)
+            faults.push_back(path + " uses " + it->str());
     }
     return faults;
 }
@@ -364,138 +296,6 @@ TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
     EXPECT_EQ(plant("#include \"shared/contract/debug_mode.h\""), 0u);
     EXPECT_EQ(plant("case gpu::DEBUG_lit: return static_cast<gpu::uint>(0);"), 0u);
     EXPECT_EQ(plant("#include \"shared/scene/model/scene.h\""), 0u);
-}
-
-// pi, 2 pi, pi/2, pi/4, 1/pi written as digits, and the macro M_PI, which is not standard C++. Values
-// computed by hand in tests may contain them.
-Faults otherPis(const Files& files) {
-    static const std::regex pi("3\\.1415|6\\.2831|1\\.5707|0\\.7853|0\\.3183|M_PI");
-    Faults faults;
-    for (const auto& [path, text] : files)
-        if (isCode(path) && path != "shared/contract/constants.h" && !path.starts_with("tests/") &&
-            std::regex_search(text, pi))
-            faults.push_back(path);
-    return faults;
-}
-
-TEST(Architecture, ThereIsOnePi) {
-    EXPECT_EQ(joined(otherPis(sources())), "");
-}
-
-TEST(Architecture, APlantedPiIsFound) {
-    for (const char* pi : {"3.14159f", "3.1415628", "6.28318530718", "M_PI_2", "0.31830988"}) {
-        EXPECT_EQ(otherPis({{"shaders/lib/planted.glsl", std::string("const float p = ") + pi + ";"}}).size(),
-                  1u)
-            << pi;
-    }
-    EXPECT_TRUE(
-        otherPis({{"shared/scene/a.cpp", "std::numbers::pi"}, {"shared/contract/constants.h", "3.14159"}})
-            .empty());
-}
-
-Faults withoutLicence(const Files& files) {
-    Faults faults;
-    for (const auto& [path, text] : files) {
-        const bool wanted = isCode(path) ||
-                            endsIn(path, {"CMakeLists.txt", ".cmake", ".css", ".js", ".yml"}) ||
-                            path == "diptych" || path == ".ci/run";
-        const std::size_t second = text.find('\n', text.find('\n') + 1);
-        if (wanted && text.substr(0, second).find("SPDX-License-Identifier: MIT") == std::string::npos)
-            faults.push_back(path);
-    }
-    return faults;
-}
-
-TEST(Architecture, EverySourceStartsWithItsLicence) {
-    EXPECT_EQ(joined(withoutLicence(sources())), "");
-}
-
-TEST(Architecture, AMissingLicenceIsFound) {
-    EXPECT_EQ(withoutLicence(
-                  {{"compare/a.cpp", "int a;\n"}, {"diptych", "#!/bin/sh\nset -e\n"}, {"README.md", "#"}}),
-              (Faults{"compare/a.cpp", "diptych"}));
-    EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
-}
-
-// libpng reads files in one place, with one set of limits. Tests may use it to make PNG files.
-Faults otherUsersOfLibpng(const Files& files) {
-    static const std::regex include(
-        "(^|\n)[ \t]*#[ \t]*include[ \t]*[<\"](libpng[0-9]*/)?png(conf)?\\.h[>\"]");
-    static const std::regex link("\\bPNG::PNG\\b|\\bPNG_LIBRAR(Y|IES)\\b");
-    Faults faults;
-    for (const auto& [path, text] : files) {
-        if (path.starts_with("tests/") || path.starts_with("shared/image/png")) continue;
-        if (isCode(path) && std::regex_search(text, include)) faults.push_back(path + " includes png.h");
-        if (path.ends_with("CMakeLists.txt") && path != "shared/image/CMakeLists.txt" &&
-            std::regex_search(text, link))
-            faults.push_back(path + " links libpng");
-    }
-    return faults;
-}
-
-TEST(Architecture, LibpngIsUsedInOnePlace) {
-    EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
-}
-
-TEST(Architecture, APlantedUseOfLibpngIsFound) {
-    const auto plant = [](const std::string& path, const std::string& line) {
-        return otherUsersOfLibpng({{path, "// SPDX-License-Identifier: MIT\n" + line + "\n"}}).size();
-    };
-    for (const char* line :
-         {"#include <png.h>", "  # include \"png.h\"", "#include <libpng16/png.h>", "#include <pngconf.h>"})
-        EXPECT_EQ(plant("shared/scene/planted.cpp", line), 1u) << line;
-    EXPECT_EQ(plant("shared/image/radiance.cpp", "#include <png.h>"), 1u);
-    EXPECT_EQ(plant("shared/scene/CMakeLists.txt", "  LINKS fmt::fmt PNG::PNG)"), 1u);
-    EXPECT_EQ(plant("shared/image/png_planted.cpp", "#include <png.h>"), 0u);
-    EXPECT_EQ(plant("tests/unit/planted.cpp", "#include <png.h>"), 0u);
-    EXPECT_EQ(plant("compare/planted.cpp", "#include \"shared/image/png.h\""), 0u);
-    EXPECT_EQ(plant("CMakeLists.txt", "find_package(PNG REQUIRED)"), 0u);
-}
-
-// Absolute paths of the machine on which a file was written.
-Faults pathsOfAMachine(const Files& files) {
-    static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
-    Faults faults;
-    for (const auto& [path, text] : files)
-        if (isCode(path) || endsIn(path, {".md", ".txt", ".json", "diptych", "run"}))
-            if (std::smatch match; std::regex_search(text, match, absolute))
-                faults.push_back(path + ": " + match.str());
-    return faults;
-}
-
-TEST(Architecture, NoFileNamesAFolderOfOneMachine) {
-    EXPECT_EQ(joined(pathsOfAMachine(sources())), "");
-}
-
-TEST(Architecture, APlantedFolderIsFound) {
-    EXPECT_EQ(pathsOfAMachine({{"README.md", std::string("see /home") + "/jo/scene.glb"}}).size(), 1u);
-    EXPECT_TRUE(pathsOfAMachine({{"README.md", "see https://example.org/homework/a"}}).empty());
-}
-
-// clang-format limits C++ to 110 columns, but does not handle GLSL.
-Faults longShaderLines(const Files& files) {
-    Faults faults;
-    for (const auto& [path, text] : files) {
-        if (!endsIn(path, {".glsl", ".vert", ".frag", ".comp"})) continue;
-        std::istringstream lines(text);
-        int number = 0;
-        for (std::string line; std::getline(lines, line);) {
-            ++number;
-            if (line.size() > 110) faults.push_back(path + ":" + std::to_string(number));
-        }
-    }
-    return faults;
-}
-
-TEST(Architecture, ShadersKeepToTheColumnsOfTheRest) {
-    EXPECT_EQ(joined(longShaderLines(sources())), "");
-}
-
-TEST(Architecture, APlantedLongLineOfAShaderIsFound) {
-    const std::string fits = "// " + std::string(107, 'x') + "\n";
-    EXPECT_EQ(longShaderLines({{"shaders/lib/planted.glsl", fits + "//  " + std::string(107, 'x') + "\n"}}),
-              Faults{"shaders/lib/planted.glsl:2"});
-    EXPECT_TRUE(longShaderLines({{"shaders/lib/planted.glsl", fits}, {"README.md", fits + fits}}).empty());
 }
 
 // The documentation: the README of the repository is one page, each module has one of its own, and no link
@@ -554,22 +354,6 @@ TEST(Architecture, APlantedFaultOfTheDocumentationIsFound) {
     files = sound;
     files.erase("shaders/README.md");
     EXPECT_EQ(documentationFaults(files), Faults{"shaders/lib has no README.md"});
-}
-
-// A channel that has no shader code fails by name.
-Faults channelsWithoutShader(const std::string& shader) {
-    Faults faults;
-    for (const DebugMode& mode : debugModes())
-        if (!std::regex_search(shader, std::regex("\\bDEBUG_" + std::string(mode.name) + "\\b")))
-            faults.emplace_back(mode.name);
-    return faults;
-}
-
-TEST(Architecture, EveryChannelHasALineInTheShader) {
-    const std::string shader = sources().at("shaders/lib/debug.glsl");
-    EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
-    EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
-              Faults{"roughness"});
 }
 
 }  // namespace

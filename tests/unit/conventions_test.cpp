@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The conventions of the project's own files: one pi, a licence line, one user of libpng, no folder of one
+// machine, the columns of shaders, a line of shader for every channel. Each check has a negative control.
+#include "shared/frame/debug_modes.h"
+#include "tests/unit/sources.h"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+// pi, 2 pi, pi/2, pi/4, 1/pi written as digits, and the macro M_PI, which is not standard C++. Values
+// computed by hand in tests may contain them.
+Faults otherPis(const Files& files) {
+    static const std::regex pi("3\\.1415|6\\.2831|1\\.5707|0\\.7853|0\\.3183|M_PI");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) && path != "shared/contract/constants.h" && !path.starts_with("tests/") &&
+            std::regex_search(text, pi))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Conventions, ThereIsOnePi) {
+    EXPECT_EQ(joined(otherPis(sources())), "");
+}
+
+TEST(Conventions, APlantedPiIsFound) {
+    for (const char* pi : {"3.14159f", "3.1415628", "6.28318530718", "M_PI_2", "0.31830988"}) {
+        EXPECT_EQ(otherPis({{"shaders/lib/planted.glsl", std::string("const float p = ") + pi + ";"}}).size(),
+                  1u)
+            << pi;
+    }
+    EXPECT_TRUE(
+        otherPis({{"shared/scene/a.cpp", "std::numbers::pi"}, {"shared/contract/constants.h", "3.14159"}})
+            .empty());
+}
+
+Faults withoutLicence(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        const bool wanted = isCode(path) ||
+                            endsIn(path, {"CMakeLists.txt", ".cmake", ".css", ".js", ".yml"}) ||
+                            path == "diptych" || path == ".ci/run";
+        const std::size_t second = text.find('\n', text.find('\n') + 1);
+        if (wanted && text.substr(0, second).find("SPDX-License-Identifier: MIT") == std::string::npos)
+            faults.push_back(path);
+    }
+    return faults;
+}
+
+TEST(Conventions, EverySourceStartsWithItsLicence) {
+    EXPECT_EQ(joined(withoutLicence(sources())), "");
+}
+
+TEST(Conventions, AMissingLicenceIsFound) {
+    EXPECT_EQ(withoutLicence(
+                  {{"compare/a.cpp", "int a;\n"}, {"diptych", "#!/bin/sh\nset -e\n"}, {"README.md", "#"}}),
+              (Faults{"compare/a.cpp", "diptych"}));
+    EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
+}
+
+// libpng reads files in one place, with one set of limits. Tests may use it to make PNG files.
+Faults otherUsersOfLibpng(const Files& files) {
+    static const std::regex include(
+        "(^|\n)[ \t]*#[ \t]*include[ \t]*[<\"](libpng[0-9]*/)?png(conf)?\\.h[>\"]");
+    static const std::regex link("\\bPNG::PNG\\b|\\bPNG_LIBRAR(Y|IES)\\b");
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (path.starts_with("tests/") || path.starts_with("shared/image/png")) continue;
+        if (isCode(path) && std::regex_search(text, include)) faults.push_back(path + " includes png.h");
+        if (path.ends_with("CMakeLists.txt") && path != "shared/image/CMakeLists.txt" &&
+            std::regex_search(text, link))
+            faults.push_back(path + " links libpng");
+    }
+    return faults;
+}
+
+TEST(Conventions, LibpngIsUsedInOnePlace) {
+    EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
+}
+
+TEST(Conventions, APlantedUseOfLibpngIsFound) {
+    const auto plant = [](const std::string& path, const std::string& line) {
+        return otherUsersOfLibpng({{path, "// SPDX-License-Identifier: MIT\n" + line + "\n"}}).size();
+    };
+    for (const char* line :
+         {"#include <png.h>", "  # include \"png.h\"", "#include <libpng16/png.h>", "#include <pngconf.h>"})
+        EXPECT_EQ(plant("shared/scene/planted.cpp", line), 1u) << line;
+    EXPECT_EQ(plant("shared/image/radiance.cpp", "#include <png.h>"), 1u);
+    EXPECT_EQ(plant("shared/scene/CMakeLists.txt", "  LINKS fmt::fmt PNG::PNG)"), 1u);
+    EXPECT_EQ(plant("shared/image/png_planted.cpp", "#include <png.h>"), 0u);
+    EXPECT_EQ(plant("tests/unit/planted.cpp", "#include <png.h>"), 0u);
+    EXPECT_EQ(plant("compare/planted.cpp", "#include \"shared/image/png.h\""), 0u);
+    EXPECT_EQ(plant("CMakeLists.txt", "find_package(PNG REQUIRED)"), 0u);
+}
+
+// Absolute paths of the machine on which a file was written.
+Faults pathsOfAMachine(const Files& files) {
+    static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) || endsIn(path, {".md", ".txt", ".json", "diptych", "run"}))
+            if (std::smatch match; std::regex_search(text, match, absolute))
+                faults.push_back(path + ": " + match.str());
+    return faults;
+}
+
+TEST(Conventions, NoFileNamesAFolderOfOneMachine) {
+    EXPECT_EQ(joined(pathsOfAMachine(sources())), "");
+}
+
+TEST(Conventions, APlantedFolderIsFound) {
+    EXPECT_EQ(pathsOfAMachine({{"README.md", std::string("see /home") + "/jo/scene.glb"}}).size(), 1u);
+    EXPECT_TRUE(pathsOfAMachine({{"README.md", "see https://example.org/homework/a"}}).empty());
+}
+
+// clang-format limits C++ to 110 columns, but does not handle GLSL.
+Faults longShaderLines(const Files& files) {
+    Faults faults;
+    for (const auto& [path, text] : files) {
+        if (!endsIn(path, {".glsl", ".vert", ".frag", ".comp"})) continue;
+        std::istringstream lines(text);
+        int number = 0;
+        for (std::string line; std::getline(lines, line);) {
+            ++number;
+            if (line.size() > 110) faults.push_back(path + ":" + std::to_string(number));
+        }
+    }
+    return faults;
+}
+
+TEST(Conventions, ShadersKeepToTheColumnsOfTheRest) {
+    EXPECT_EQ(joined(longShaderLines(sources())), "");
+}
+
+TEST(Conventions, APlantedLongLineOfAShaderIsFound) {
+    const std::string fits = "// " + std::string(107, 'x') + "\n";
+    EXPECT_EQ(longShaderLines({{"shaders/lib/planted.glsl", fits + "//  " + std::string(107, 'x') + "\n"}}),
+              Faults{"shaders/lib/planted.glsl:2"});
+    EXPECT_TRUE(longShaderLines({{"shaders/lib/planted.glsl", fits}, {"README.md", fits + fits}}).empty());
+}
+
+// A channel that has no shader code fails by name.
+Faults channelsWithoutShader(const std::string& shader) {
+    Faults faults;
+    for (const DebugMode& mode : debugModes())
+        if (!std::regex_search(shader, std::regex("\\bDEBUG_" + std::string(mode.name) + "\\b")))
+            faults.emplace_back(mode.name);
+    return faults;
+}
+
+TEST(Conventions, EveryChannelHasALineInTheShader) {
+    const std::string shader = sources().at("shaders/lib/debug.glsl");
+    EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
+    EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
+              Faults{"roughness"});
+}
+
+}  // namespace
+}  // namespace diptych
