@@ -26,15 +26,22 @@
     X(9,  vertex_color,               item,    3, PASSES_DRAW)                                              \
     X(10, alpha_mask,                 item,    0, PASSES_DRAW)                                              \
     X(11, double_sided,               item,    0, PASSES_SURFACE)                                           \
-    X(12, emission,                   frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* the scene emits light */ \
-    X(13, dielectric_specular,        frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* KHR_materials_specular, _ior, _unlit in the scene */ \
+    /* the scene emits light */                                                                             \
+    X(12, emission,                   frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* KHR_materials_specular, _ior, _unlit in the scene */                                                 \
+    X(13, dielectric_specular,        frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
     X(14, directional_lights,         frame,   0, PASSES_SHADE)    /* the scene has some */                 \
     X(15, point_lights,               frame,   0, PASSES_SHADE)                                             \
-    X(16, gbuffer_encoding,           gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* GBUFFER_* of gbuffer.h */ \
-    X(17, gbuffer_wide_emission,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* emission beyond the packed format's range: float32 */ \
-    X(18, gbuffer_wide_material_id,   gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* more materials than the packed bits can name */ \
-    X(19, quantise_surface,           pass,    0, PASS_FORWARD)    /* shade what the G-buffer would have given back */ \
-    X(20, capture_0,                  pass,    0, PASSES_SHADE)    /* DEBUG_* of each attachment of a capture pass */ \
+    /* GBUFFER_* of gbuffer.h */                                                                            \
+    X(16, gbuffer_encoding,           gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* emission beyond the packed format's range: float32 */                                                \
+    X(17, gbuffer_wide_emission,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* more materials than the packed bits can name */                                                      \
+    X(18, gbuffer_wide_material_id,   gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* shade what the G-buffer would have given back */                                                     \
+    X(19, quantise_surface,           pass,    0, PASS_FORWARD)                                             \
+    /* DEBUG_* of each attachment of a capture pass */                                                      \
+    X(20, capture_0,                  pass,    0, PASSES_SHADE)                                             \
     X(21, capture_1,                  pass,    0, PASSES_SHADE)                                             \
     X(22, capture_2,                  pass,    0, PASSES_SHADE)                                             \
     X(23, capture_3,                  pass,    0, PASSES_SHADE)                                             \
@@ -43,20 +50,29 @@
     X(26, capture_6,                  pass,    0, PASSES_SHADE)                                             \
     X(27, capture_7,                  pass,    0, PASSES_SHADE)                                             \
     X(28, orthographic,               frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)              \
-    X(29, unlit,                      item,    0, PASSES_SURFACE)  /* KHR_materials_unlit: emits its base colour, reflects nothing */ \
+    /* KHR_materials_unlit: emits its base colour, reflects nothing */                                      \
+    X(29, unlit,                      item,    0, PASSES_SURFACE)                                           \
     X(30, spot_lights,                frame,   0, PASSES_SHADE | PASS_LISTS)                                \
-    X(31, area_lights,                frame,   0, PASSES_SHADE | PASS_LISTS) /* a sum of AREA_* of area_light.h */ \
+    /* a sum of AREA_* of area_light.h */                                                                   \
+    X(31, area_lights,                frame,   0, PASSES_SHADE | PASS_LISTS)                                \
     X(32, light_lists,                frame,   0, PASSES_SHADE | PASS_LISTS) /* LISTS_* of light_list.h */  \
-    X(33, light_batch,                pass,    0, PASSES_SHADE)    /* BATCH_* of light_list.h: a draw walks a part of each list */ \
-    X(34, list_width,                 frame,   0, PASSES_SHADE | PASS_LISTS) /* lights of a packet: 1 or 4 */ \
+    /* BATCH_* of light_list.h: a draw walks a part of each list */                                         \
+    X(33, light_batch,                pass,    0, PASSES_SHADE)                                             \
+    /* lights of a packet: 1 or 4 */                                                                        \
+    X(34, list_width,                 frame,   0, PASSES_SHADE | PASS_LISTS)                                \
     X(35, lightmap_texture,           item,    1, PASSES_SURFACE)                                           \
     X(36, ambient,                    frame,   0, PASSES_SHADE)    /* constant ambient radiance */          \
-    X(37, object_lights,              frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* OBJECT_LIGHTS_* of object_lights.h; those of vertices need inputs 3 */ \
+    /* OBJECT_LIGHTS_* of object_lights.h; those of vertices need inputs 3 */                               \
+    X(37, object_lights,              frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
     X(38, vanishing_normals,          item,    2, PASSES_SURFACE)  /* an interpolated normal may be zero */ \
-    X(39, lightmap,                   frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* a material of the scene has one */ \
-    X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING) /* beyond the packed format's range: float32 */ \
-    X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING) /* VIEW_*: where a fragment shader has the view from */ \
-    X(42, captured,                   pass,    3, PASSES_SURFACE)  /* for channels, which may need more than shading does */
+    /* a material of the scene has one */                                                                   \
+    X(39, lightmap,                   frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* beyond the packed format's range: float32 */                                                         \
+    X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* VIEW_*: where a fragment shader has the view from */                                                 \
+    X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* for channels, which may need more than shading does */                                               \
+    X(42, captured,                   pass,    3, PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN
