@@ -2,6 +2,7 @@
 #include "compare/files/layers.h"
 
 #include "compare/files/our_files.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 #include "shared/text/wildcard.h"
 
@@ -14,17 +15,12 @@
 #include <optional>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace diptych {
 namespace {
 
 using Names = std::vector<std::string>;
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 std::string suffix(const std::string& channel) {
     const std::size_t dot = channel.rfind('.');

@@ -3,6 +3,7 @@
 
 #include "compare/metrics/flip_tiles.h"
 #include "compare/metrics/order.h"
+#include "compare/metrics/pixel.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -19,12 +20,9 @@
 namespace diptych {
 namespace {
 
-constexpr float absent = -1;       // in a list of errors: not measured
+constexpr float notMeasured = -1;  // in a list of errors: not measured
 constexpr double mostStops = 126;  // 2^126 is a float
 
-bool finite(const float* p) {
-    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 // Two NaNs are the same, and so are two equal infinities.
 bool same(const float* a, const float* b) {
     for (int c = 0; c < 3; ++c)
@@ -63,12 +61,12 @@ FlipPair inspect(const Image& reference, const Image& test, float least, float m
         for (std::size_t i = rows.begin() * width; i < rows.end() * width; ++i) {
             const float *r = reference.pixel(i), *t = test.pixel(i);
             const bool showsR = within(r, least, most), showsT = within(t, least, most);
-            if (showsR && showsT && finite(r) && finite(t)) continue;
-            found.nonfinite_reference += !finite(r);
-            found.nonfinite_test += !finite(t);
-            found.limited_reference += finite(r) && !showsR;
-            found.limited_test += finite(t) && !showsT;
-            found.nonfinite_different += !(finite(r) && finite(t)) && !same(r, t);
+            if (showsR && showsT && finite(r, 3) && finite(t, 3)) continue;
+            found.nonfinite_reference += !finite(r, 3);
+            found.nonfinite_test += !finite(t, 3);
+            found.limited_reference += finite(r, 3) && !showsR;
+            found.limited_test += finite(t, 3) && !showsT;
+            found.nonfinite_different += !(finite(r, 3) && finite(t, 3)) && !same(r, t);
         }
         const std::lock_guard hold(lock);
         result.nonfinite_reference += found.nonfinite_reference;
@@ -83,7 +81,7 @@ FlipPair inspect(const Image& reference, const Image& test, float least, float m
     pair.holes.resize(reference.pixels());
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         const float *r = reference.pixel(i), *t = test.pixel(i);
-        if (!finite(r) || !finite(t)) pair.holes[i] = same(r, t) ? Hole::same : Hole::different;
+        if (!finite(r, 3) || !finite(t, 3)) pair.holes[i] = same(r, t) ? Hole::same : Hole::different;
     }
     return pair;
 }
@@ -95,7 +93,7 @@ void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResul
         counted = result.error.data;
         for (std::size_t i = 0; i < counted.size(); ++i)
             if ((!covered.empty() && !covered[i]) || (!pair.holes.empty() && pair.holes[i] == Hole::same))
-                counted[i] = absent;
+                counted[i] = notMeasured;
         errors = counted;
     }
     const metrics::Order order(errors);
@@ -130,9 +128,9 @@ void chooseExposures(const Image& reference, const HdrFlipOptions& options, HdrF
         throw std::runtime_error(fmt::format("{} exposures show nothing; give 1 or more", result.exposures));
 }
 
-// Linear luminance (Rec.709) of a finite pixel, negative components as 0; otherwise absent.
+// Linear luminance (Rec.709) of a finite pixel, negative components as 0; otherwise notMeasured.
 float luminance(const float* p) {
-    if (!finite(p)) return absent;
+    if (!finite(p, 3)) return notMeasured;
     return 0.2126f * std::max(p[0], 0.0f) + 0.7152f * std::max(p[1], 0.0f) + 0.0722f * std::max(p[2], 0.0f);
 }
 
@@ -152,7 +150,7 @@ ExposureRange exposureRange(const Image& reference, ToneMapper mapper) {
     if (!(most > 0)) return {};
     float median = order.nearestRank(0.5);
     if (!(median > 0)) {
-        std::ranges::replace(values, 0.0f, absent);
+        std::ranges::replace(values, 0.0f, notMeasured);
         median = metrics::Order(values).nearestRank(0.5);
     }
     const double bright = whereCurveReaches(mapper, 0.85);

@@ -10,7 +10,7 @@ namespace {
 
 using Weights = std::vector<double>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // exp(-pi^2 d^2 / b), d in degrees: up to a factor the inverse Fourier transform of a sensitivity of exp(-b
 // f^2), f in cycles per degree.

@@ -2,6 +2,7 @@
 #include "compare/metrics/flip_tiles.h"
 
 #include "compare/metrics/convolve.h"
+#include "compare/metrics/pixel.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -21,9 +22,6 @@ struct Tile {
     int width() const { return x1 - x0; }
 };
 
-std::size_t size(int n) {
-    return static_cast<std::size_t>(n);
-}
 int radiusOf(const HalfKernel& kernel) {
     return static_cast<int>(kernel.size()) - 1;
 }

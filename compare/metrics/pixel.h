@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
 namespace diptych::metrics {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+inline std::size_t size(int n) {
+    return static_cast<std::size_t>(n);
+}
 
 inline bool finite(const float* p, int components) {
     return std::all_of(p, p + components, [](float v) { return std::isfinite(v); });

@@ -20,12 +20,8 @@ using namespace metrics;
 
 namespace {
 
-constexpr float absent = -1;    // in a list of errors: not covered
-constexpr int bandHeight = 16;  // rows whose sums are made by one thread and added in one order
-
-std::size_t size(int n) {
-    return static_cast<std::size_t>(n);
-}
+constexpr float notCovered = -1;  // in a list of errors: not covered
+constexpr int bandHeight = 16;    // rows whose sums are made by one thread and added in one order
 
 // The sums of one band of rows.
 struct BandSums {
@@ -123,7 +119,7 @@ void PlainPass::unevenRow(int y, BandSums& sums) {
         absolute[at + x] = relative[at + x] = HUGE_VALF;
     }
     for (std::size_t x = 0; x < width; ++x)
-        if (!coverage_.covered[at + x]) absolute[at + x] = relative[at + x] = absent;
+        if (!coverage_.covered[at + x]) absolute[at + x] = relative[at + x] = notCovered;
 }
 
 void PlainPass::row(int y, BandSums& sums) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/metrics/prefilter.h"
 
+#include "compare/metrics/pixel.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,10 +12,6 @@
 
 namespace diptych::metrics {
 namespace {
-
-bool finite(const float* p, int components) {
-    return std::all_of(p, p + components, [](float v) { return std::isfinite(v); });
-}
 
 // Weighted sums along rows (dx 1) or columns (dy 1) of values and of weights, component `components` of `in`.
 Image convolved(const Image& in, const std::vector<float>& weights, int dx, int dy) {
@@ -31,17 +29,6 @@ Image convolved(const Image& in, const std::vector<float>& weights, int dx, int 
         }
     });
     return out;
-}
-
-// The largest component's distance; two NaNs or equal infinities are the same.
-float distance(const float* a, const float* b, int components) {
-    float largest = 0;
-    for (int c = 0; c < components; ++c) {
-        if (a[c] == b[c] || (std::isnan(a[c]) && std::isnan(b[c]))) continue;
-        const float d = std::abs(a[c] - b[c]);
-        largest = std::isnan(d) ? std::numeric_limits<float>::infinity() : std::max(largest, d);
-    }
-    return largest;
 }
 
 }  // namespace
@@ -82,12 +69,12 @@ Image shifted(const Image& reference, const Image& test, int radius) {
         for (int x = 0; x < test.width; ++x) {
             const float* const wanted = &reference.data[reference.offset(x, y)];
             const float* best = &test.data[test.offset(x, y)];
-            float least = distance(best, wanted, test.components);
+            double least = distance(best, wanted, test.components);
             for (const Step& step : steps) {
                 const int sx = x + step.x, sy = y + step.y;
                 if (least == 0 || sx < 0 || sy < 0 || sx >= test.width || sy >= test.height) continue;
                 const float* const p = &test.data[test.offset(sx, sy)];
-                const float d = distance(p, wanted, test.components);
+                const double d = distance(p, wanted, test.components);
                 if (d < least) {
                     least = d;
                     best = p;

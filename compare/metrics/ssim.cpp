@@ -3,6 +3,7 @@
 
 #include "compare/metrics/convolve.h"
 #include "compare/metrics/fast_math.h"
+#include "compare/metrics/pixel.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -29,10 +30,6 @@ std::array<float, radius + 1> window() {
     std::array<float, radius + 1> normalised{};
     std::ranges::transform(w, normalised.begin(), [&](double v) { return static_cast<float>(v / sum); });
     return normalised;
-}
-
-std::size_t size(int n) {
-    return static_cast<std::size_t>(n);
 }
 
 // Sum and difference of the two pictures and their squares: with these the variances and the covariance take

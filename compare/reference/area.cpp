@@ -13,7 +13,7 @@
 namespace diptych::reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Clips to the half-space n.p > 0 (Sutherland and Hodgman 1974, "Reentrant Polygon Clipping").
 std::vector<glm::dvec3> aboveHorizon(const std::array<glm::dvec3, 4>& corners, const glm::dvec3& n) {

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t magic = 0x31707963666e6572u;
 
-[[noreturn]] void fail(const fs::path& file) {
+[[noreturn]] void failWriting(const fs::path& file) {
     throw std::runtime_error(writingFailed(file, errno));
 }
 
@@ -137,7 +137,7 @@ bool Checkpoint::open(const Head& head) {
     do {
         if (stream_) std::fclose(stream_);
         stream_ = opened(file_, O_CREAT);
-        if (!stream_) fail(file_);
+        if (!stream_) failWriting(file_);
         if (!lock(stream_)) {
             std::fclose(std::exchange(stream_, nullptr));
             return false;
@@ -155,7 +155,7 @@ bool Checkpoint::open(const Head& head) {
         const int error = errno;
         std::fclose(std::exchange(stream_, nullptr));
         errno = error;
-        fail(file_);
+        failWriting(file_);
     }
     return true;
 }
@@ -198,7 +198,7 @@ void Checkpoint::keep(std::uint64_t number, std::span<const float> values) {
     if (std::fwrite(&number, sizeof number, 1, stream_) != 1 ||
         std::fwrite(filled.data(), sizeof(float), floats_, stream_) != floats_ ||
         std::fwrite(&sum, sizeof sum, 1, stream_) != 1 || std::fflush(stream_) != 0)
-        fail(file_);
+        failWriting(file_);
 }
 
 // The file is removed while it is locked, so that a program waiting for the lock sees that it is gone.

@@ -11,7 +11,7 @@
 namespace diptych::reference {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::size_t at(int i) {
     return static_cast<std::size_t>(i);

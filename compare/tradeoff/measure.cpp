@@ -18,7 +18,7 @@ using page::cameraTitle;
 
 namespace {
 
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
+constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit), IDS = static_cast<int>(gpu::DEBUG_material_id);
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int widestThumbnail = 480;  // pixels: a card of the page
 
@@ -29,7 +29,7 @@ double knownOrInfinite(double value) {
 // Draws lit, and material_id, by which background is recognised.
 RenderOptions drawingOptions(const RenderOptions& options) {
     RenderOptions drawing = options;
-    drawing.channels = drawing.requested = {lit, ids};
+    drawing.channels = drawing.requested = {LIT, IDS};
     drawing.twice = drawing.through_gbuffer = false;
     return drawing;
 }
@@ -64,7 +64,7 @@ ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
         references.frames.push_back(renderer.draw(settings, drawing));
     }
     const Frame& first = references.frames.front();
-    references.exposure = exposureFor(choice, &first.channels.at(lit), coverage(first, first));
+    references.exposure = exposureFor(choice, &first.channels.at(LIT), coverage(first, first));
     return references;
 }
 
@@ -80,9 +80,9 @@ RelativeErrors relativeErrors(std::vector<double> errors) {
 }
 
 FrameErrors errorsOf(const Frame& referenceFrame, const Frame& frame) {
-    const Image &reference = referenceFrame.channels.at(lit), &test = frame.channels.at(lit);
+    const Image &reference = referenceFrame.channels.at(LIT), &test = frame.channels.at(LIT);
     const Coverage covered = coverage(referenceFrame, referenceFrame);  // the same pixels for every row
-    const DebugMode& mode = debugMode(lit);
+    const DebugMode& mode = debugMode(LIT);
     FrameErrors result;
     const PixelError error(mode.metric, mode.kind, reference, covered);
     for (std::size_t i = 0; i < reference.pixels(); ++i)
@@ -99,7 +99,7 @@ FrameErrors errorsOf(const Frame& referenceFrame, const Frame& frame) {
 
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};
-    return small(channelPicture(debugMode(lit), frame, scaleFor(debugMode(lit), exposure, frames)));
+    return small(channelPicture(debugMode(LIT), frame, scaleFor(debugMode(LIT), exposure, frames)));
 }
 
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,

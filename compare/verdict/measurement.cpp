@@ -72,8 +72,6 @@ const std::array rows{
     Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&PlainMetrics::angle_mean>},
 };
 
-constexpr const char* failing = "failing";
-
 }  // namespace
 
 std::span<const Figure> figures() {
@@ -95,7 +93,7 @@ bool Measurement::isVector() const {
 }
 
 std::optional<double> Measurement::operator()(const Quantity& quantity) const {
-    if (quantity.figure == failing) return failingShare(quantity.above);
+    if (quantity.figure == FAILING) return failingShare(quantity.above);
     const auto row = std::ranges::find(rows, quantity.figure, [](const Row& r) { return r.figure.name; });
     return row == rows.end() ? Value() : row->value(*this);
 }
@@ -172,7 +170,7 @@ double Measurement::failingShare(double above) const {
 Decision decide(const Rule& rule, const Measurement& measurement) {
     Decision decision = decide(rule, measurement.asMeasured());
     const std::uint64_t different = measurement.plain().nonfinite_different;
-    if (decision.level != Level::fail && different > 0 && !boundsFigure(rule.fail, failing))
+    if (decision.level != Level::fail && different > 0 && !boundsFigure(rule.fail, FAILING))
         decision = {Level::fail, &rule,
                     fmt::format("{} pixel(s) are NaN or infinite against something else", different)};
     return decision;

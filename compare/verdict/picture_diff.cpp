@@ -82,7 +82,7 @@ Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel
     const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
     rule.fail = bound(options.tolerance);
     if (options.failing)
-        rule.fail = {Condition::Kind::bound, {"failing", options.tolerance}, *options.failing, {}};
+        rule.fail = {Condition::Kind::bound, {FAILING, options.tolerance}, *options.failing, {}};
     if (options.warn) rule.warn = bound(*options.warn);
     return rule;
 }

@@ -2,6 +2,7 @@
 #include "compare/verdict/rules.h"
 
 #include "shared/image/file_bytes.h"
+#include "shared/text/fail.h"
 #include "shared/text/json.h"
 #include "shared/text/named.h"
 #include "shared/text/wildcard.h"
@@ -12,24 +13,18 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
 namespace diptych {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* failing = "failing";
 using Presets = std::map<std::string, Json>;
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 std::string figureNames() {
     std::string names;
     for (const Figure& figure : figures()) names += fmt::format("{}, ", figure.name);
-    return names + failing;
+    return names + FAILING;
 }
 
 double numberOf(const Json& value, const std::string& what) {
@@ -50,7 +45,7 @@ Condition share(const Json& value) {
     const double above = numberOf(value["above"], "above"), most = numberOf(value["share"], "share");
     if (!(above >= 0)) fail(fmt::format("failing: above {} is negative: no error is", above));
     if (!(most >= 0 && most <= 1)) fail(fmt::format("failing: share {} is not from 0 to 1", most));
-    return {Condition::Kind::bound, {failing, above}, most, {}};
+    return {Condition::Kind::bound, {FAILING, above}, most, {}};
 }
 
 class ConditionReader {
@@ -73,7 +68,7 @@ private:
     Condition member(const std::string& key, const Json& value) {
         if (key == "all" || key == "any") return group(key, value);
         if (key == "preset") return preset(value);
-        if (key == failing) return share(value);
+        if (key == FAILING) return share(value);
         if (findFigure(key)) return bound(key, value);
         fail(fmt::format("no such figure {}; there are {}, and all, any, preset", oneLine(key),
                          figureNames()));
@@ -151,7 +146,7 @@ std::string shown(double value, double other) {
 }
 
 std::string quantityText(const Quantity& quantity) {
-    return quantity.figure == failing ? fmt::format("share of pixels above {:g}", quantity.above)
+    return quantity.figure == FAILING ? fmt::format("share of pixels above {:g}", quantity.above)
                                       : quantity.figure;
 }
 

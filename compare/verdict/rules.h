@@ -23,9 +23,11 @@ struct Figure {
 std::span<const Figure> figures();
 const Figure* findFigure(std::string_view name);  // nullptr where there is none
 
+inline constexpr const char* FAILING = "failing";
+
 // A figure, or the share of pixels, 0 to 1, whose error in the channel's metric is above `above`.
 struct Quantity {
-    std::string figure;  // "failing" for the share
+    std::string figure;  // FAILING for the share
     double above = 0;
 };
 // Returns the measured value of a quantity; empty where it is not defined for the channel (flip of an id).

@@ -2,6 +2,7 @@
 #include "shared/image/exr_attributes.h"
 
 #include "shared/image/limits.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -10,16 +11,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <stdexcept>
 
 namespace diptych::exr {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "EXR files are little-endian");
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 struct Kept {
     std::string_view name, type;

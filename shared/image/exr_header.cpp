@@ -4,6 +4,7 @@
 
 #include "shared/image/exr_attributes.h"
 #include "shared/image/limits.h"
+#include "shared/text/fail.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -12,17 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <stdexcept>
 
 namespace diptych {
 namespace {
 
 using exr::Attributes;
 using exr::Cursor;
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 // By the number in the attribute "compression": lines in a chunk, and the most bytes that one stored byte
 // can expand to.

@@ -2,6 +2,7 @@
 #include "shared/image/pfm.h"
 
 #include "shared/image/atomic_file.h"
+#include "shared/text/fail.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -19,10 +20,6 @@ namespace diptych {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "a scale below 0 says little-endian");
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 constexpr std::string_view blanks = " \t\n\v\f\r";
 
@@ -51,17 +48,17 @@ T numberIn(std::string_view word, const char* what) {
     return value;
 }
 
-struct Header {
+struct PfmHeader {
     int width = 0, height = 0, components = 0;
     float scale = 1;  // below 0: the pixels are little-endian
 };
 
 // Leaves `rest` at the first pixel.
-Header readHeader(std::string_view& rest) {
+PfmHeader readHeader(std::string_view& rest) {
     const std::string_view kind = takeWord(rest);
     if (kind != "PF" && kind != "Pf")
         fail(fmt::format("is not a PFM: it begins with \"{}\", not PF or Pf", oneLine(kind, 40)));
-    Header header;
+    PfmHeader header;
     header.components = kind == "PF" ? 3 : 1;
     header.width = numberIn<int>(takeWord(rest), "width");
     header.height = numberIn<int>(takeWord(rest), "height");
@@ -96,7 +93,7 @@ void readPixels(Image& image, std::string_view stored, float scale) {
 PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] {
         std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        const Header header = readHeader(rest);
+        const PfmHeader header = readHeader(rest);
         const std::int64_t pixel = std::int64_t{sizeof(float)} * header.components;
         checkImageSize(header.width, header.height, pixel, most);
         const auto size = static_cast<std::size_t>(pixel * header.width * header.height);

@@ -26,7 +26,7 @@ void onError(png_structp png, png_const_charp message) {
 void onWarning(png_structp, png_const_charp) {}
 
 // Names the program that wrote the file, so that the tool recognises its own files. libpng needs char*.
-char key[] = "Software", value[] = "diptych";
+char softwareKey[] = "Software", softwareName[] = "diptych";
 
 // Optimised for speed, since a report has dozens of pictures: level 1 with the one filter that suits smooth
 // shading takes a third of the time that libpng needs to choose among all filters, and files are no larger.
@@ -41,9 +41,9 @@ bool encode(png_structp png, png_infop info, std::FILE* stream, const Image8& im
     png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
     png_text text{};
     text.compression = PNG_TEXT_COMPRESSION_NONE;
-    text.key = key;
-    text.text = value;
-    text.text_length = sizeof value - 1;
+    text.key = softwareKey;
+    text.text = softwareName;
+    text.text_length = sizeof softwareName - 1;
     png_set_text(png, info, &text, 1);
     png_write_info(png, info);
     const std::size_t row =

@@ -3,6 +3,7 @@
 #include "shared/image/file_bytes.h"
 #include "shared/image/png.h"
 #include "shared/image/png_decoder.h"
+#include "shared/text/fail.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
@@ -14,16 +15,11 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace diptych {
 namespace {
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 // ---- what stands before the pixels -------------------------------------------------------------------
 

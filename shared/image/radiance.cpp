@@ -3,6 +3,7 @@
 
 #include "shared/image/atomic_file.h"
 #include "shared/image/file_bytes.h"
+#include "shared/text/fail.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
@@ -22,10 +23,6 @@ namespace diptych {
 namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 // ---- header ------------------------------------------------------------------------------------------
 
@@ -83,13 +80,13 @@ struct Orientation {
     bool right_to_left = false, bottom_to_top = false;
 };
 
-struct Header {
+struct RadianceHeader {
     std::array<double, 3> scale{1, 1, 1};  // factor from stored values to radiance
     Orientation orientation;
     int width = 0, height = 0;
 };
 
-void readVariable(std::string_view line, Header& header) {
+void readVariable(std::string_view line, RadianceHeader& header) {
     const std::size_t equals = line.find('=');
     if (line.starts_with('#') || equals == std::string_view::npos) return;
     const std::string_view name = trimmed(line.substr(0, equals));
@@ -114,7 +111,7 @@ void readVariable(std::string_view line, Header& header) {
 }
 
 // "-Y 480 +X 640" and the other seven orientations. Y goes up the picture, so -Y starts from its top.
-void readResolution(std::string_view line, Header& header) {
+void readResolution(std::string_view line, RadianceHeader& header) {
     const auto malformed = [&] {
         fail(fmt::format("resolution \"{}\" is not like -Y 480 +X 640", oneLine(line, 60)));
     };
@@ -134,9 +131,9 @@ void readResolution(std::string_view line, Header& header) {
     header.orientation.columns = axes[0] == 'X';
 }
 
-Header readHeader(Cursor& in) {
+RadianceHeader readHeader(Cursor& in) {
     if (in.peek(0) != '#' || in.peek(1) != '?') fail("is not a Radiance picture: it does not begin with #?");
-    Header header;
+    RadianceHeader header;
     in.line();
     for (std::string_view line = in.line(); !line.empty(); line = in.line()) readVariable(line, header);
     readResolution(in.line(), header);
@@ -203,7 +200,7 @@ float decoded(std::uint8_t mantissa, std::uint8_t exponent, double scale) {
 
 Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
     Cursor in(bytes);
-    const Header header = readHeader(in);
+    const RadianceHeader header = readHeader(in);
     const Orientation& order = header.orientation;
     checkImageSize(header.width, header.height, 3 * sizeof(float), most);
     const int lines = order.columns ? header.width : header.height;

@@ -2,6 +2,7 @@
 #include "shared/light/cutoff.h"
 
 #include "shared/contract/constants.h"
+#include "shared/scene/model/luminance.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -15,10 +16,6 @@
 namespace diptych {
 
 namespace {
-
-double luminance(const glm::dvec3& c) {
-    return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));  // Rec.709
-}
 
 // The intensity that a receiver sees from far in the direction of most, W/sr.
 double luminousIntensity(const Light& light) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/light/per_object.h"
 
+#include "shared/scene/model/luminance.h"
+
 #include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,10 +18,6 @@ namespace diptych {
 namespace {
 
 constexpr std::size_t vertexLights = 4;
-
-double luminance(const glm::dvec3& rgb) {
-    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));  // Rec.709
-}
 
 double window(const gpu::Light& light, double distance) {
     const double x = distance * distance * double{light.inverse_range_squared};

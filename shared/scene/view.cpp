@@ -116,7 +116,7 @@ namespace {
 constexpr double defaultFov = glm::radians(60.0);
 constexpr std::string_view accepted = "an index, a name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\"";
 
-[[noreturn]] void fail(std::string_view choice, const std::string& why) {
+[[noreturn]] void failCamera(std::string_view choice, const std::string& why) {
     throw std::runtime_error(fmt::format("--camera \"{}\": {}", choice, why));
 }
 
@@ -219,7 +219,7 @@ std::optional<double> number(std::string_view text) {
 
 double numberOf(std::string_view choice, const std::string& key, std::string_view text) {
     const auto value = number(text);
-    if (!value) fail(choice, fmt::format("{}={} is not a number", key, text));
+    if (!value) failCamera(choice, fmt::format("{}={} is not a number", key, text));
     return *value;
 }
 
@@ -230,7 +230,7 @@ glm::dvec3 pointOf(std::string_view choice, const std::string& key, std::string_
         const std::size_t comma = i < 2 ? rest.find(',') : rest.size();
         const auto value = comma == rest.npos ? std::nullopt : number(rest.substr(0, comma));
         if (!value || std::isinf(*value))
-            fail(choice, fmt::format("{}={} is not three finite numbers x,y,z", key, text));
+            failCamera(choice, fmt::format("{}={} is not three finite numbers x,y,z", key, text));
         point[i] = *value;
         if (i < 2) rest.remove_prefix(comma + 1);
     }
@@ -244,9 +244,9 @@ std::map<std::string, std::string> words(const std::string& choice) {
         const std::size_t end = std::min(choice.find_first_of(" \t", at), choice.size());
         const std::string word = choice.substr(at, end - at);
         const std::size_t equals = word.find('=');
-        if (equals == word.npos) fail(choice, fmt::format("\"{}\" is not key=value", word));
+        if (equals == word.npos) failCamera(choice, fmt::format("\"{}\" is not key=value", word));
         if (!result.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
-            fail(choice, fmt::format("{} is given twice", word.substr(0, equals)));
+            failCamera(choice, fmt::format("{} is given twice", word.substr(0, equals)));
         at = end;
     }
     return result;
@@ -268,16 +268,16 @@ View explicitView(const View& base, const Bounds& bounds, const std::string& cho
         else if (key == "far")
             camera.far = numberOf(choice, key, value);
         else
-            fail(choice, fmt::format("\"{}\" is none of eye, target, fov, near, far", key));
+            failCamera(choice, fmt::format("\"{}\" is none of eye, target, fov, near, far", key));
     }
     if (!(camera.yfov > 0 && camera.yfov < glm::radians(180.0)))
-        fail(choice, "fov must lie between 0 and 180 degrees");
-    if (!(camera.near > 0) || std::isinf(camera.near)) fail(choice, "near must be above 0 and finite");
+        failCamera(choice, "fov must lie between 0 and 180 degrees");
+    if (!(camera.near > 0) || std::isinf(camera.near)) failCamera(choice, "near must be above 0 and finite");
     if (!(camera.far > camera.near))
-        fail(choice, fmt::format("far must be beyond near, which is {:g}", camera.near));
+        failCamera(choice, fmt::format("far must be beyond near, which is {:g}", camera.near));
     view.target_distance = glm::length(eye - target);
     if (!(view.target_distance > 0) || std::isinf(view.target_distance))
-        fail(choice, "eye and target are the same point, or too far apart");
+        failCamera(choice, "eye and target are the same point, or too far apart");
     camera.world_from_camera = lookAt(eye, target);
     return view;
 }
@@ -321,7 +321,7 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
                                  : defaultView(scene, poseAt(scene, 0), bounds, aspect);
         if (!choice.empty()) view = explicitView(view, bounds, choice);
     } else {
-        fail(choice, fmt::format("{}; it takes {}", listOf(pose.cameras), accepted));
+        failCamera(choice, fmt::format("{}; it takes {}", listOf(pose.cameras), accepted));
     }
     view.width = width;
     view.height = height;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int side = 20;
+constexpr int jpegSide = 20;
 
 void appendTo(png_structp png, png_bytep bytes, std::size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
@@ -77,7 +77,7 @@ std::string jpegOf(J_COLOR_SPACE colors, bool progressive) {
     unsigned char* bytes = nullptr;
     unsigned long size = 0;
     jpeg_mem_dest(&jpeg, &bytes, &size);
-    jpeg.image_width = jpeg.image_height = side;
+    jpeg.image_width = jpeg.image_height = jpegSide;
     jpeg.in_color_space = colors;
     jpeg.input_components = colors == JCS_GRAYSCALE ? 1 : colors == JCS_CMYK ? 4 : 3;
     jpeg_set_defaults(&jpeg);
@@ -85,8 +85,8 @@ std::string jpegOf(J_COLOR_SPACE colors, bool progressive) {
     if (progressive) jpeg_simple_progression(&jpeg);
     jpeg.restart_interval = progressive ? 0 : 2;
     jpeg_start_compress(&jpeg, TRUE);
-    std::vector<unsigned char> row(4 * side);
-    for (std::size_t y = 0; y < side; ++y) {
+    std::vector<unsigned char> row(4 * jpegSide);
+    for (std::size_t y = 0; y < jpegSide; ++y) {
         for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<unsigned char>(i * y);
         unsigned char* rows[] = {row.data()};
         jpeg_write_scanlines(&jpeg, rows, 1);

@@ -10,17 +10,17 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int lit = static_cast<int>(gpu::DEBUG_lit), diffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
-              specular = static_cast<int>(gpu::DEBUG_lit_specular);
+constexpr int litDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
+              litSpecular = static_cast<int>(gpu::DEBUG_lit_specular);
 
-Frame draw(Renderer& renderer, Path path, AreaLights how, Assignment assign) {
+Frame drawAreas(Renderer& renderer, Path path, AreaLights how, Assignment assign) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {161, 91};
     settings.path = path;
     settings.assign = assign;
     settings.area_lights = how;
     RenderOptions options;
-    options.channels = {lit, diffuse, specular};
+    options.channels = {lit, litDiffuse, litSpecular};
     options.runs = 0;
     return renderer.draw(settings, options);
 }
@@ -32,12 +32,12 @@ TEST(AreaLightPictures, BothPathsAndEveryListAgree) {
         scene.lights.push_back(light);
     Renderer renderer(device(), scene, pipelines());
     for (const AreaLights how : {AreaLights::ltc, AreaLights::representative}) {
-        const Frame every = draw(renderer, Path::forward_plus, how, Assignment::every);
+        const Frame every = drawAreas(renderer, Path::forward_plus, how, Assignment::every);
         EXPECT_EQ(every.counters.nonfinite_pixels, 0u);
         for (const Path path : {Path::forward_plus, Path::deferred})
             for (const Assignment assign : {Assignment::every, Assignment::clustered, Assignment::tiled}) {
-                const Frame frame = draw(renderer, path, how, assign);
-                for (const int channel : {lit, diffuse, specular})
+                const Frame frame = drawAreas(renderer, path, how, assign);
+                for (const int channel : {lit, litDiffuse, litSpecular})
                     EXPECT_EQ(differingPixels(every.channels.at(channel), frame.channels.at(channel)), 0u)
                         << nameOf(how) << ", " << nameOf(path) << ", " << nameOf(assign) << ", "
                         << debugMode(channel).name;
@@ -62,23 +62,24 @@ double meanError(const Frame& referenceFrame, const Frame& frame, int channel) {
 TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Scene scene = loadScene("builtin:areas");
     Renderer renderer(device(), scene, pipelines());
-    const Frame referenceFrame = draw(renderer, Path::reference, AreaLights::ltc, Assignment::every);
-    const Frame ltc = draw(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
-    const Frame points = draw(renderer, Path::deferred, AreaLights::representative, Assignment::every);
-    EXPECT_LT(meanError(referenceFrame, ltc, diffuse), 0.01);
-    EXPECT_LT(meanError(referenceFrame, ltc, specular), 0.17);
-    EXPECT_GT(meanError(referenceFrame, points, diffuse), 10 * meanError(referenceFrame, ltc, diffuse));
-    EXPECT_GT(meanError(referenceFrame, points, specular), 2 * meanError(referenceFrame, ltc, specular));
-    RecordProperty("ltc_specular", std::to_string(meanError(referenceFrame, ltc, specular)));
-    RecordProperty("ltc_diffuse", std::to_string(meanError(referenceFrame, ltc, diffuse)));
+    const Frame referenceFrame = drawAreas(renderer, Path::reference, AreaLights::ltc, Assignment::every);
+    const Frame ltc = drawAreas(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
+    const Frame points = drawAreas(renderer, Path::deferred, AreaLights::representative, Assignment::every);
+    EXPECT_LT(meanError(referenceFrame, ltc, litDiffuse), 0.01);
+    EXPECT_LT(meanError(referenceFrame, ltc, litSpecular), 0.17);
+    EXPECT_GT(meanError(referenceFrame, points, litDiffuse), 10 * meanError(referenceFrame, ltc, litDiffuse));
+    EXPECT_GT(meanError(referenceFrame, points, litSpecular),
+              2 * meanError(referenceFrame, ltc, litSpecular));
+    RecordProperty("ltc_specular", std::to_string(meanError(referenceFrame, ltc, litSpecular)));
+    RecordProperty("ltc_diffuse", std::to_string(meanError(referenceFrame, ltc, litDiffuse)));
 }
 
 // A scene without area lights gives the same bits with either setting.
 TEST(AreaLightPictures, TheWayChangesNothingWithoutThem) {
     const Scene scene = loadScene("builtin:points");
     Renderer renderer(device(), scene, pipelines());
-    const Frame a = draw(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
-    const Frame b = draw(renderer, Path::deferred, AreaLights::representative, Assignment::every);
+    const Frame a = drawAreas(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
+    const Frame b = drawAreas(renderer, Path::deferred, AreaLights::representative, Assignment::every);
     EXPECT_EQ(differingPixels(a.channels.at(lit), b.channels.at(lit)), 0u);
 }
 

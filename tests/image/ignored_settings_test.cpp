@@ -7,8 +7,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
-
 Image litOf(Renderer& renderer, const Settings& settings) {
     RenderOptions options;
     options.channels = {lit};

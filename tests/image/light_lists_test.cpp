@@ -17,7 +17,7 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int lit = static_cast<int>(gpu::DEBUG_lit), lightCount = static_cast<int>(gpu::DEBUG_light_count),
+constexpr int lightCount = static_cast<int>(gpu::DEBUG_light_count),
               listOverflow = static_cast<int>(gpu::DEBUG_list_overflow);
 
 RenderOptions untimed(std::vector<int> channels = {lit}) {

@@ -26,6 +26,8 @@
 
 namespace diptych::tests {
 
+inline constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
+
 // Under the Khronos validation layers, so that whatever a test draws is validated too and no pipeline is
 // compiled twice, for pictures and for validation. validation_test.cpp fails a process that has had a
 // message.

@@ -10,8 +10,7 @@
 
 namespace diptych::tests {
 
-constexpr int lit = 0, albedo = 1, normals = 2, metallic = 3, roughness = 4, emission = 5, occlusion = 6,
-              specular = 7;
+constexpr int albedo = 1, normals = 2, metallic = 3, roughness = 4, emission = 5, occlusion = 6, specular = 7;
 
 // Corners (-1, -1) to (1, 1) in z = 0, uv (0, 0) at the top left; camera at (0, 0, 1), 90 degrees.
 inline Scene square() {

@@ -23,7 +23,7 @@ constexpr std::array sizes{0.3, 1.0};
 
 // Errors of the light's specular reflection, relative to that of a sky of the same radiance, so that a light
 // counts by its apparent size.
-struct Case {
+struct AreaCase {
     LightKind kind;
     double roughness, angle, distance, size;
     std::array<double, 2> reference, ltc, points;
@@ -45,8 +45,8 @@ std::vector<Light> placesOf(LightKind kind, double angle, double distance, doubl
     return lights;
 }
 
-std::vector<Case> measured(Probes& probes) {
-    std::vector<Case> cases;
+std::vector<AreaCase> measured(Probes& probes) {
+    std::vector<AreaCase> cases;
     std::vector<float> input;
     for (const LightKind kind : {LightKind::rect, LightKind::disc, LightKind::tube})
         for (const double roughness : roughnesses)
@@ -56,8 +56,8 @@ std::vector<Case> measured(Probes& probes) {
                         for (const Light& light : placesOf(kind, angle, distance, size)) {
                             const Receiver r{.roughness = roughness, .to_viewer = viewAt(angle)};
                             pushArea(input, light, r);
-                            Case c{kind, roughness, angle, distance, size, referenceArea(light, r),
-                                   {},   {},        0};
+                            AreaCase c{kind, roughness, angle, distance, size, referenceArea(light, r),
+                                       {},   {},        0};
                             c.sky = double{ltcTable().at(roughness, r.nDotV()).magnitude};
                             cases.push_back(c);
                         }
@@ -70,7 +70,7 @@ std::vector<Case> measured(Probes& probes) {
 struct Figures {
     double reference = 0, ltc = 0, ltc_most = 0, points = 0, points_most = 0;
     int count = 0;
-    void add(const Case& c) {
+    void add(const AreaCase& c) {
         const double a = std::abs(c.ltc[1] - c.reference[1]), b = std::abs(c.points[1] - c.reference[1]);
         reference += c.reference[1], ltc += a, points += b, ++count;
         ltc_most = std::max(ltc_most, a / c.sky), points_most = std::max(points_most, b / c.sky);
@@ -82,9 +82,9 @@ struct Figures {
 };
 
 template <class Key>
-std::string tableOf(const std::vector<Case>& cases, const char* name, const Key& key) {
+std::string tableOf(const std::vector<AreaCase>& cases, const char* name, const Key& key) {
     std::map<std::string, Figures> rows;
-    for (const Case& c : cases) rows[key(c)].add(c);
+    for (const AreaCase& c : cases) rows[key(c)].add(c);
     std::string text =
         fmt::format("| {} | ltc: mean | most | representative: mean | most |\n|---|---|---|---|---|\n", name);
     for (const auto& [label, figures] : rows) text += fmt::format("| {} | {} |\n", label, figures.row());
@@ -96,9 +96,9 @@ std::string tableOf(const std::vector<Case>& cases, const char* name, const Key&
 // half floats add up to 2 %.
 TEST(AreaError, IsBoundedByTheFit) {
     Probes probes;
-    const std::vector<Case> cases = measured(probes);
+    const std::vector<AreaCase> cases = measured(probes);
     Figures all;
-    for (const Case& c : cases) {
+    for (const AreaCase& c : cases) {
         const LtcCell cell = ltcTable().at(c.roughness, std::cos(c.angle * reference::pi / 180));
         EXPECT_LE(std::abs(c.ltc[1] - c.reference[1]) / c.sky, 0.5 * double{cell.error} + 0.02)
             << static_cast<int>(c.kind) << " roughness " << c.roughness << " angle " << c.angle
@@ -108,15 +108,15 @@ TEST(AreaError, IsBoundedByTheFit) {
     EXPECT_LT(all.ltc, 0.5 * all.points)
         << "a representative point is as good: the table is not worth its while";
     std::string text;
-    const auto kindOf = [](const Case& c) {
+    const auto kindOf = [](const AreaCase& c) {
         return std::string(c.kind == LightKind::rect ? "rect" : c.kind == LightKind::disc ? "disc" : "tube");
     };
-    text += tableOf(cases, "roughness", [](const Case& c) { return fmt::format("{:.2f}", c.roughness); });
-    text += tableOf(cases, "angle", [](const Case& c) { return fmt::format("{:.0f}", c.angle); });
-    text += tableOf(cases, "distance", [](const Case& c) { return fmt::format("{:.1f} m", c.distance); });
+    text += tableOf(cases, "roughness", [](const AreaCase& c) { return fmt::format("{:.2f}", c.roughness); });
+    text += tableOf(cases, "angle", [](const AreaCase& c) { return fmt::format("{:.0f}", c.angle); });
+    text += tableOf(cases, "distance", [](const AreaCase& c) { return fmt::format("{:.1f} m", c.distance); });
     text += tableOf(cases, "shape", kindOf);
     text += tableOf(cases, "roughness, angle",
-                    [](const Case& c) { return fmt::format("{:.2f}, {:.0f}", c.roughness, c.angle); });
+                    [](const AreaCase& c) { return fmt::format("{:.2f}, {:.0f}", c.roughness, c.angle); });
     if (const char* file = std::getenv("DIPTYCH_AREA_TABLE")) std::ofstream(file) << text;
 }
 

@@ -23,17 +23,17 @@
 namespace diptych {
 namespace {
 
-struct Case {
+struct CullCase {
     LitRegion region;
     Cell cell;
 };
 
-std::vector<Case> randomCases(std::size_t count, bool spots, unsigned seed) {
+std::vector<CullCase> randomCases(std::size_t count, bool spots, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
-    std::vector<Case> cases;
+    std::vector<CullCase> cases;
     while (cases.size() < count) {
-        Case c;
+        CullCase c;
         const double depth = std::pow(10.0, 3 * unit(random) - 1),
                      thick = 1 + std::pow(10.0, 2 * unit(random) - 2);
         c.cell.z = {unit(random) < 0.1 ? 0.0 : depth, depth * thick};
@@ -63,12 +63,12 @@ std::vector<Case> randomCases(std::size_t count, bool spots, unsigned seed) {
 }
 
 // Tiny cells just within the lit region: at the rim of a cone's cap, on its side, on a sphere's surface.
-std::vector<Case> edgeCases(std::size_t count, bool spots, unsigned seed) {
+std::vector<CullCase> edgeCases(std::size_t count, bool spots, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
-    std::vector<Case> cases;
+    std::vector<CullCase> cases;
     while (cases.size() < count) {
-        Case c;
+        CullCase c;
         const double depth = std::pow(10.0, 2 * unit(random));
         const glm::dvec3 p(both(random) * depth, both(random) * depth, depth);
         c.region.range = static_cast<double>(static_cast<float>(depth * (0.1 + unit(random))));
@@ -101,9 +101,9 @@ std::vector<Case> edgeCases(std::size_t count, bool spots, unsigned seed) {
 }
 
 // Bounds as the program makes them: view axes are those of the world with y and z inverted.
-std::vector<gpu::LightBound> boundsOf(const std::vector<Case>& cases, bool spots) {
+std::vector<gpu::LightBound> boundsOf(const std::vector<CullCase>& cases, bool spots) {
     std::vector<Light> lights;
-    for (const Case& c : cases) {
+    for (const CullCase& c : cases) {
         Light light;
         light.kind = spots ? LightKind::spot : LightKind::point;
         light.position = {c.region.apex.x, -c.region.apex.y, -c.region.apex.z};
@@ -124,7 +124,7 @@ struct Answer {
     bool sphere, cone, row;
 };
 
-std::vector<Answer> ask(Probes& probes, const std::vector<Case>& cases, bool spots, Shrunk shrunk) {
+std::vector<Answer> ask(Probes& probes, const std::vector<CullCase>& cases, bool spots, Shrunk shrunk) {
     const std::vector<gpu::LightBound> bounds = boundsOf(cases, spots);
     std::vector<float> input;
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -160,8 +160,8 @@ struct Tally {
 };
 
 Tally tally(Probes& probes, bool spots, Shrunk shrunk, unsigned seed) {
-    std::vector<Case> cases = randomCases(spots ? 10000 : 20000, spots, seed);
-    for (const Case& c : edgeCases(4000, spots, seed)) cases.push_back(c);
+    std::vector<CullCase> cases = randomCases(spots ? 10000 : 20000, spots, seed);
+    for (const CullCase& c : edgeCases(4000, spots, seed)) cases.push_back(c);
     const std::vector<Answer> answers = ask(probes, cases, spots, shrunk);
     Tally t;
     for (std::size_t i = 0; i < cases.size(); ++i) {

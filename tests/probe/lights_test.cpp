@@ -13,13 +13,13 @@
 namespace diptych {
 namespace {
 
-struct Case {
+struct PointCase {
     double x, y, z, range, axis_x, axis_y, axis_z, scale, offset;
 };
 
-std::vector<float> evaluate(Probes& probes, const std::vector<Case>& cases) {
+std::vector<float> evaluate(Probes& probes, const std::vector<PointCase>& cases) {
     std::vector<float> input;
-    for (const Case& c : cases)
+    for (const PointCase& c : cases)
         for (const double value :
              {c.x, c.y, c.z, static_cast<double>(inverseSquaredRange(static_cast<float>(c.range))), c.axis_x,
               c.axis_y, c.axis_z, c.scale, c.offset})
@@ -31,7 +31,7 @@ TEST(Lights, FalloffIsTheSpecificationsFormula) {
     Probes probes;
     std::mt19937 random(4);
     std::uniform_real_distribution<double> distance(0.01, 9.9);
-    std::vector<Case> cases;
+    std::vector<PointCase> cases;
     for (int i = 0; i < 2000; ++i) cases.push_back({0, distance(random), 0, 10, 0, -1, 0, 0, 1});
     const std::vector<float> out = evaluate(probes, cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -45,7 +45,7 @@ TEST(Lights, FalloffIsTheSpecificationsFormula) {
 
 TEST(Lights, IsExactlyZeroAtTheRangeAndBeyond) {
     Probes probes;
-    std::vector<Case> cases;
+    std::vector<PointCase> cases;
     for (const double range : {0.37, 1.0, 3.0, 10.0, 1e6}) {
         const auto r = static_cast<double>(static_cast<float>(range));
         cases.push_back({r, 0, 0, r, 0, -1, 0, 0, 1});
@@ -80,7 +80,7 @@ TEST(Lights, SpotConeIsTheSpecificationsFormula) {
     const double inner = 0.3, outer = 0.6;
     const double scale = 1 / std::max(0.001, std::cos(inner) - std::cos(outer)),
                  offset = -std::cos(outer) * scale;
-    std::vector<Case> cases;
+    std::vector<PointCase> cases;
     for (int i = 0; i <= 100; ++i) {
         const double angle = 0.01 * i;  // the light above shines down; the surface moves away from its axis
         cases.push_back({std::sin(angle), std::cos(angle), 0, std::numeric_limits<double>::infinity(), 0, -1,

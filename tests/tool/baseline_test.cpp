@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string small = "compare builtin:points --size 32x18 --runs 0 --channels lit,normals -q ";
+const std::string comparePoints = "compare builtin:points --size 32x18 --runs 0 --channels lit,normals -q ";
 
 Json reportIn(const Folder& folder) {
     return Json::parse(contentsOf(folder / "diptych-report" / "report.json"));
@@ -24,7 +24,7 @@ TEST(Baseline, IsWrittenComparedAndRenewed) {
     EXPECT_NE(ran.err.find("baseline b.exr written from forward_plus"), std::string::npos) << ran.err;
     const std::string first = contentsOf(folder / "b.exr");
 
-    ran = runTool(folder, small + "--baseline b.exr");
+    ran = runTool(folder, comparePoints + "--baseline b.exr");
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
     Json report = reportIn(folder);
     EXPECT_EQ(report["said_first"], Json::array()) << "same commit, device, driver, scene and Settings";
@@ -41,20 +41,22 @@ TEST(Baseline, IsWrittenComparedAndRenewed) {
     EXPECT_EQ(ran.code, 1);
     EXPECT_EQ(ran.out.find("baseline: other Settings: lights \"\" (now \"point:2\")"), 0u) << ran.out;
 
-    ran = runTool(folder, small + "--baseline b.exr --lights point:2 --update-baseline");
+    ran = runTool(folder, comparePoints + "--baseline b.exr --lights point:2 --update-baseline");
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(contentsOf(folder / "b.exr.old"), first) << "the old one stays";
     EXPECT_NE(contentsOf(folder / "b.exr"), first);
-    EXPECT_EQ(runTool(folder, small + "--baseline b.exr --lights point:2").code, 0);
+    EXPECT_EQ(runTool(folder, comparePoints + "--baseline b.exr --lights point:2").code, 0);
 }
 
 // The G-buffer's encoding does not explain a light that has moved, whichever path the baseline is of.
 TEST(Baseline, AChangeOfTheLightFailsInEveryRow) {
     for (const std::string path : {"forward_plus", "deferred"}) {
         const Folder folder;
-        ASSERT_EQ(runTool(folder, small + "--path " + path + " --baseline b.exr --update-baseline").code, 0);
-        ASSERT_EQ(runTool(folder, small + "--baseline b.exr").code, 0) << path;
-        EXPECT_EQ(runTool(folder, small + "--baseline b.exr --lights point:2").code, 1);
+        ASSERT_EQ(
+            runTool(folder, comparePoints + "--path " + path + " --baseline b.exr --update-baseline").code,
+            0);
+        ASSERT_EQ(runTool(folder, comparePoints + "--baseline b.exr").code, 0) << path;
+        EXPECT_EQ(runTool(folder, comparePoints + "--baseline b.exr --lights point:2").code, 1);
         const Json report = reportIn(folder);
         for (const std::size_t row : {0u, 1u})
             EXPECT_EQ(report["comparisons"][row]["channels"][0]["verdict"], "fail") << path << " " << row;
@@ -77,17 +79,17 @@ TEST(Baseline, OfAnotherRendererNeedsARule) {
     EXPECT_EQ(ran.out.find("baseline: not written by diptych"), 0u) << ran.out;
     EXPECT_NE(ran.out.find("no bound is known between these two paths"), std::string::npos) << ran.out;
     folder.write("t.json", R"({"rules": [{"channel": "lit", "flip": 0.05, "because": "another renderer"}]})");
-    ran = runTool(folder, small + "--baseline theirs.exr --tolerances t.json");
+    ran = runTool(folder, comparePoints + "--baseline theirs.exr --tolerances t.json");
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
 }
 
 TEST(Baseline, FaultsAreOneLine) {
     const Folder folder;
-    EXPECT_TRUE(runTool(folder, small + "--baseline none.exr").failedOver("none.exr: no such file"));
+    EXPECT_TRUE(runTool(folder, comparePoints + "--baseline none.exr").failedOver("none.exr: no such file"));
     folder.write("text.exr", "no picture");
-    EXPECT_TRUE(runTool(folder, small + "--baseline text.exr").failedOver("text.exr: "));
+    EXPECT_TRUE(runTool(folder, comparePoints + "--baseline text.exr").failedOver("text.exr: "));
     ASSERT_EQ(runTool(folder, "render builtin:points --size 16x9 --runs 0 -q -o b.exr").code, 0);
-    EXPECT_TRUE(runTool(folder, small + "--baseline b.exr").failedOver("16x9"));
+    EXPECT_TRUE(runTool(folder, comparePoints + "--baseline b.exr").failedOver("16x9"));
     EXPECT_TRUE(runTool(folder, "compare builtin:points builtin:spheres --size 16x9 --baseline b.exr")
                     .failedOver("--baseline b.exr: is one picture"));
     const std::string before = contentsOf(folder / "b.exr");
@@ -102,7 +104,7 @@ TEST(Baseline, FaultsAreOneLine) {
 // Two runs of a path on a CPU device must be identical, otherwise there is a race: compare checks that.
 TEST(Noise, EveryChannelIsDrawnTwice) {
     const Folder folder;
-    ASSERT_EQ(runTool(folder, small).code, 0);
+    ASSERT_EQ(runTool(folder, comparePoints).code, 0);
     for (const Json& frame : reportIn(folder)["frames"]) {
         ASSERT_TRUE(frame["noise"].contains("lit"));
         EXPECT_TRUE(frame["noise"].contains("normals"));
@@ -111,12 +113,13 @@ TEST(Noise, EveryChannelIsDrawnTwice) {
 
 TEST(Selection, CompareKnowsMasksToo) {
     const Folder folder;
-    ASSERT_EQ(runTool(folder, small).code, 0);
+    ASSERT_EQ(runTool(folder, comparePoints).code, 0);
     const int whole = reportIn(folder)["comparisons"][0]["covered_pixels"];
-    ASSERT_EQ(runTool(folder, small + "--crop 12,9,8x8").code, 0);
+    ASSERT_EQ(runTool(folder, comparePoints + "--crop 12,9,8x8").code, 0);
     EXPECT_EQ(reportIn(folder)["comparisons"][0]["covered_pixels"], 64);
-    EXPECT_TRUE(runTool(folder, small + "--crop 30,0,8x8").failedOver("--crop 30,0,8x8: is not inside"));
-    ASSERT_EQ(runTool(folder, small + "--ignore-edges 1").code, 0);
+    EXPECT_TRUE(
+        runTool(folder, comparePoints + "--crop 30,0,8x8").failedOver("--crop 30,0,8x8: is not inside"));
+    ASSERT_EQ(runTool(folder, comparePoints + "--ignore-edges 1").code, 0);
     EXPECT_LT(reportIn(folder)["comparisons"][0]["covered_pixels"], whole);
 }
 

@@ -8,13 +8,13 @@ namespace diptych {
 namespace {
 
 // No time limit, so that a busy machine makes no frame too slow.
-constexpr const char* small =
+constexpr const char* benchGallery =
     "bench builtin:spheres --sizes 32x24,16x12 --assign every --runs 2 --max-ms 1e6 ";
 
 TEST(Bench, LeavesTableJsonPlotAndPage) {
     const Folder folder;
     const Ran ran =
-        runTool(folder, std::string(small) + "--light-counts 1,4,16 --kernels off --json -q -o b");
+        runTool(folder, std::string(benchGallery) + "--light-counts 1,4,16 --kernels off --json -q -o b");
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
     EXPECT_EQ(ran.out, contentsOf(folder / "b/bench.json")) << "--json prints it and nothing else";
@@ -41,9 +41,9 @@ TEST(Bench, LeavesTableJsonPlotAndPage) {
     EXPECT_EQ(lights, (std::set<int>{1, 4, 16}));
     EXPECT_TRUE(bench["kernels"].is_null());
     // A folder of its own may be written again, another one may not.
-    EXPECT_EQ(runTool(folder, std::string(small) + "--kernels off -q -o b").code, 0);
+    EXPECT_EQ(runTool(folder, std::string(benchGallery) + "--kernels off -q -o b").code, 0);
     folder.write("other/note.txt", "mine");
-    EXPECT_TRUE(runTool(folder, std::string(small) + "-o other").failedOver("-o other"));
+    EXPECT_TRUE(runTool(folder, std::string(benchGallery) + "-o other").failedOver("-o other"));
 }
 
 TEST(Bench, SkipsWithAReasonWhatIsNotDrawnOrTooSlow) {

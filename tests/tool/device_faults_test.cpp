@@ -12,23 +12,19 @@ namespace {
 
 #ifdef DIPTYCH_FAULTS
 
-const std::string command = "compare builtin:triangle -q -o r --size 16x9 --runs 1 --channels albedo";
-constexpr int manyCalls = 2000;
-
-constexpr int slice = 4;  // one row in four of every table here; a campaign runs all
-
+const std::string compareTriangle = "compare builtin:triangle -q -o r --size 16x9 --runs 1 --channels albedo";
 // Makes one call after the other fail, until the tool no longer reaches it. Returns the number of calls, as
 // Rows::atMost() expects it.
 int sweep(const std::string& function, VkResult result, const std::string& says, int step = 1) {
     const Folder folder;
-    EXPECT_EQ(runTool(folder, command).code, 0);
+    EXPECT_EQ(runTool(folder, compareTriangle).code, 0);
     const Contents old = contentsBelow(folder / "r");
     const Rows rows(slice);
     int hit = 0;
     for (int row = 0, at = 1; at < manyCalls && !testing::Test::HasFailure();
          row = rows.after(row), at = 1 + row * step) {
         const Faulted ran =
-            runFaulted(folder, command, {function, std::to_string(static_cast<int>(result))}, at);
+            runFaulted(folder, compareTriangle, {function, std::to_string(static_cast<int>(result))}, at);
         if (ran.seen.empty()) return rows.atMost(hit);
         ++hit;
         EXPECT_TRUE(ran.failedOver(says)) << function << " " << at;
@@ -70,7 +66,7 @@ TEST(DeviceFaults, AFeatureThatIsMissingIsNamedAndAnotherDeviceOffered) {
                                         {"scalarBlockLayout", "scalar block layout"},
                                         {"fullDrawIndexUint32", "32-bit indices"}}) {
         const Fault fault{"features", feature};
-        const Faulted ran = runFaulted(folder, command, fault, 1);
+        const Faulted ran = runFaulted(folder, compareTriangle, fault, 1);
         EXPECT_TRUE(ran.failedOver("lacks " + std::string(says) + "; choose another with --device"))
             << ran.err;
         EXPECT_FALSE(fs::exists(folder / "r"));
@@ -82,19 +78,19 @@ TEST(DeviceFaults, AFeatureThatIsMissingIsNamedAndAnotherDeviceOffered) {
 // All large allocations of this program and of its libraries. Smaller ones are too many to fail one by one.
 TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
     const Folder folder;
-    ASSERT_EQ(runTool(folder, command).code, 0);
+    ASSERT_EQ(runTool(folder, compareTriangle).code, 0);
     const Contents old = contentsBelow(folder / "r");
     const Rows rows(slice);
     int failed = 0;
     for (int row = 0, at = 1;; row = rows.after(row), at = 1 + 7 * row) {
         ASSERT_LT(at, manyCalls);
-        const Faulted ran = runFaulted(folder, command, {"memory", "12", false, 4096}, at);
+        const Faulted ran = runFaulted(folder, compareTriangle, {"memory", "12", false, 4096}, at);
         EXPECT_TRUE(leftoversIn(folder.path()).empty()) << at << " " << ran.err;
         if (ran.seen.empty()) break;
         if (ran.code == 0) {
             // The library managed with less memory.
             fs::remove_all(folder / "r");
-            ASSERT_EQ(runTool(folder, command).code, 0);
+            ASSERT_EQ(runTool(folder, compareTriangle).code, 0);
             continue;
         }
         ++failed;

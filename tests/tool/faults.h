@@ -10,6 +10,10 @@
 
 namespace diptych {
 
+inline constexpr int manyCalls =
+    5000;                        // more than any command of these tests makes: a sweep that reaches it hangs
+inline constexpr int slice = 6;  // one row in six of every table of calls; a campaign runs all
+
 // All files, folders and links below a folder, by path, with their contents.
 using Contents = std::map<std::string, std::string>;
 

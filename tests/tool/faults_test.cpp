@@ -16,8 +16,7 @@ TEST(Faults, NeedABuildWithoutSanitizers) {
 }
 #else
 
-const std::string small = " builtin:triangle -q --size 16x9 --runs 0 --channels ";
-constexpr int manyCalls = 5000;  // more than any of these commands makes: a sweep that reaches it hangs
+const std::string ofTriangle = " builtin:triangle -q --size 16x9 --runs 0 --channels ";
 
 Ran runWriter(const Folder& folder, const std::string& arguments) {
     return runShell(folder, "'" DIPTYCH_WRITER "' " + arguments, folder.path());
@@ -63,8 +62,6 @@ private:
     const Folder& folder_;
     Contents old_, new_;
 };
-
-constexpr int slice = 4;  // one row in four of every table here
 
 // Makes one call after the other fail, until none is left; returns how many ended in exit code 2, as
 // Rows::atMost() expects it. `step`: only every step-th call.
@@ -163,12 +160,12 @@ TEST(Faults, AKillBesideFilesOfOthersIsMadeGoodByTheNextRun) {
 // The tool itself, including device and main().
 TEST(Faults, TheToolSaysItInOneLine) {
     const Folder folder;
-    ASSERT_EQ(runTool(folder, "compare -o r" + small + "albedo").code, 0);
+    ASSERT_EQ(runTool(folder, "compare -o r" + ofTriangle + "albedo").code, 0);
     const Contents old = contentsBelow(folder / "r");
     const Rows rows(slice);
     for (int row = 0, at = 1;; row = rows.after(row), at = 1 + 5 * row) {
         ASSERT_LT(at, manyCalls);
-        const Faulted ran = runFaulted(folder, "compare -o r" + small + "normals",
+        const Faulted ran = runFaulted(folder, "compare -o r" + ofTriangle + "normals",
                                        {"create,close", std::to_string(ENOSPC)}, at);
         if (ran.seen.empty()) break;
         EXPECT_TRUE(ran.failedOver("No space left on device")) << at << " " << ran.seen;
@@ -220,7 +217,7 @@ TEST(Faults, SeveralFramesBesideFilesOfOthersAreReplacedTogether) {
 
 TEST(Faults, ASingleFileIsOldOrNew) {
     const Folder folder;
-    ASSERT_EQ(runTool(folder, "render -o saved.exr" + small + "albedo").code, 0);
+    ASSERT_EQ(runTool(folder, "render -o saved.exr" + ofTriangle + "albedo").code, 0);
     const std::string old = contentsOf(folder / "saved.exr");
     const Rows rows(slice);
     for (const Fault& fault :
@@ -229,7 +226,7 @@ TEST(Faults, ASingleFileIsOldOrNew) {
         for (int row = 0, at = 1;; row = rows.after(row), at = 1 + row) {
             ASSERT_LT(at, manyCalls);
             fs::copy_file(folder / "saved.exr", folder / "a.exr", fs::copy_options::overwrite_existing);
-            const Faulted ran = runFaulted(folder, "render -o a.exr" + small + "normals", fault, at);
+            const Faulted ran = runFaulted(folder, "render -o a.exr" + ofTriangle + "normals", fault, at);
             if (ran.seen.empty()) break;
             ++hit;
             EXPECT_EQ(contentsOf(folder / "a.exr"), old) << at << " " << ran.seen;
@@ -246,7 +243,7 @@ TEST(Faults, ASingleFileIsOldOrNew) {
 // While a baseline is replaced it has three names: the file, FILE.old and the temporary that is written.
 TEST(Faults, ABaselineIsNeverLost) {
     const Folder folder;
-    ASSERT_EQ(runTool(folder, "render --path deferred -o base.exr" + small + "albedo").code, 0);
+    ASSERT_EQ(runTool(folder, "render --path deferred -o base.exr" + ofTriangle + "albedo").code, 0);
     const std::string old = contentsOf(folder / "base.exr");
     const Rows rows(slice);
     int hit = 0;
@@ -257,7 +254,7 @@ TEST(Faults, ABaselineIsNeverLost) {
             fs::remove_all(folder / "r");
             folder.write("base.exr", old);
             const Faulted ran = runFaulted(
-                folder, "compare -o r --baseline base.exr --update-baseline" + small + "albedo,normals",
+                folder, "compare -o r --baseline base.exr --update-baseline" + ofTriangle + "albedo,normals",
                 {calls, "kill"}, at);
             if (ran.seen.empty()) break;
             ++hit;

@@ -72,7 +72,7 @@ Json byATarget() {
 }
 
 // The covered pixel of 5 x 5, each a metre wide in the triangle's plane.
-const std::string seen =
+const std::string posedView =
     " --size 5x5 --camera 'eye=0,0,10 target=0,0,0 fov=28.072486935852957' --channels material_id";
 const std::string reference = " --path reference --reference-mode scene";
 
@@ -94,8 +94,8 @@ TEST(Motion, TheReferenceDrawsItWhereItIsAtATime) {
         for (const auto& [time, columns] :
              {std::pair{"0", "01000"}, {"1", "00100"}, {"2", "00010"}, {"9", "00010"}}) {
             const std::string file = scene + time + ".exr";
-            const Ran ran = runTool(
-                folder, "render " + scene + ".gltf" + seen + reference + " --time " + time + " -o " + file);
+            const Ran ran = runTool(folder, "render " + scene + ".gltf" + posedView + reference + " --time " +
+                                                time + " -o " + file);
             ASSERT_EQ(ran.code, 0) << ran.err;
             EXPECT_EQ(columnsIn(folder / file), columns) << scene << " at " << time << " s";
         }
@@ -116,19 +116,19 @@ TEST(Motion, ThePathsDrawTheStartAndSayWhatTheyLeave) {
     folder.write("target.gltf", target.dump());
     for (const std::string path : {"deferred", "forward_plus"}) {
         ASSERT_EQ(
-            runTool(folder, "render node.gltf --runs 0" + seen + " --path " + path + " -o n.exr --force")
+            runTool(folder, "render node.gltf --runs 0" + posedView + " --path " + path + " -o n.exr --force")
                 .code,
             0);
         EXPECT_EQ(columnsIn(folder / "n.exr"), "00010") << path;
-        const Ran ran =
-            runTool(folder, "render target.gltf --runs 0" + seen + " --path " + path + " -o t.exr --force");
+        const Ran ran = runTool(
+            folder, "render target.gltf --runs 0" + posedView + " --path " + path + " -o t.exr --force");
         ASSERT_EQ(ran.code, 0) << ran.err;
         EXPECT_EQ(columnsIn(folder / "t.exr"), "01000") << path;
         EXPECT_NE((ran.out + ran.err).find("1 morphed mesh: drawn undeformed by " + path + " yet"),
                   std::string::npos)
             << ran.out << ran.err;
     }
-    const Ran ran = runTool(folder, "render target.gltf" + seen + reference + " -o r.exr");
+    const Ran ran = runTool(folder, "render target.gltf" + posedView + reference + " -o r.exr");
     EXPECT_EQ(columnsIn(folder / "r.exr"), "00010") << ran.err;
     EXPECT_EQ((ran.out + ran.err).find("undeformed"), std::string::npos) << ran.out << ran.err;
     const Ran plan = runTool(folder, "plan target.gltf");

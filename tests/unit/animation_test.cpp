@@ -35,7 +35,7 @@ double degreesAboutZ(const std::vector<double>& q) {
     return 2 * std::atan2(q[2], q[3]) / degree;
 }
 template <class T>
-std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
+std::vector<T> appended(std::vector<T> a, const std::vector<T>& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
 }
@@ -67,19 +67,19 @@ TEST(Animation, LinearBetweenKeysAndClampedBeyond) {
 
 // Interpolating the quaternions linearly and normalising would give 26.6 degrees after a third of 0 to 90.
 TEST(Animation, RotationsTurnEvenly) {
-    const Keyframes k = keys(Interpolation::linear, {0, 3}, joined(turn(0), turn(90)), 4);
+    const Keyframes k = keys(Interpolation::linear, {0, 3}, appended(turn(0), turn(90)), 4);
     for (const double t : {0.0, 0.5, 1.0, 2.0, 3.0, 4.0})
         EXPECT_NEAR(degreesAboutZ(sampled(k, rotation, t)), 30 * std::min(t, 3.0), floatTurn) << t;
     const Keyframes tiny = keys(Interpolation::linear, {0, 1}, {0, 0, 0, 1, 0, 0, 1e-10f, 1}, 4);
     EXPECT_NEAR(sampled(tiny, rotation, 0.25)[2], 0.25e-10, 1e-17) << "an angle that an arc cosine loses";
-    const Keyframes none = keys(Interpolation::linear, {0, 1}, joined(turn(40), turn(40)), 4);
+    const Keyframes none = keys(Interpolation::linear, {0, 1}, appended(turn(40), turn(40)), 4);
     EXPECT_NEAR(degreesAboutZ(sampled(none, rotation, 0.5)), 40, floatTurn);
 }
 
 // -q is the same rotation as q: from 350 to 370 degrees is a rotation by 20, whichever sign the file has.
 TEST(Animation, RotationsTakeTheShorterWay) {
     for (const double to : {10.0, 370.0}) {
-        const Keyframes k = keys(Interpolation::linear, {0, 1}, joined(turn(-10), turn(to)), 4);
+        const Keyframes k = keys(Interpolation::linear, {0, 1}, appended(turn(-10), turn(to)), 4);
         EXPECT_NEAR(degreesAboutZ(sampled(k, rotation, 0.75)), 5, floatTurn) << to;
     }
 }
@@ -101,8 +101,8 @@ TEST(Animation, CubicSplinesScaleTheirTangentsByTheInterval) {
 
 TEST(Animation, CubicSplinesOfRotationsAreMadeUnit) {
     const std::vector<float> flat(4, 0);
-    std::vector<float> values = joined(joined(flat, turn(0)), flat);
-    values = joined(joined(joined(values, flat), turn(120)), flat);
+    std::vector<float> values = appended(appended(flat, turn(0)), flat);
+    values = appended(appended(appended(values, flat), turn(120)), flat);
     Keyframes k = keys(Interpolation::cubic_spline, {0, 1}, values, 4);
     EXPECT_NEAR(degreesAboutZ(sampled(k, rotation, 0.5)), 60, floatTurn);
     // A quaternion of length 2 in the file gives the same rotation at the key.
@@ -145,7 +145,7 @@ void expectNear(const glm::dvec3& got, const glm::dvec3& expected, double tolera
 // parents.
 TEST(Animation, NodesMoveWithTheirParents) {
     MovedFile f;
-    f.channel(0, "rotation", joined(turn(0), turn(90)), "VEC4", 4);
+    f.channel(0, "rotation", appended(turn(0), turn(90)), "VEC4", 4);
     f.channel(1, "translation", {1, 0, 0, 3, 0, 0}, "VEC3", 3);
     const Scene scene = f.load();
     EXPECT_EQ(placeOf(scene, 0, {0, 1, 0}), glm::dvec3(1, 12, 0));

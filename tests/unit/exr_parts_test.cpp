@@ -17,14 +17,14 @@ namespace {
 using namespace std::string_literals;
 using Names = std::vector<std::string>;
 
-PictureFile read(const std::string& file, std::string_view part = {},
-                 std::uint64_t most = limits::imageBytes()) {
+PictureFile partsOf(const std::string& file, std::string_view part = {},
+                    std::uint64_t most = limits::imageBytes()) {
     return readExr(std::as_bytes(std::span(file)), "a.exr", most, part);
 }
-std::string faultOf(const std::string& file, std::string_view part = {},
-                    std::uint64_t most = limits::imageBytes()) {
+std::string partFault(const std::string& file, std::string_view part = {},
+                      std::uint64_t most = limits::imageBytes()) {
     try {
-        read(file, part, most);
+        partsOf(file, part, most);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -66,12 +66,12 @@ const MadePart color{"beauty",
                       {"albedo.red", Imf::FLOAT}}};
 const MadePart normals{"normals",
                        {{"normals.X", Imf::FLOAT}, {"normals.Y", Imf::HALF}, {"normals.Z", Imf::FLOAT}}};
-const MadePart ids{"ids", {{"material", Imf::UINT}, {"object", Imf::UINT}}};
+const MadePart idsPart{"ids", {{"material", Imf::UINT}, {"object", Imf::UINT}}};
 
 TEST(ExrParts, EveryPartIsReadAndItsLayersAreNamedByBoth) {
     MadePart tiled = normals;
     tiled.tile = 4;
-    const PictureFile file = read(exrOf({color, tiled, ids}));
+    const PictureFile file = partsOf(exrOf({color, tiled, idsPart}));
     EXPECT_EQ(file.format, "OpenEXR");
     EXPECT_EQ(file.width, 9);
     EXPECT_EQ(file.height, 6);
@@ -101,11 +101,11 @@ TEST(ExrParts, EveryCompressionInLinesAndTilesOfSeveralParts) {
           Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION})
         for (const int tile : {0, 4}) {
             SCOPED_TRACE(testing::Message() << "compression " << compression << ", tiles of " << tile);
-            MadePart first = color, second = ids;
+            MadePart first = color, second = idsPart;
             first.compression = second.compression = compression;
             first.tile = tile;
             first.data = second.data = first.display = second.display = box(0, 0, 20, 40);
-            const PictureFile file = read(exrOf({first, second}));
+            const PictureFile file = partsOf(exrOf({first, second}));
             ASSERT_EQ(file.layers.size(), 3u);
             expectMade(file.layers[0], 0, {3, 2, 1, 0}, first.data, first.data);
             expectMade(file.layers[2], 1, {0, 1}, first.data, first.data);
@@ -117,12 +117,12 @@ TEST(ExrParts, LevelZeroOfMipAndRipMaps) {
         MadePart tiled = normals;
         tiled.tile = 4;
         tiled.levels = levels;
-        const PictureFile file = read(exrOf({color, tiled}));
+        const PictureFile file = partsOf(exrOf({color, tiled}));
         expectMade(file.layers[2], 1, {0, 1, 2}, tiled.data, tiled.data);
         EXPECT_EQ(file.notes, Names{levels == Imf::MIPMAP_LEVELS
                                         ? "part \"normals\" is mip-mapped: its largest level is read"
                                         : "part \"normals\" is rip-mapped: its largest level is read"});
-        EXPECT_EQ(read(exrOf({tiled})).notes,
+        EXPECT_EQ(partsOf(exrOf({tiled})).notes,
                   Names{levels == Imf::MIPMAP_LEVELS ? "is mip-mapped: its largest level is read"
                                                      : "is rip-mapped: its largest level is read"});
     }
@@ -133,11 +133,11 @@ TEST(ExrParts, DataWindowsOfTheirOwn) {
     const Imath::Box2i display = box(-3, -2, 6, 5);
     for (const Imath::Box2i& data :
          {box(-1, 0, 2, 3), box(-7, -9, -2, 1), box(-5, -4, 9, 8), box(40, 40, 44, 44), display}) {
-        MadePart first = color, second = ids;
+        MadePart first = color, second = idsPart;
         first.display = second.display = display;
         first.data = data;
         second.data = box(0, 0, 1, 1);
-        const PictureFile file = read(exrOf({first, second}));
+        const PictureFile file = partsOf(exrOf({first, second}));
         ASSERT_EQ(file.layers.size(), 3u);
         expectMade(file.layers[0], 0, {3, 2, 1, 0}, data, display);
         expectMade(file.layers[2], 1, {0, 1}, second.data, display);
@@ -145,18 +145,18 @@ TEST(ExrParts, DataWindowsOfTheirOwn) {
 }
 
 TEST(ExrParts, OneAskedForIsAsTheOnlyOne) {
-    MadePart deep = ids;
+    MadePart deep = idsPart;
     deep.deep = true;
     deep.compression = Imf::ZIPS_COMPRESSION;
     const std::string file = exrOf({color, normals, deep});
-    EXPECT_EQ(faultOf(file), "a.exr: part \"ids\": holds deep samples, which are not read");
-    const PictureFile asked = read(file, "beauty");
+    EXPECT_EQ(partFault(file), "a.exr: part \"ids\": holds deep samples, which are not read");
+    const PictureFile asked = partsOf(file, "beauty");
     EXPECT_EQ(layerNames(asked), (Names{"", "albedo"}));
     EXPECT_EQ(asked.layers[0].channels, (Names{"R", "G", "B", "A"}));
     expectMade(asked.layers[0], 0, {3, 2, 1, 0}, color.data, color.data);
-    expectMade(read(file, "normals").layers[0], 1, {0, 1, 2}, color.data, color.data);
-    EXPECT_EQ(faultOf(file, "fog"), "a.exr: has no part \"fog\"");
-    EXPECT_EQ(faultOf(file, "ids"), "a.exr: part \"ids\": holds deep samples, which are not read");
+    expectMade(partsOf(file, "normals").layers[0], 1, {0, 1, 2}, color.data, color.data);
+    EXPECT_EQ(partFault(file, "fog"), "a.exr: has no part \"fog\"");
+    EXPECT_EQ(partFault(file, "ids"), "a.exr: part \"ids\": holds deep samples, which are not read");
 }
 
 // Changes the right end of the last part's display window, which OpenEXR writes the same for all parts.
@@ -169,17 +169,17 @@ std::string withLastDisplay(std::string file, std::int32_t right) {
 TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
     const std::string file = withLastDisplay(exrOf({color, normals}), 11);
     EXPECT_EQ(
-        faultOf(file),
+        partFault(file),
         "a.exr: part \"normals\": its display window is 12 x 6 at 0, 0, that of the parts before it 9 x 6 "
         "at 0, 0: one of them at a time can be read");
-    EXPECT_EQ(read(file, "beauty").width, 9);
-    const PictureFile wide = read(file, "normals");
+    EXPECT_EQ(partsOf(file, "beauty").width, 9);
+    const PictureFile wide = partsOf(file, "normals");
     EXPECT_EQ(wide.width, 12);
     expectMade(wide.layers[0], 1, {0, 1, 2}, normals.data, box(0, 0, 11, 5));
 }
 
 TEST(ExrParts, StringsAreKeptTheFirstPartsFirst) {
-    const PictureFile file = read(exrOf({color, normals}, [](std::vector<Imf::Header>& heads) {
+    const PictureFile file = partsOf(exrOf({color, normals}, [](std::vector<Imf::Header>& heads) {
         heads[0].insert("software", Imf::StringAttribute("one"));
         heads[1].insert("software", Imf::StringAttribute("two"));
         heads[1].insert("view", Imf::StringAttribute("left\neye"));
@@ -190,20 +190,20 @@ TEST(ExrParts, StringsAreKeptTheFirstPartsFirst) {
 
 TEST(ExrParts, TwoSpellingsOfOneChannelAreRefused) {
     const MadePart a{"a", {{"b.R", Imf::HALF}}}, ab{"a.b", {{"R", Imf::HALF}}};
-    EXPECT_EQ(faultOf(exrOf({a, ab})), "a.exr: channel a.b.R: stands in two parts");
+    EXPECT_EQ(partFault(exrOf({a, ab})), "a.exr: channel a.b.R: stands in two parts");
 }
 
 TEST(ExrParts, ClaimsCountTogether) {
-    std::vector<MadePart> parts{color, normals, ids};
+    std::vector<MadePart> parts{color, normals, idsPart};
     for (MadePart& part : parts) part.compression = Imf::NO_COMPRESSION;  // else 16 lines are decoded at once
     const std::string file = exrOf(parts);
     // 54 pixels of 7 floats, of 3, and of 2 with their 2 uint32: 1512, 648 and 864 bytes.
-    EXPECT_EQ(faultOf(file, {}, 1512 + 648 + 864), "reads");
-    EXPECT_EQ(faultOf(file, {}, 1512 + 648 + 863),
+    EXPECT_EQ(partFault(file, {}, 1512 + 648 + 864), "reads");
+    EXPECT_EQ(partFault(file, {}, 1512 + 648 + 863),
               "a.exr: part \"ids\": and the parts before it claim 0 MiB: 0 MiB are read at most");
-    EXPECT_EQ(faultOf(file, {}, 1511),
+    EXPECT_EQ(partFault(file, {}, 1511),
               "a.exr: part \"beauty\": claims 9 x 6 pixels of 28 bytes: 0 MiB are read at most");
-    EXPECT_EQ(faultOf(file, "normals", 648), "reads") << "only what is asked for counts";
+    EXPECT_EQ(partFault(file, "normals", 648), "reads") << "only what is asked for counts";
 
     // 1 GiB of zeros is allowed around small pixels, but once, not for each part.
     std::vector<MadePart> small;
@@ -211,7 +211,7 @@ TEST(ExrParts, ClaimsCountTogether) {
         small.push_back({name, {{"R", Imf::HALF}, {"G", Imf::HALF}}});
         small.back().display = box(0, 0, 7999, 5999);
     }
-    EXPECT_EQ(faultOf(exrOf(small)),
+    EXPECT_EQ(partFault(exrOf(small)),
               "a.exr: part \"c\": and the parts before it claim 1098 MiB: 1024 MiB are read at most");
 }
 
@@ -227,20 +227,20 @@ std::string with(std::string file, int part, const std::string& attribute, std::
 
 TEST(ExrParts, LiesOfALaterPartAreNamedByIt) {
     const std::string file = exrOf({color, normals}), size = std::to_string(file.size());
-    EXPECT_EQ(faultOf(with(file, 1, "dataWindow", 2, 65535)),
+    EXPECT_EQ(partFault(with(file, 1, "dataWindow", 2, 65535)),
               "a.exr: part \"normals\": claims 65536 x 6 pixels; its " + size + " bytes cannot hold them");
-    EXPECT_EQ(faultOf(with(file, 1, "dataWindow", 3, 1 << 20)),
+    EXPECT_EQ(partFault(with(file, 1, "dataWindow", 3, 1 << 20)),
               "a.exr: part \"normals\": claims 9 x 1048577 pixels; its " + size + " bytes cannot hold them");
     std::string unknown = file;
     unknown[unknown.rfind("compression\0compression\0"s) + 24 + 4] = 77;
-    EXPECT_EQ(faultOf(unknown), "a.exr: part \"normals\": compression 77 is not known");
+    EXPECT_EQ(partFault(unknown), "a.exr: part \"normals\": compression 77 is not known");
     std::string kind = file;
     kind.replace(kind.rfind("scanlineimage"), 4, "\nscn");
-    EXPECT_EQ(faultOf(kind), "a.exr: part \"normals\": is of type \"?scnlineimage\"");
-    EXPECT_EQ(faultOf(file.substr(0, file.rfind("displayWindow") + 3)),
+    EXPECT_EQ(partFault(kind), "a.exr: part \"normals\": is of type \"?scnlineimage\"");
+    EXPECT_EQ(partFault(file.substr(0, file.rfind("displayWindow") + 3)),
               "a.exr: its header holds a name without an end");
     // If pixels are missing, the library's message is prefixed by the part's name.
-    const std::string cut = faultOf(file.substr(0, file.size() - 40));
+    const std::string cut = partFault(file.substr(0, file.size() - 40));
     EXPECT_TRUE(cut.starts_with("a.exr: part \"normals\": ")) << cut;
     EXPECT_EQ(cut.find('\n'), cut.npos);
 }
@@ -257,14 +257,14 @@ TEST(ExrParts, SubsampledPartsAreRefusedByName) {
         file[at] = 2;
         return file;
     };
-    EXPECT_EQ(faultOf(sampled("BY")), "reads") << "at full size a name is a name";
+    EXPECT_EQ(partFault(sampled("BY")), "reads") << "at full size a name is a name";
     EXPECT_EQ(
-        faultOf(halved("BY")),
+        partFault(halved("BY")),
         "a.exr: part \"fog\": channel BY is subsampled, which is not read: luminance and chroma (Y, RY, BY) "
         "stand for R, G, B");
-    EXPECT_EQ(faultOf(halved("mist.U")),
+    EXPECT_EQ(partFault(halved("mist.U")),
               "a.exr: part \"fog\": channel mist.U is subsampled, which is not read");
-    EXPECT_EQ(faultOf(halved("BY"), "beauty"), "reads") << "the other part alone";
+    EXPECT_EQ(partFault(halved("BY"), "beauty"), "reads") << "the other part alone";
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using namespace std::string_literals;
 std::span<const std::byte> bytesIn(const std::string& file) {
     return std::as_bytes(std::span(file));
 }
-std::string faultOf(const std::string& file, std::uint64_t most = limits::imageBytes()) {
+std::string exrFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
     try {
         readExr(bytesIn(file), "a.exr", most);
     } catch (const std::runtime_error& error) {
@@ -60,7 +60,7 @@ Imf::Header header(const Imath::Box2i& display, const Imath::Box2i& data, Imf::C
     return result;
 }
 
-const Imath::Box2i whole(Imath::V2i(0, 0), Imath::V2i(69, 299));
+const Imath::Box2i wholeWindow(Imath::V2i(0, 0), Imath::V2i(69, 299));
 
 std::string written(const Imf::Header& head) {
     const std::filesystem::path file = folder() / "a.exr";
@@ -96,7 +96,7 @@ void expectFull(const Image& image, int width, int height) {
 TEST(ExrOfOthers, EveryCompressorInLinesAndTiles) {
     for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression)
         for (const int tile : {0, 16, 200}) {
-            Imf::Header head = header(whole, whole, static_cast<Imf::Compression>(compression));
+            Imf::Header head = header(wholeWindow, wholeWindow, static_cast<Imf::Compression>(compression));
             if (tile > 0)
                 head.setTileDescription(
                     Imf::TileDescription(64, 32 + static_cast<unsigned>(tile), Imf::MIPMAP_LEVELS));
@@ -188,12 +188,12 @@ TEST(ExrOfOthers, ComponentsStandInTheirOrderHoweverTheyAreSpelled) {
 // Only the attributes that the pixels need are passed to the library; none that contains lengths of its own
 // is among them.
 TEST(ExrOfOthers, OtherAttributesAreLeftOutOfTheHeader) {
-    Imf::Header head = header(whole, whole, Imf::ZIP_COMPRESSION);
+    Imf::Header head = header(wholeWindow, wholeWindow, Imf::ZIP_COMPRESSION);
     head.insert("layers", Imf::StringVectorAttribute({"one", "two"}));
     std::string file = written(head);
     const std::size_t lengths = file.find("stringvector") + std::strlen("stringvector") + 1 + 4;
     file.replace(lengths, 4, "\xff\xff\xff\x7f");  // "one" is 2 GiB long
-    EXPECT_EQ(faultOf(file), "reads");
+    EXPECT_EQ(exrFault(file), "reads");
     const ExrHeader read = readExrHeader(bytesIn(file), limits::imageBytes());
     const std::string kept(reinterpret_cast<const char*>(read.bytes.data()), read.bytes.size());
     EXPECT_EQ(kept.find("stringvector"), std::string::npos);
@@ -214,60 +214,60 @@ std::string with(std::string file, const std::string& attribute, const std::stri
 }
 
 TEST(ExrOfOthers, FaultsAreNamed) {
-    const std::string file = written(header(whole, whole, Imf::ZIP_COMPRESSION));
+    const std::string file = written(header(wholeWindow, wholeWindow, Imf::ZIP_COMPRESSION));
     const std::string size = std::to_string(file.size());
-    EXPECT_EQ(faultOf(file), "reads");
-    EXPECT_EQ(faultOf(""), "a.exr: is not an EXR file");
-    EXPECT_EQ(faultOf(file.substr(0, 50)), "a.exr: attribute channels: 55 bytes of 22 left in the file");
-    EXPECT_EQ(faultOf(file.substr(0, file.find("dataWindow") + 4)),
+    EXPECT_EQ(exrFault(file), "reads");
+    EXPECT_EQ(exrFault(""), "a.exr: is not an EXR file");
+    EXPECT_EQ(exrFault(file.substr(0, 50)), "a.exr: attribute channels: 55 bytes of 22 left in the file");
+    EXPECT_EQ(exrFault(file.substr(0, file.find("dataWindow") + 4)),
               "a.exr: its header holds a name without an end");
-    EXPECT_EQ(faultOf(file.substr(0, file.find("box2i") + 7)), "a.exr: its header is cut short");
-    EXPECT_EQ(faultOf(with(file, "dataWindow", "box2i", 3, 1 << 20)),
+    EXPECT_EQ(exrFault(file.substr(0, file.find("box2i") + 7)), "a.exr: its header is cut short");
+    EXPECT_EQ(exrFault(with(file, "dataWindow", "box2i", 3, 1 << 20)),
               "a.exr: claims 70 x 1048577 pixels; its " + size + " bytes cannot hold them");
-    EXPECT_EQ(faultOf(with(file, "dataWindow", "box2i", 2, 1 << 20)),
+    EXPECT_EQ(exrFault(with(file, "dataWindow", "box2i", 2, 1 << 20)),
               "a.exr: claims 1048577 x 300 pixels: 1 to 65536 a side are read");
-    EXPECT_EQ(faultOf(with(file, "dataWindow", "box2i", 2, 65535)),
+    EXPECT_EQ(exrFault(with(file, "dataWindow", "box2i", 2, 65535)),
               "a.exr: claims 65536 x 300 pixels; its " + size + " bytes cannot hold them");
-    EXPECT_EQ(faultOf(with(file, "dataWindow", "box2i", 2, 0x7fffffff)),
+    EXPECT_EQ(exrFault(with(file, "dataWindow", "box2i", 2, 0x7fffffff)),
               "a.exr: attribute dataWindow: ends at 2147483647");
-    EXPECT_EQ(faultOf(with(file, "dataWindow", "box2i", 2, -5)), "a.exr: has no pixels");
+    EXPECT_EQ(exrFault(with(file, "dataWindow", "box2i", 2, -5)), "a.exr: has no pixels");
     EXPECT_EQ(
-        faultOf(with(with(file, "displayWindow", "box2i", 2, 65535), "displayWindow", "box2i", 3, 65535)),
+        exrFault(with(with(file, "displayWindow", "box2i", 2, 65535), "displayWindow", "box2i", 3, 65535)),
         "a.exr: claims 65536 x 65536 pixels of 16 bytes: 1024 MiB are read at most")
         << "zeros around a crop";
-    EXPECT_EQ(faultOf(file, 70 * 300 * 16 - 1),
+    EXPECT_EQ(exrFault(file, 70 * 300 * 16 - 1),
               "a.exr: claims 70 x 300 pixels of 16 bytes: 0 MiB are read at most");
 
     std::string longer = file;
     longer.replace(longer.find("dataWindow") + 10 + 1 + 6, 4, "\x0f\x00\x00\x00"s);
-    EXPECT_EQ(faultOf(longer), "a.exr: attribute dataWindow: box2i of 15 bytes where box2i stands");
+    EXPECT_EQ(exrFault(longer), "a.exr: attribute dataWindow: box2i of 15 bytes where box2i stands");
     longer.replace(longer.find("dataWindow") + 10 + 1 + 6, 4, "\xff\xff\xff\x7f"s);
-    EXPECT_NE(faultOf(longer).find("a.exr: attribute dataWindow: 2147483647 bytes of "), std::string::npos);
+    EXPECT_NE(exrFault(longer).find("a.exr: attribute dataWindow: 2147483647 bytes of "), std::string::npos);
     std::string deep = file;
     deep[5] = '\x08';
-    EXPECT_EQ(faultOf(deep), "a.exr: holds deep samples, which are not read");
+    EXPECT_EQ(exrFault(deep), "a.exr: holds deep samples, which are not read");
     std::string none = file;
     none.replace(none.find("compression\0compression"s), 4, "Comp");
-    EXPECT_EQ(faultOf(none), "a.exr: attribute compression: is missing");
+    EXPECT_EQ(exrFault(none), "a.exr: attribute compression: is missing");
 
-    Imf::Header half = header(whole, whole, Imf::ZIP_COMPRESSION);
+    Imf::Header half = header(wholeWindow, wholeWindow, Imf::ZIP_COMPRESSION);
     std::string sampled = file;
     const std::size_t channel = sampled.find("chlist\0"s) + 7 + 4;  // "i", type, four bytes, x and y sampling
     sampled[channel + 2 + 4 + 4] = 2;
-    EXPECT_EQ(faultOf(sampled), "a.exr: channel i is subsampled, which is not read");
+    EXPECT_EQ(exrFault(sampled), "a.exr: channel i is subsampled, which is not read");
     sampled[channel] = '\n';
-    EXPECT_EQ(faultOf(sampled), "a.exr: channel ? is subsampled, which is not read") << "one line";
+    EXPECT_EQ(exrFault(sampled), "a.exr: channel ? is subsampled, which is not read") << "one line";
 }
 
 TEST(ExrOfOthers, TilesBeyondThePictureAreRefused) {
-    Imf::Header head = header(whole, whole, Imf::ZIP_COMPRESSION);
+    Imf::Header head = header(wholeWindow, wholeWindow, Imf::ZIP_COMPRESSION);
     head.setTileDescription(Imf::TileDescription(64, 64));
     const std::string file = written(head);
-    EXPECT_EQ(faultOf(with(file, "tiles", "tiledesc", 1, 65536)),
+    EXPECT_EQ(exrFault(with(file, "tiles", "tiledesc", 1, 65536)),
               "a.exr: tiles of 64 x 65536 pixels for 70 x 300");
-    EXPECT_EQ(faultOf(with(file, "tiles", "tiledesc", 0, 0)),
+    EXPECT_EQ(exrFault(with(file, "tiles", "tiledesc", 0, 0)),
               "a.exr: tiles of 0 x 64 pixels: 1 to 65536 a side are read");
-    EXPECT_EQ(faultOf(with(file, "tiles", "tiledesc", 0, -1)),
+    EXPECT_EQ(exrFault(with(file, "tiles", "tiledesc", 0, -1)),
               "a.exr: tiles of 4294967295 x 64 pixels: 1 to 65536 a side are read");
 }
 

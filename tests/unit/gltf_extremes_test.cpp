@@ -18,8 +18,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-const float NaN = std::numeric_limits<float>::quiet_NaN();
-
 // A strip of four triangles over six vertices, as a list.
 GltfFile strip(std::vector<float> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0}) {
     GltfFile f = GltfFile::triangle();
@@ -39,7 +37,7 @@ std::vector<float> flatNormals(std::size_t vertices) {
 
 // Vertex 5 is a corner of one triangle, vertex 4 of two.
 TEST(GltfExtremes, TrianglesAtBrokenVerticesAreLeftOutWithACount) {
-    for (const float broken : {NaN, INFINITY, 2e18f, -2e18f}) {
+    for (const float broken : {NAN, INFINITY, 2e18f, -2e18f}) {
         GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, broken, 0});
         const Scene scene = f.load();
         const Primitive& p = f.only(scene);
@@ -48,10 +46,10 @@ TEST(GltfExtremes, TrianglesAtBrokenVerticesAreLeftOutWithACount) {
         EXPECT_TRUE(mentions(scene.notes, "mesh 0, primitive 0: 1 of 4 triangles touch vertices"));
         EXPECT_EQ(worldBounds(scene, poseAt(scene, 0)).max, glm::dvec3(1, 2, 0));
     }
-    GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, NaN, 0, 0, 2, 0, 1, 2, 0});
+    GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, NAN, 0, 0, 2, 0, 1, 2, 0});
     Scene scene = f.load();
     EXPECT_EQ(f.only(scene).indices.size(), 3u);
-    f = strip(std::vector<float>(18, NaN));
+    f = strip(std::vector<float>(18, NAN));
     scene = f.load();
     EXPECT_TRUE(scene.meshes[0].primitives.empty());
     EXPECT_TRUE(mentions(scene.notes, "4 of 4 triangles"));
@@ -61,10 +59,10 @@ TEST(GltfExtremes, TrianglesAtBrokenVerticesAreLeftOutWithACount) {
 TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepairedWithACount) {
     GltfFile f = GltfFile::triangle();
     Json& attributes = f.primitive()["attributes"];
-    attributes["NORMAL"] = f.accessor<float>({0, NaN, 0, 0, 0, 2, INFINITY, 0, 0}, FLOAT, "VEC3", 3);
-    attributes["TANGENT"] = f.accessor<float>({1, 0, 0, -1, NaN, 0, 0, 1, 0, 0, 0, 1}, FLOAT, "VEC4", 4);
-    attributes["TEXCOORD_0"] = f.accessor<float>({0.5f, 0.5f, NaN, 0, 0, INFINITY}, FLOAT, "VEC2", 2);
-    attributes["COLOR_0"] = f.accessor<float>({NaN, 0, 0, 0.5f, 2, -1, INFINITY, 0, 0}, FLOAT, "VEC3", 3);
+    attributes["NORMAL"] = f.accessor<float>({0, NAN, 0, 0, 0, 2, INFINITY, 0, 0}, FLOAT, "VEC3", 3);
+    attributes["TANGENT"] = f.accessor<float>({1, 0, 0, -1, NAN, 0, 0, 1, 0, 0, 0, 1}, FLOAT, "VEC4", 4);
+    attributes["TEXCOORD_0"] = f.accessor<float>({0.5f, 0.5f, NAN, 0, 0, INFINITY}, FLOAT, "VEC2", 2);
+    attributes["COLOR_0"] = f.accessor<float>({NAN, 0, 0, 0.5f, 2, -1, INFINITY, 0, 0}, FLOAT, "VEC3", 3);
     const Scene scene = f.load();
     const Primitive& p = f.only(scene);
     EXPECT_EQ(p.normals, std::vector<glm::vec3>(3, {0, 0, 1}));
@@ -83,7 +81,7 @@ TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepairedWithACount) {
 TEST(GltfExtremes, AttributesBeyondWhatIsDrawnAreNamedSo) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["attributes"]["TEXCOORD_0"] =
-        f.accessor<float>({1e19f, 0.5f, NaN, 0, 0.25f, -2e18f}, FLOAT, "VEC2", 2);
+        f.accessor<float>({1e19f, 0.5f, NAN, 0, 0.25f, -2e18f}, FLOAT, "VEC2", 2);
     const Scene scene = f.load();
     EXPECT_EQ(f.only(scene).texcoords[0], (std::vector<glm::vec2>(3, {0, 0})));
     EXPECT_TRUE(mentions(scene.notes, "TEXCOORD_0: 1 is not finite: 0, 0"));
@@ -92,7 +90,7 @@ TEST(GltfExtremes, AttributesBeyondWhatIsDrawnAreNamedSo) {
 
 // Vertices that no triangle uses have no effect, even if they are not finite.
 TEST(GltfExtremes, UntouchedVerticesAreNotKept) {
-    GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, NaN, 1, 0, 0, 2, 0, 9, 9, 9});
+    GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, NAN, 1, 0, 0, 2, 0, 9, 9, 9});
     f.primitive()["attributes"]["NORMAL"] = f.accessor(flatNormals(6), FLOAT, "VEC3", 3);
     f.primitive()["indices"] = f.accessor<std::uint16_t>({1, 4, 0}, USHORT, "SCALAR", 1);
     const Scene scene = f.load();

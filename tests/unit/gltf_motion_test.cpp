@@ -12,8 +12,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-const float NaN = std::numeric_limits<float>::quiet_NaN();
-
 // The triangle with two morph targets: one of positions, one of normals and of sparse positions without a
 // bufferView.
 struct MorphedFile : GltfFile {
@@ -109,7 +107,7 @@ TEST(GltfMotion, MorphTargetsThatDoNotFitAreRefusedInOneLine) {
 TEST(GltfMotion, DeltasThatAreNotFiniteAreZeroWithANote) {
     MorphedFile f;
     f.primitive()["targets"][0]["POSITION"] =
-        f.accessor<float>({NaN, 0, 1, 0, 0, 2, 0, 0, INFINITY}, FLOAT, "VEC3", 3);
+        f.accessor<float>({NAN, 0, 1, 0, 0, 2, 0, 0, INFINITY}, FLOAT, "VEC3", 3);
     const Scene scene = f.load();
     EXPECT_EQ(f.only(scene).targets[0].positions, (std::vector<glm::vec3>{{0, 0, 0}, {0, 0, 2}, {0, 0, 0}}));
     EXPECT_TRUE(mentions(scene.notes, "target 0: POSITION: 2 are not finite: 0"));
@@ -210,9 +208,9 @@ TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
                   [](AnimatedFile& f) {
                       withTimes(f, {0, 1, 0.5f});
                   }},
-             Case{"input: key 1 is at nan s",
+             Case{"input: key 1 is at NAN s",
                   [](AnimatedFile& f) {
-                      withTimes(f, {0, NaN, 2});
+                      withTimes(f, {0, NAN, 2});
                   }},
              Case{"input: key 0 is at -1 s",
                   [](AnimatedFile& f) {
@@ -242,7 +240,7 @@ TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
                   }},
              Case{"output: holds values that are not finite",
                   [](AnimatedFile& f) {
-                      f.channel("scale", "LINEAR", f.accessor(std::vector<float>(9, NaN), FLOAT, "VEC3", 3));
+                      f.channel("scale", "LINEAR", f.accessor(std::vector<float>(9, NAN), FLOAT, "VEC3", 3));
                   }},
              Case{"3 weights a key, but node 0 has 2 morph targets",
                   [](AnimatedFile& f) { f.channel("weights", "STEP", f.vectors(9, "SCALAR", 1)); }},

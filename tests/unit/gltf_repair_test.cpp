@@ -2,6 +2,8 @@
 // Deviations from the specification that are common in real files: the scene is drawn, with a note.
 #include "tests/unit/gltf_maker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -254,7 +256,7 @@ TEST(GltfRepair, ExtensionsAreNotedWhereverTheyStand) {
     f.json["nodes"][0]["extensions"] = with("KHR_texture_transform");
     Lines expected;
     for (const char letter : std::string("abcdefg"))
-        expected.push_back(std::string("EXT_") + letter + ": left out, it is not read");
+        expected.push_back(fmt::format("EXT_{}: left out, it is not read", letter));
     expected.push_back("node 0: KHR_texture_transform is not read there: left out");
     EXPECT_EQ(f.load().notes, expected);
 }

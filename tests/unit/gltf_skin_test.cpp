@@ -12,8 +12,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-const float NaN = std::numeric_limits<float>::quiet_NaN();
-
 // The triangle of GltfFile, moved by a skin of two joints, nodes 1 and 2; node 0 draws it.
 struct SkinnedFile : GltfFile {
     SkinnedFile() : GltfFile(triangle()) {
@@ -156,7 +154,7 @@ TEST(GltfSkin, WeightsThatDoNotAddUpAreNoted) {
 
 TEST(GltfSkin, WeightsOfNothingGoToTheFirstJointWithANote) {
     SkinnedFile f;
-    f.setWeights({0, 0, 0, 0, -1, 0, 0, 0, NaN, 1, 0, 0});
+    f.setWeights({0, 0, 0, 0, -1, 0, 0, 0, NAN, 1, 0, 0});
     const Scene scene = f.load();
     const JointSet& set = f.only(scene).joint_sets.at(0);
     EXPECT_EQ(set.weights[0], glm::vec4(1, 0, 0, 0));
@@ -195,7 +193,7 @@ TEST(GltfSkin, SkinsThatCannotBeAreRefusedInOneLine) {
                  }),
                  "skin 0: inverseBindMatrices: the last row of matrix 0 is not 0 0 0 1");
     EXPECT_PRED2(ends, error([](SkinnedFile& f) {
-                     f.setInverseBinds({NaN, 0, 0}, {0, 0, 0});
+                     f.setInverseBinds({NAN, 0, 0}, {0, 0, 0});
                  }),
                  "skin 0: inverseBindMatrices: matrix 0 is not finite");
     EXPECT_PRED2(ends, error([](SkinnedFile& f) { f.json["skins"][0]["inverseBindMatrices"] = 0; }),

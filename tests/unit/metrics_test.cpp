@@ -2,6 +2,7 @@
 // Statistics of two images against numbers worked out by hand.
 #include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
+#include "tests/unit/nonfinite.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +14,6 @@ namespace diptych {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-
 Image row(int components, std::vector<float> values) {
     Image image(static_cast<int>(values.size()) / components, 1, components);
     image.data = std::move(values);

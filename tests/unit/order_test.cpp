@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ranks and weighted quantiles against sorting.
 #include "compare/metrics/order.h"
+#include "tests/unit/nonfinite.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -15,8 +16,6 @@ namespace diptych {
 using namespace metrics;
 
 namespace {
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
 
 // Spread over many powers of 2; a third of them take one of a few values.
 std::vector<float> mixed(std::size_t count) {

@@ -28,12 +28,12 @@ std::string big(const Values& values) {
     return bytes;
 }
 
-PfmPicture read(const std::string& file, std::uint64_t most = limits::imageBytes()) {
+PfmPicture pfmOf(const std::string& file, std::uint64_t most = limits::imageBytes()) {
     return readPfm(std::as_bytes(std::span(file)), "a.pfm", most);
 }
-std::string faultOf(const std::string& file, std::uint64_t most = limits::imageBytes()) {
+std::string pfmFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
     try {
-        read(file, most);
+        pfmOf(file, most);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -41,33 +41,33 @@ std::string faultOf(const std::string& file, std::uint64_t most = limits::imageB
 }
 
 TEST(Pfm, RowsAreStoredFromTheBottom) {
-    const Image grey = read("Pf\n2 3\n-1.0\n" + little({1, 2, 3, 4, 5, 6})).image;
+    const Image grey = pfmOf("Pf\n2 3\n-1.0\n" + little({1, 2, 3, 4, 5, 6})).image;
     ASSERT_EQ(grey.components, 1);
     ASSERT_EQ(grey.width, 2);
     EXPECT_EQ(grey.data, (Values{5, 6, 3, 4, 1, 2}));
-    const Image color = read("PF\n1 2\n-1\n" + little({1, 2, 3, 4, 5, 6})).image;
+    const Image color = pfmOf("PF\n1 2\n-1\n" + little({1, 2, 3, 4, 5, 6})).image;
     ASSERT_EQ(color.components, 3);
     EXPECT_EQ(color.data, (Values{4, 5, 6, 1, 2, 3}));
 }
 
 TEST(Pfm, TheScalesSignIsTheByteOrderAndItsSizeAFactor) {
     const Values stored{1, -2, 0.5f};
-    EXPECT_EQ(read("PF\n1 1\n1.0\n" + big(stored)).image.data, stored);
-    EXPECT_EQ(read("PF\n1 1\n+1e0\n" + big(stored)).image.data, stored);
-    EXPECT_EQ(read("PF\n1 1\n-0.5\n" + little(stored)).image.data, (Values{0.5f, -1, 0.25f}));
-    EXPECT_EQ(read("PF\n1 1\n4\n" + big(stored)).image.data, (Values{4, -8, 2}));
+    EXPECT_EQ(pfmOf("PF\n1 1\n1.0\n" + big(stored)).image.data, stored);
+    EXPECT_EQ(pfmOf("PF\n1 1\n+1e0\n" + big(stored)).image.data, stored);
+    EXPECT_EQ(pfmOf("PF\n1 1\n-0.5\n" + little(stored)).image.data, (Values{0.5f, -1, 0.25f}));
+    EXPECT_EQ(pfmOf("PF\n1 1\n4\n" + big(stored)).image.data, (Values{4, -8, 2}));
 }
 
 TEST(Pfm, OneBlankEndsTheHeader) {
     // A byte 0x0a at the beginning of the data belongs to the number.
     const float value = std::bit_cast<float>(0x3f80000au);
-    EXPECT_EQ(read("Pf 1 1 -1 " + little({value})).image.data, Values{value});
-    EXPECT_EQ(read("Pf\r\n1\t1\n\n-1\n" + little({value})).image.data, Values{value});
+    EXPECT_EQ(pfmOf("Pf 1 1 -1 " + little({value})).image.data, Values{value});
+    EXPECT_EQ(pfmOf("Pf\r\n1\t1\n\n-1\n" + little({value})).image.data, Values{value});
 }
 
 TEST(Pfm, BytesBehindThePixelsAreCounted) {
-    EXPECT_EQ(read("Pf\n1 1\n-1\n" + little({1})).behind, 0u);
-    EXPECT_EQ(read("Pf\n1 1\n-1\n" + little({1}) + "\nx").behind, 2u);
+    EXPECT_EQ(pfmOf("Pf\n1 1\n-1\n" + little({1})).behind, 0u);
+    EXPECT_EQ(pfmOf("Pf\n1 1\n-1\n" + little({1}) + "\nx").behind, 2u);
 }
 
 TEST(Pfm, EveryBitComesBack) {
@@ -82,7 +82,7 @@ TEST(Pfm, EveryBitComesBack) {
         writePfm(file, image);
         const std::string bytes = contentsOf(file);
         EXPECT_TRUE(bytes.starts_with(components == 1 ? "Pf\n3 2\n-1.0\n" : "PF\n3 2\n-1.0\n"));
-        const PfmPicture back = read(bytes);
+        const PfmPicture back = pfmOf(bytes);
         EXPECT_EQ(back.behind, 0u);
         ASSERT_EQ(back.image.data.size(), image.data.size());
         for (std::size_t i = 0; i < image.data.size(); ++i)
@@ -97,27 +97,28 @@ TEST(Pfm, EveryBitComesBack) {
 
 TEST(Pfm, FaultsAreNamed) {
     const std::string pixel = little({1, 2, 3});
-    EXPECT_EQ(faultOf("P6\n1 1\n255\nabc"), "a.pfm: is not a PFM: it begins with \"P6\", not PF or Pf");
-    EXPECT_EQ(faultOf("PF\x01\n1 1\n-1\n"), "a.pfm: is not a PFM: it begins with \"PF?\", not PF or Pf");
+    EXPECT_EQ(pfmFault("P6\n1 1\n255\nabc"), "a.pfm: is not a PFM: it begins with \"P6\", not PF or Pf");
+    EXPECT_EQ(pfmFault("PF\x01\n1 1\n-1\n"), "a.pfm: is not a PFM: it begins with \"PF?\", not PF or Pf");
     for (const char* cut : {"", "PF", "PF\n", "PF\n1", "PF\n1 1\n", "PF\n1 1\n-1"})
-        EXPECT_EQ(faultOf(cut), "a.pfm: its header is cut short") << cut;
-    EXPECT_EQ(faultOf("PF\n" + std::string(65, '1') + " 1\n-1\n"),
+        EXPECT_EQ(pfmFault(cut), "a.pfm: its header is cut short") << cut;
+    EXPECT_EQ(pfmFault("PF\n" + std::string(65, '1') + " 1\n-1\n"),
               "a.pfm: \"" + std::string(40, '1') + "...\" in its header has no end");
-    EXPECT_EQ(faultOf("PF\n1x 1\n-1\n" + pixel), "a.pfm: its width is \"1x\", not a number");
-    EXPECT_EQ(faultOf("PF\n1 1.5\n-1\n" + pixel), "a.pfm: its height is \"1.5\", not a number");
-    EXPECT_EQ(faultOf("PF\n1 99999999999\n-1\n" + pixel),
+    EXPECT_EQ(pfmFault("PF\n1x 1\n-1\n" + pixel), "a.pfm: its width is \"1x\", not a number");
+    EXPECT_EQ(pfmFault("PF\n1 1.5\n-1\n" + pixel), "a.pfm: its height is \"1.5\", not a number");
+    EXPECT_EQ(pfmFault("PF\n1 99999999999\n-1\n" + pixel),
               "a.pfm: its height is \"99999999999\", not a number");
-    EXPECT_EQ(faultOf("PF\n1 1\none\n" + pixel), "a.pfm: its scale is \"one\", not a number");
+    EXPECT_EQ(pfmFault("PF\n1 1\none\n" + pixel), "a.pfm: its scale is \"one\", not a number");
     for (const char* scale : {"0", "-0.0", "nan", "inf", "1e-40"})
-        EXPECT_EQ(faultOf("PF\n1 1\n"s + scale + "\n" + pixel),
+        EXPECT_EQ(pfmFault("PF\n1 1\n"s + scale + "\n" + pixel),
                   "a.pfm: its scale is "s + scale + ", which leaves nothing of its values");
-    EXPECT_EQ(faultOf("PF\n0 1\n-1\n" + pixel), "a.pfm: claims 0 x 1 pixels: 1 to 65536 a side are read");
-    EXPECT_EQ(faultOf("PF\n-1 -1\n-1\n" + pixel), "a.pfm: claims -1 x -1 pixels: 1 to 65536 a side are read");
-    EXPECT_EQ(faultOf("PF\n65537 1\n-1\n" + pixel),
+    EXPECT_EQ(pfmFault("PF\n0 1\n-1\n" + pixel), "a.pfm: claims 0 x 1 pixels: 1 to 65536 a side are read");
+    EXPECT_EQ(pfmFault("PF\n-1 -1\n-1\n" + pixel),
+              "a.pfm: claims -1 x -1 pixels: 1 to 65536 a side are read");
+    EXPECT_EQ(pfmFault("PF\n65537 1\n-1\n" + pixel),
               "a.pfm: claims 65537 x 1 pixels: 1 to 65536 a side are read");
-    EXPECT_EQ(faultOf("PF\n1 1\n-1\n" + pixel, 11),
+    EXPECT_EQ(pfmFault("PF\n1 1\n-1\n" + pixel, 11),
               "a.pfm: claims 1 x 1 pixels of 12 bytes: 0 MiB are read at most");
-    EXPECT_EQ(faultOf("PF\n2 1\n-1\n" + pixel),
+    EXPECT_EQ(pfmFault("PF\n2 1\n-1\n" + pixel),
               "a.pfm: is cut short: 2 x 1 pixels are 24 bytes, 12 of them are there");
 }
 

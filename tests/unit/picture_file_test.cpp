@@ -21,12 +21,12 @@ namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 using Values = std::vector<float>;
 
-PictureFile read(const std::string& file, std::string_view part = {}) {
+PictureFile pictureOf(const std::string& file, std::string_view part = {}) {
     return readPicture(std::as_bytes(std::span(file)), "a", part);
 }
-std::string faultOf(const std::string& file, std::string_view part = {}) {
+std::string pictureFault(const std::string& file, std::string_view part = {}) {
     try {
-        read(file, part);
+        pictureOf(file, part);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -74,15 +74,15 @@ TEST(PictureFile, TheFirstBytesSayWhatItIsNotTheEnding) {
 TEST(PictureFile, WhatIsNotReadIsToldInOneLine) {
     const std::string none =
         "a: is no picture that is read: by their first bytes OpenEXR, PNG, Radiance HDR and PFM are";
-    EXPECT_EQ(faultOf(""), none);
-    EXPECT_EQ(faultOf("\xff\xd8\xff\xe0 a JPEG"), none);
-    EXPECT_EQ(faultOf("P6\n1 1\n255\nabc"), none);
-    EXPECT_EQ(faultOf("\x89PNG\n"), none) << "its line ends were changed on the way";
-    EXPECT_EQ(faultOf("\x76\x2f\x31\x01"), "a: is not an EXR file");
-    EXPECT_EQ(faultOf("\x89PNG\r\n\x1a\n"), "a: is cut short");
-    EXPECT_EQ(faultOf("#?RADIANCE\n"), "a: its header has no end");
-    EXPECT_EQ(faultOf("PF4\n1 1\n1\n"), "a: is not a PFM: it begins with \"PF4\", not PF or Pf");
-    EXPECT_EQ(faultOf("PF\n1 1\n1\n", "beauty"), "a: has no parts, which are an OpenEXR file's");
+    EXPECT_EQ(pictureFault(""), none);
+    EXPECT_EQ(pictureFault("\xff\xd8\xff\xe0 a JPEG"), none);
+    EXPECT_EQ(pictureFault("P6\n1 1\n255\nabc"), none);
+    EXPECT_EQ(pictureFault("\x89PNG\n"), none) << "its line ends were changed on the way";
+    EXPECT_EQ(pictureFault("\x76\x2f\x31\x01"), "a: is not an EXR file");
+    EXPECT_EQ(pictureFault("\x89PNG\r\n\x1a\n"), "a: is cut short");
+    EXPECT_EQ(pictureFault("#?RADIANCE\n"), "a: its header has no end");
+    EXPECT_EQ(pictureFault("PF4\n1 1\n1\n"), "a: is not a PFM: it begins with \"PF4\", not PF or Pf");
+    EXPECT_EQ(pictureFault("PF\n1 1\n1\n", "beauty"), "a: has no parts, which are an OpenEXR file's");
     EXPECT_THROW(readPicture(folder() / "none.exr"), std::runtime_error);
 }
 
@@ -96,7 +96,7 @@ void expectPng(const MadePng& made, const Expected& expected) {
     for (const bool interlaced : {false, true}) {
         MadePng png = made;
         png.interlaced = interlaced;
-        const PictureFile file = read(pngOf(png));
+        const PictureFile file = pictureOf(pngOf(png));
         SCOPED_TRACE(testing::Message()
                      << "colour " << made.color << ", " << made.bits << " bits, interlaced " << interlaced);
         EXPECT_EQ(file.layers[0].channels, expected.channels);
@@ -146,7 +146,7 @@ TEST(PicturePng, InterlacedRowsComeTogether) {
                 values.push_back(static_cast<float>(256 * y + 7 * x) / 65535);
             }
         }
-        EXPECT_EQ(read(pngOf(made)).layers[0].image.data, values) << side;
+        EXPECT_EQ(pictureOf(pngOf(made)).layers[0].image.data, values) << side;
     }
 }
 
@@ -156,7 +156,7 @@ TEST(PicturePng, GammaOneIsLinearUnlessSrgbStandsBesideIt) {
         made.gamma = gamma;
         made.srgb = srgb;
         made.profile = profile;
-        const PictureFile file = read(pngOf(made));
+        const PictureFile file = pictureOf(pngOf(made));
         EXPECT_EQ(file.layers[0].image.data, Values{0.2f}) << "values are not converted";
         Names said{file.display_referred ? "display" : "linear"};
         said.insert(said.end(), file.notes.begin(), file.notes.end());
@@ -177,14 +177,14 @@ TEST(PicturePng, BrokenFilesSayWhy) {
     const std::string whole =
         pngOf({PNG_COLOR_TYPE_RGB, 8, 4,
                std::vector<std::vector<std::uint8_t>>(4, std::vector<std::uint8_t>(12, 7))});
-    EXPECT_EQ(faultOf(whole), "reads");
-    EXPECT_EQ(faultOf(whole.substr(0, 40)), "a: is cut short");
+    EXPECT_EQ(pictureFault(whole), "reads");
+    EXPECT_EQ(pictureFault(whole.substr(0, 40)), "a: is cut short");
     std::string sum = whole;
     sum[17] ^= 1;  // a wrong checksum of IHDR
-    EXPECT_EQ(faultOf(sum), "a: IHDR: CRC error");
+    EXPECT_EQ(pictureFault(sum), "a: IHDR: CRC error");
     std::string data = whole;
     data[data.find("IDAT") + 5] ^= 0x55;
-    EXPECT_TRUE(faultOf(data).starts_with("a: IDAT: ")) << faultOf(data);
+    EXPECT_TRUE(pictureFault(data).starts_with("a: IDAT: ")) << pictureFault(data);
 }
 
 }  // namespace

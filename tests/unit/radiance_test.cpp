@@ -20,10 +20,10 @@ using namespace std::string_literals;
 std::string hdr(const std::string& resolution, const std::string& pixels, const std::string& variables = "") {
     return "#?RADIANCE\n" + variables + "FORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n" + pixels;
 }
-Image read(const std::string& file) {
+Image radianceOf(const std::string& file) {
     return readHdr(std::as_bytes(std::span(file)), "a.hdr");
 }
-std::string faultOf(const std::string& file, std::uint64_t most = limits::imageBytes()) {
+std::string radianceFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
     try {
         readHdr(std::as_bytes(std::span(file)), "a.hdr", most);
     } catch (const std::runtime_error& error) {
@@ -34,7 +34,7 @@ std::string faultOf(const std::string& file, std::uint64_t most = limits::imageB
 
 TEST(Radiance, AMantissaIsTheMiddleOfItsStep) {
     // Exponent 129 is 2^1, and a mantissa m is (m + 1/2) / 256 of that.
-    const Image image = read(hdr("-Y 1 +X 2", "\x80\x40\x00\x81\x09\x09\x09\x00"s));
+    const Image image = radianceOf(hdr("-Y 1 +X 2", "\x80\x40\x00\x81\x09\x09\x09\x00"s));
     ASSERT_EQ(image.width, 2);
     ASSERT_EQ(image.height, 1);
     ASSERT_EQ(image.components, 3);
@@ -42,14 +42,15 @@ TEST(Radiance, AMantissaIsTheMiddleOfItsStep) {
 }
 
 TEST(Radiance, ExposuresAreTakenOutAgain) {
-    const Image image = read(hdr("-Y 1 +X 1", "\x80\x80\x80\x81",
-                                 "# a note\nEXPOSURE=2\nVIEW= -vtv\nEXPOSURE= 4.0 \nCOLORCORR=1 0.5 4\n"));
+    const Image image =
+        radianceOf(hdr("-Y 1 +X 1", "\x80\x80\x80\x81",
+                       "# a note\nEXPOSURE=2\nVIEW= -vtv\nEXPOSURE= 4.0 \nCOLORCORR=1 0.5 4\n"));
     EXPECT_EQ(image.data, (std::vector<float>{1.00390625f / 8, 1.00390625f / 4, 1.00390625f / 32}));
     for (const char* bad : {"0", "-1", "nan", "inf", "one", "1 2x"})
-        EXPECT_EQ(faultOf(hdr("-Y 1 +X 1", "\x80\x80\x80\x81", "COLORCORR=1 "s + bad + "\n")),
+        EXPECT_EQ(radianceFault(hdr("-Y 1 +X 1", "\x80\x80\x80\x81", "COLORCORR=1 "s + bad + "\n")),
                   "a.hdr: COLORCORR=1 "s + bad + " is not three numbers above 0")
             << bad;
-    EXPECT_EQ(faultOf(hdr("-Y 1 +X 1", "\x80\x80\x80\x81", "EXPOSURE=1e-9\n")),
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 1", "\x80\x80\x80\x81", "EXPOSURE=1e-9\n")),
               "a.hdr: EXPOSURE and COLORCORR take its values beyond a float's range");
 }
 
@@ -65,7 +66,7 @@ TEST(Radiance, EveryOrderOfTheEight) {
           Order{"+X 3 +Y 2", "304152"}, Order{"-X 3 +Y 2", "524130"}}) {
         std::string pixels;
         for (const char c : stored) pixels += std::string{static_cast<char>(128 + c - '0'), 0, 0, '\x80'};
-        const Image image = read(hdr(resolution, pixels));
+        const Image image = radianceOf(hdr(resolution, pixels));
         ASSERT_EQ(image.width, 3) << resolution;
         ASSERT_EQ(image.height, 2) << resolution;
         for (int i = 0; i < 6; ++i)
@@ -79,16 +80,16 @@ TEST(Radiance, OldRunsInARowAreDigits) {
     // run of 299.
     const std::string first = "\x80\x00\x00\x81\x01\x01\x01\x2b\x01\x01\x01\x01"s;
     const std::string second = "\xc0\x00\x00\x81\x01\x01\x01\x2b\x01\x01\x01\x01"s;
-    const Image image = read(hdr("-Y 2 +X 300", first + second));
+    const Image image = radianceOf(hdr("-Y 2 +X 300", first + second));
     for (int x = 0; x < 300; ++x) {
         EXPECT_EQ(image.at(x, 0), 128.5f / 128);
         EXPECT_EQ(image.at(x, 1), 192.5f / 128);
     }
-    EXPECT_EQ(faultOf(hdr("-Y 1 +X 300", "\x80\x00\x00\x81\x01\x01\x01\x2c\x01\x01\x01\x01"s)),
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 300", "\x80\x00\x00\x81\x01\x01\x01\x2c\x01\x01\x01\x01"s)),
               "a.hdr: a run goes past its line");
-    EXPECT_EQ(faultOf(hdr("-Y 1 +X 300", "\x01\x01\x01\x2c"s)), "a.hdr: begins a line with a run");
-    EXPECT_EQ(faultOf(hdr("-Y 1 +X 300", "\x80\x00\x00\x81"s + "\x01\x01\x01\x00\x01\x01\x01\x00"s +
-                                             "\x01\x01\x01\x00\x01\x01\x01\x00"s)),
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 300", "\x01\x01\x01\x2c"s)), "a.hdr: begins a line with a run");
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 300", "\x80\x00\x00\x81"s + "\x01\x01\x01\x00\x01\x01\x01\x00"s +
+                                                   "\x01\x01\x01\x00\x01\x01\x01\x00"s)),
               "a.hdr: a run goes past its line")
         << "four digits are more than any line";
 }
@@ -97,42 +98,46 @@ TEST(Radiance, NewRunsAreByComponent) {
     // Eight pixels: red is 8 x 200, green 1 to 8, blue 3 x 5 and 5 x 6, the exponent 8 x 128.
     const std::string line =
         "\x02\x02\x00\x08\x88\xc8\x08\x01\x02\x03\x04\x05\x06\x07\x08\x83\x05\x85\x06\x88\x80"s;
-    const Image image = read(hdr("-Y 1 +X 8", line));
+    const Image image = radianceOf(hdr("-Y 1 +X 8", line));
     for (int x = 0; x < 8; ++x) {
         EXPECT_EQ(image.at(x, 0, 0), 200.5f / 256);
         EXPECT_EQ(image.at(x, 0, 1), (1.5f + static_cast<float>(x)) / 256);
         EXPECT_EQ(image.at(x, 0, 2), (x < 3 ? 5.5f : 6.5f) / 256);
     }
-    EXPECT_EQ(faultOf(hdr("-Y 1 +X 9", line)), "a.hdr: a line of 8 pixels where 9 stand");
-    EXPECT_EQ(faultOf(hdr("-Y 1 +X 8", "\x02\x02\x00\x08\x89\xc8"s)), "a.hdr: a run goes past its line");
-    EXPECT_EQ(faultOf(hdr("-Y 1 +X 8", "\x02\x02\x00\x08\x00\xc8"s)), "a.hdr: a run goes past its line");
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 9", line)), "a.hdr: a line of 8 pixels where 9 stand");
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 8", "\x02\x02\x00\x08\x89\xc8"s)),
+              "a.hdr: a run goes past its line");
+    EXPECT_EQ(radianceFault(hdr("-Y 1 +X 8", "\x02\x02\x00\x08\x00\xc8"s)),
+              "a.hdr: a run goes past its line");
     for (std::size_t size = 0; size < line.size(); ++size)
-        EXPECT_NE(faultOf(hdr("-Y 1 +X 8", line.substr(0, size))), "reads") << size << " bytes";
+        EXPECT_NE(radianceFault(hdr("-Y 1 +X 8", line.substr(0, size))), "reads") << size << " bytes";
 }
 
 TEST(Radiance, FaultsAreNamed) {
     const std::string pixel = "\x80\x80\x80\x81";
-    EXPECT_EQ(faultOf(""), "a.hdr: is not a Radiance picture: it does not begin with #?");
-    EXPECT_EQ(faultOf("#?RADIANCE"), "a.hdr: its header has no end");
-    EXPECT_EQ(faultOf("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" + pixel),
+    EXPECT_EQ(radianceFault(""), "a.hdr: is not a Radiance picture: it does not begin with #?");
+    EXPECT_EQ(radianceFault("#?RADIANCE"), "a.hdr: its header has no end");
+    EXPECT_EQ(radianceFault("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" + pixel),
               "a.hdr: FORMAT 32-bit_rle_xyze, CIE XYZ, is not read: 32-bit_rle_rgbe is");
-    EXPECT_EQ(faultOf("#?RADIANCE\nFORMAT=a\x01thing\n\n-Y 1 +X 1\n" + pixel),
+    EXPECT_EQ(radianceFault("#?RADIANCE\nFORMAT=a\x01thing\n\n-Y 1 +X 1\n" + pixel),
               "a.hdr: FORMAT a?thing is not 32-bit_rle_rgbe");
     for (const char* bad :
          {"", "-Y 1", "-Y 1 -Y 1", "Y 1 X 1", "-Y 1 +X", "-Y 1 +X 1 1", "-Y 1.5 +X 1", "-Z 1 +X 1"})
-        EXPECT_EQ(faultOf(hdr(bad, pixel)), "a.hdr: resolution \""s + bad + "\" is not like -Y 480 +X 640");
-    EXPECT_EQ(faultOf(hdr("-Y 0 +X 1", pixel)), "a.hdr: claims 1 x 0 pixels: 1 to 65536 a side are read");
-    EXPECT_EQ(faultOf(hdr("-Y 70000 +X 1", pixel)),
+        EXPECT_EQ(radianceFault(hdr(bad, pixel)),
+                  "a.hdr: resolution \""s + bad + "\" is not like -Y 480 +X 640");
+    EXPECT_EQ(radianceFault(hdr("-Y 0 +X 1", pixel)),
+              "a.hdr: claims 1 x 0 pixels: 1 to 65536 a side are read");
+    EXPECT_EQ(radianceFault(hdr("-Y 70000 +X 1", pixel)),
               "a.hdr: claims 1 x 70000 pixels: 1 to 65536 a side are read");
-    EXPECT_EQ(faultOf(hdr("-Y 99999999999 +X 1", pixel)),
+    EXPECT_EQ(radianceFault(hdr("-Y 99999999999 +X 1", pixel)),
               "a.hdr: resolution \"-Y 99999999999 +X 1\" is not like -Y 480 +X 640");
     const std::string huge = hdr("-Y 20000 +X 20000", pixel);
-    EXPECT_EQ(faultOf(huge), "a.hdr: claims 20000 x 20000 pixels; its " + std::to_string(huge.size()) +
-                                 " bytes cannot hold them");
-    EXPECT_EQ(faultOf(hdr("-Y 20 +X 20", pixel), 4799),
+    EXPECT_EQ(radianceFault(huge), "a.hdr: claims 20000 x 20000 pixels; its " + std::to_string(huge.size()) +
+                                       " bytes cannot hold them");
+    EXPECT_EQ(radianceFault(hdr("-Y 20 +X 20", pixel), 4799),
               "a.hdr: claims 20 x 20 pixels of 12 bytes: 0 MiB are read at most");
     // 65536 lines of one run each would expand 786 kB to 48 GiB; the first one is truncated.
-    EXPECT_EQ(faultOf(hdr("-Y 5000 +X 65536", std::string(40000, '\x03'))), "a.hdr: is cut short")
+    EXPECT_EQ(radianceFault(hdr("-Y 5000 +X 65536", std::string(40000, '\x03'))), "a.hdr: is cut short")
         << "walked through before 3.7 GiB are taken";
 }
 

@@ -2,6 +2,8 @@
 // Checks the documentation's recipes "to add X, touch" against the sources: the files that a recipe names
 // are exactly those that mention an existing example. The table in the documentation is the data; this file
 // only has the words that identify each example.
+#include "tests/unit/sources.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,11 +20,6 @@
 
 namespace diptych {
 namespace {
-
-namespace fs = std::filesystem;
-
-using Files = std::map<std::string, std::string>;  // path from the repository's root -> contents
-using Faults = std::vector<std::string>;
 
 // Where the table stands, and its first line.
 constexpr const char* table_file = "tests/architecture/README.md";
@@ -51,32 +48,25 @@ const std::vector<Example> examples = {
 };
 
 // The program's sources; tests and documentation are not part of a recipe.
-const Files& sources() {
+const Files& programSources() {
     static const Files files = [] {
-        const fs::path root = DIPTYCH_SOURCE_DIR;
         Files found;
-        for (const char* top : {"shared", "shaders", "forward_plus", "deferred", "compare"})
-            for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
-                const std::string ending = entry.path().extension().string();
-                if (!entry.is_regular_file() || ending == ".md" || ending == ".exr") continue;
-                std::ifstream stream(entry.path(), std::ios::binary);
-                found[fs::relative(entry.path(), root).generic_string()] = {
-                    std::istreambuf_iterator<char>(stream), {}};
-            }
+        for (const auto& [path, text] : sources())
+            if (!path.starts_with("tests/") && path.find('/') != std::string::npos && path.front() != '.' &&
+                !endsIn(path, {".md", ".exr"}))
+                found[path] = text;
         return found;
     }();
     return files;
 }
 
 std::string tablePage() {
-    std::ifstream stream(fs::path(DIPTYCH_SOURCE_DIR) / table_file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    return sources().at(table_file);
 }
 
 // Whether the file has C++ style comments.
-bool isCode(const std::string& path) {
-    static const std::set<std::string> endings{".cpp", ".h", ".glsl", ".vert", ".frag", ".comp", ".js"};
-    return endings.contains(fs::path(path).extension().string());
+bool hasComments(const std::string& path) {
+    return isCode(path) || path.ends_with(".js");
 }
 
 // Removes comments, except inside quotes.
@@ -122,7 +112,7 @@ std::set<std::string> filesThatMention(const Files& files, const std::vector<std
         const auto isIn = [&](const std::string& where) {
             return std::ranges::any_of(words, [&](const std::string& w) { return holdsWord(where, w); });
         };
-        if (isIn(text) && (!isCode(path) || isIn(withoutComments(text)))) found.insert(path);
+        if (isIn(text) && (!hasComments(path) || isIn(withoutComments(text)))) found.insert(path);
     }
     return found;
 }
@@ -172,21 +162,15 @@ Faults recipeFaults(const std::string& page, const Files& files) {
     return faults;
 }
 
-std::string joined(const Faults& faults) {
-    std::string all;
-    for (const std::string& fault : faults) all += fault + "\n";
-    return all;
-}
-
 TEST(Recipes, NameTheFilesThatMentionAnExample) {
-    EXPECT_EQ(joined(recipeFaults(tablePage(), sources())), "");
+    EXPECT_EQ(joined(recipeFaults(tablePage(), programSources())), "");
 }
 
 TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
     const std::string page = tablePage();
     Files named;  // only files that the recipes mention
     for (const auto& [row, names] : recipesOf(page))
-        for (const auto& source : sources())
+        for (const auto& source : programSources())
             if (std::ranges::any_of(names, [&](const auto& name) { return source.first.starts_with(name); }))
                 named.insert(source);
     ASSERT_EQ(joined(recipeFaults(page, named)), "");

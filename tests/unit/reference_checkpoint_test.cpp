@@ -14,9 +14,9 @@ namespace {
 using Path = std::filesystem::path;
 using Names = std::vector<std::string>;
 
-const std::vector<float> first{1, 2, 3}, second{4, 5, 6};
+const std::vector<float> firstValues{1, 2, 3}, secondValues{4, 5, 6};
 constexpr std::uint64_t key = 0x0123456789abcdefu, other_key = 0xfedcba9876543210u;
-constexpr const char *name = "kept-01234567", *other_name = "kept-fedcba98";
+constexpr const char *keptName = "kept-01234567", *other_name = "kept-fedcba98";
 
 void write(const Path& file, const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
@@ -27,16 +27,16 @@ Path twoRecords() {
     const Path stem = folder() / "kept";
     Checkpoint checkpoint(stem, key, 3);
     EXPECT_TRUE(checkpoint.takeEarlier().empty());
-    EXPECT_EQ(checkpoint.file(), stem.parent_path() / name);
-    checkpoint.keep(10, first);
-    checkpoint.keep(11, second);
+    EXPECT_EQ(checkpoint.file(), stem.parent_path() / keptName);
+    checkpoint.keep(10, firstValues);
+    checkpoint.keep(11, secondValues);
     return stem;
 }
 
 std::vector<std::uint64_t> numbersIn(Checkpoint& checkpoint) {
     std::vector<std::uint64_t> numbers;
     for (const Checkpoint::Record& record : checkpoint.takeEarlier()) {
-        EXPECT_EQ(record.values, record.number == 10 ? first : second);
+        EXPECT_EQ(record.values, record.number == 10 ? firstValues : secondValues);
         numbers.push_back(record.number);
     }
     return numbers;
@@ -56,7 +56,7 @@ TEST(ReferenceCheckpoint, HoldsWhatIsKept) {
 }
 
 TEST(ReferenceCheckpoint, WhereverTheFileEndsWhatIsWholeCounts) {
-    const Path stem = twoRecords(), file = stem.parent_path() / name;
+    const Path stem = twoRecords(), file = stem.parent_path() / keptName;
     const std::string bytes = contentsOf(file);
     const std::size_t record = 8 + 3 * 4 + 8, head = bytes.size() - 2 * record;
     for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -68,15 +68,15 @@ TEST(ReferenceCheckpoint, WhereverTheFileEndsWhatIsWholeCounts) {
         write(file, bytes.substr(0, size));
         {
             Checkpoint checkpoint(stem, key, 3);
-            if (whole == 0) checkpoint.keep(10, first);
-            checkpoint.keep(11, second);
+            if (whole == 0) checkpoint.keep(10, firstValues);
+            checkpoint.keep(11, secondValues);
         }
         EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << size;
     }
 }
 
 TEST(ReferenceCheckpoint, EveryBitCounts) {
-    const Path stem = twoRecords(), file = stem.parent_path() / name;
+    const Path stem = twoRecords(), file = stem.parent_path() / keptName;
     const std::string bytes = contentsOf(file);
     for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
         std::string flipped = bytes;
@@ -91,7 +91,7 @@ TEST(ReferenceCheckpoint, EveryBitCounts) {
 TEST(ReferenceCheckpoint, AnotherPictureHasAnotherFile) {
     const Path stem = twoRecords();
     EXPECT_TRUE(numbersAt(stem, other_key).empty());
-    EXPECT_EQ(namesIn(stem.parent_path()), (Names{name, other_name}));
+    EXPECT_EQ(namesIn(stem.parent_path()), (Names{keptName, other_name}));
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << "nothing is lost";
 }
 
@@ -101,21 +101,22 @@ TEST(ReferenceCheckpoint, WhatHasItsNameByChanceIsLeftAlone) {
     EXPECT_TRUE(numbersAt(stem, key ^ 1).empty());
     EXPECT_TRUE(numbersAt(stem, key, 2).empty());
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11}));
-    EXPECT_EQ(namesIn(stem.parent_path()), (Names{name, std::string(name) + "-2", std::string(name) + "-3"}));
+    EXPECT_EQ(namesIn(stem.parent_path()),
+              (Names{keptName, std::string(keptName) + "-2", std::string(keptName) + "-3"}));
     const std::string text(5000, 'x');
     write(stem.parent_path() / other_name, text);
     {
         Checkpoint checkpoint(stem, other_key, 3);
         EXPECT_TRUE(checkpoint.takeEarlier().empty());
         EXPECT_EQ(checkpoint.file().filename(), std::string(other_name) + "-2");
-        checkpoint.keep(10, first);
+        checkpoint.keep(10, firstValues);
     }
     EXPECT_EQ(numbersAt(stem, other_key), (Numbers{10}));
     EXPECT_EQ(contentsOf(stem.parent_path() / other_name), text);
 }
 
 TEST(ReferenceCheckpoint, WhatOthersLeftIsNamed) {
-    const Path stem = twoRecords(), file = stem.parent_path() / name;
+    const Path stem = twoRecords(), file = stem.parent_path() / keptName;
     write(stem.parent_path() / "kept-1", "as they were called once");
     write(stem.parent_path() / "kept-notes.txt", "not ours");
     write(stem.parent_path() / "kept-", "not ours");
@@ -138,16 +139,16 @@ TEST(ReferenceCheckpoint, TwoAtOnceHaveAFileEach) {
     {
         Checkpoint one(stem, key, 3);
         Checkpoint two(stem, key, 3);
-        EXPECT_EQ(two.file().filename(), std::string(name) + "-2");
+        EXPECT_EQ(two.file().filename(), std::string(keptName) + "-2");
         EXPECT_EQ(numbersIn(one), (Numbers{10, 11}));
         EXPECT_EQ(numbersIn(two), (Numbers{10, 11})) << "what the other has done is not done twice";
-        one.keep(12, second);
-        two.keep(13, second);
-        two.keep(12, second);
+        one.keep(12, secondValues);
+        two.keep(13, secondValues);
+        two.keep(12, secondValues);
     }
     // Both programs have ended without finishing.
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
-    EXPECT_EQ(namesIn(stem.parent_path()), Names{name}) << "one file holds it all";
+    EXPECT_EQ(namesIn(stem.parent_path()), Names{keptName}) << "one file holds it all";
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
 }
 
@@ -155,13 +156,13 @@ TEST(ReferenceCheckpoint, TheFirstToFinishTakesNothingFromTheOther) {
     const Path stem = twoRecords();
     {
         Checkpoint one(stem, key, 3), two(stem, key, 3);
-        two.keep(12, second);
+        two.keep(12, secondValues);
         one.remove();
-        one.keep(13, second);  // after remove() nothing is kept
-        EXPECT_EQ(namesIn(stem.parent_path()), Names{std::string(name) + "-2"});
+        one.keep(13, secondValues);  // after remove() nothing is kept
+        EXPECT_EQ(namesIn(stem.parent_path()), Names{std::string(keptName) + "-2"});
     }
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12})) << "with what it had from the first";
-    EXPECT_EQ(namesIn(stem.parent_path()), Names{name});
+    EXPECT_EQ(namesIn(stem.parent_path()), Names{keptName});
     Checkpoint(stem, key, 3).remove();
     EXPECT_TRUE(namesIn(stem.parent_path()).empty());
 }
@@ -174,7 +175,7 @@ TEST(ReferenceCheckpoint, WhatCannotBeWrittenIsNamed) {
         Checkpoint checkpoint(stem, key, 3);
         ADD_FAILURE() << "nothing can be kept there";
     } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find((stem.parent_path() / name).string()), std::string::npos)
+        EXPECT_NE(std::string(e.what()).find((stem.parent_path() / keptName).string()), std::string::npos)
             << e.what();
         EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
     }
@@ -193,7 +194,7 @@ TEST(ReferenceCheckpoint, WhatFindsNoRoomIsAnError) {
         Checkpoint checkpoint(stem, key, 3);
         ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
         try {
-            checkpoint.keep(10, first);
+            checkpoint.keep(10, firstValues);
         } catch (const std::runtime_error&) {
             thrown = true;
         }

@@ -8,7 +8,7 @@ namespace diptych::reference {
 namespace {
 
 // A square light of 1 m, 1 m above the origin. An occluder at half the height hides twice its size.
-Light square() {
+Light squareLight() {
     Light light = lightOf(LightKind::rect, {0, 0, 1});
     light.axis = {1, 0, 0};
     return light;
@@ -35,7 +35,7 @@ struct Record {
 template <class Expected>
 Record recordOf(int seeds, const Surface& s, Expected&& expected) {
     Record record;
-    const Light light = square();
+    const Light light = squareLight();
     for (int seed = 0; seed < seeds; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
         const auto [screen, value] = expected(random);

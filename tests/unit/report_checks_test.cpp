@@ -17,25 +17,20 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 // The one covered pixel of the frames, (1, 2), and one that nothing lights.
-const PixelBox lit{1, 2, 2, 3}, dark{2, 0, 4, 1};
+const PixelBox litBox{1, 2, 2, 3}, darkBox{2, 0, 4, 1};
 
 std::vector<FeatureChecks> someChecks() {
     return {{"texture transforms",
              2,
-             {{"offset", "sign", "material 0 \"sign\", mesh 0", lit, 1},
-              {"turned", "arrow", "material 1 \"arrow\", mesh 1", lit, 1}}},
-            {"alpha masks", 900, {{"cut out", "leaf", "material 2 \"leaf\", mesh 2", dark, 2}}}};
+             {{"offset", "sign", "material 0 \"sign\", mesh 0", litBox, 1},
+              {"turned", "arrow", "material 1 \"arrow\", mesh 1", litBox, 1}}},
+            {"alpha masks", 900, {{"cut out", "leaf", "material 2 \"leaf\", mesh 2", darkBox, 2}}}};
 }
 
 std::string pageOf(const Report& report, const ReportOptions& options = {}) {
     const fs::path out = folder() / "report";
     writeReport(report, out, options);
     return contentsOf(out / "index.html");
-}
-std::size_t countOf(const std::string& text, const std::string& word) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
-    return found;
 }
 // What follows `before`, up to a quote, wherever it stands.
 std::vector<std::string> quotedAfter(const std::string& text, const std::string& before) {

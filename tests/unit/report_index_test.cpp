@@ -24,11 +24,6 @@ Report manyOf(std::size_t count, const std::set<std::size_t>& failing = {}) {
     }
     return reportOf(std::move(frames));
 }
-std::size_t countOf(const std::string& text, const std::string& word) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
-    return found;
-}
 
 TEST(ReportIndex, FailingOnesComeFirst) {
     const fs::path out = folder() / "report";

@@ -67,11 +67,11 @@ Element rootOf(const std::string& xml) {
     return element(xml, at);
 }
 
-struct Rule {
+struct ElementRule {
     std::set<std::string> children, needed, allowed;
     bool text = false;
 };
-const std::map<std::string, Rule> rules{
+const std::map<std::string, ElementRule> elementRules{
     {"testsuites", {{"testsuite"}, {}, {"name", "time", "tests", "failures", "errors"}}},
     {"testsuite",
      {{"testsuite", "properties", "testcase", "system-out", "system-err"},
@@ -89,8 +89,8 @@ const std::map<std::string, Rule> rules{
     {"system-out", {{}, {}, {}, true}}};
 
 void findFaults(const Element& element, std::vector<std::string>& faults) {
-    const auto rule = rules.find(element.name);
-    if (rule == rules.end()) return faults.push_back(element.name + ": no such element");
+    const auto rule = elementRules.find(element.name);
+    if (rule == elementRules.end()) return faults.push_back(element.name + ": no such element");
     for (const std::string& needed : rule->second.needed)
         if (!element.attributes.contains(needed)) faults.push_back(element.name + " lacks " + needed);
     for (const auto& [name, value] : element.attributes) {
@@ -131,7 +131,7 @@ std::vector<std::string> faultsOf(const Element& root) {
 }
 
 // Two comparisons; of the second roughness fails and a Frame cannot be trusted. Names that need escapes.
-Report failing() {
+Report failingOfTwo() {
     std::vector<Frame> frames = bothFrames("a<b>&\"'\x01.glb");
     for (Frame& frame : bothFrames("two ]]> .glb")) frames.push_back(std::move(frame));
     for (Frame& frame : frames) frame.made_in_ms = 1500;
@@ -143,7 +143,7 @@ Report failing() {
 
 TEST(ReportJunit, KeepsTheRules) {
     const fs::path out = folder() / "report";
-    writeReport(failing(), out, {});
+    writeReport(failingOfTwo(), out, {});
     const Element root = rootOf(contentsOf(out / "junit.xml"));
     EXPECT_EQ(faultsOf(root), std::vector<std::string>{});
     ASSERT_EQ(root.all("testsuite").size(), 2u);
@@ -189,7 +189,7 @@ TEST(ReportJunit, TheRulesFindFaults) {
 TEST(ReportJunit, FailingChannelsAttachTheirPictures) {
     const fs::path here = folder(), before = fs::current_path();
     fs::current_path(here);
-    writeReport(failing(), "out/report", {});
+    writeReport(failingOfTwo(), "out/report", {});
     const Element root = rootOf(contentsOf("out/report/junit.xml"));
     std::vector<std::string> attached;
     for (const Element* suite : root.all("testsuite"))

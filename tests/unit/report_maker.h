@@ -15,6 +15,12 @@
 
 namespace diptych {
 
+inline std::size_t countOf(const std::string& text, const std::string& word) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+    return found;
+}
+
 // The fault of a text that is no well-formed markup: an unclosed or crossed element, a bare & or <. `voids`
 // are elements that HTML closes by itself.
 inline std::string markupFault(const std::string& text, const std::set<std::string>& voids = {}) {

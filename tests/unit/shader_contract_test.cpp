@@ -10,6 +10,7 @@
 #include "shared/draw/packed_view.h"
 #include "shared/vulkan/spirv.h"
 #include "shared/vulkan/variant.h"
+#include "tests/unit/sources.h"
 #include "tests/unit/spirv_module.h"
 
 #include <gtest/gtest.h>
@@ -26,14 +27,6 @@
 
 namespace diptych {
 namespace {
-
-using Faults = std::vector<std::string>;
-
-std::string joined(const Faults& faults) {
-    std::string all;
-    for (const std::string& fault : faults) all += fault + "\n";
-    return all;
-}
 
 // The facts about each embedded module, read once.
 struct Module {

@@ -3,15 +3,12 @@
 #pragma once
 
 #include "shared/image/image.h"
+#include "tests/unit/nonfinite.h"
 
 #include <cstddef>
-#include <limits>
 #include <random>
 
 namespace diptych {
-
-inline constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
-                       inf = std::numeric_limits<float>::infinity();
 
 inline Image flat(int width, int height, float r, float g, float b) {
     Image image(width, height, 3);

@@ -13,7 +13,7 @@ using namespace tradeoff;
 
 namespace {
 
-std::string faultOf(const std::string& text) {
+std::string gridFault(const std::string& text) {
     try {
         readGrids(text, {});
     } catch (const std::runtime_error& error) {
@@ -64,12 +64,12 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
         {"/tmp", "/tmp: is a folder"},
     };
     for (const auto& [text, fault] : bad) {
-        const std::string said = faultOf(text);
+        const std::string said = gridFault(text);
         EXPECT_NE(said.find(fault), std::string::npos) << text << ": " << said;
         EXPECT_TRUE(said.starts_with("--grid")) << said;
         EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     }
-    EXPECT_NE(faultOf(std::string(100000, '[')).find("nests deeper"), std::string::npos);
+    EXPECT_NE(gridFault(std::string(100000, '[')).find("nests deeper"), std::string::npos);
 }
 
 // Bytes changed, taken out and put in: a plan comes out, or one line that says why not.

@@ -5,6 +5,7 @@
 #include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
+#include "tests/unit/nonfinite.h"
 #include "tests/unit/report_maker.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +18,6 @@ using namespace cli;
 using namespace tradeoff;
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 TradeoffRow row(const char* path, const char* option, const char* value, double ms, const Errors& errors) {
     TradeoffRow made;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/pareto.h"
+#include "tests/unit/nonfinite.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +14,6 @@ namespace diptych {
 using namespace tradeoff;
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
-                 inf = std::numeric_limits<double>::infinity();
 
 // By the definition, pair by pair.
 std::vector<std::size_t> byDefinition(const std::vector<TimeError>& points) {

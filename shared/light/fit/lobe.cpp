@@ -10,7 +10,7 @@
 namespace diptych::ltc {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 glm::dvec2 onDisc(const glm::dvec2& u) {
     const double r = std::sqrt(u.x), phi = 2 * pi * u.y;

@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 
@@ -15,10 +16,6 @@
 namespace diptych::gltf {
 
 namespace {
-
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
-}
 
 // ---- shapes ------------------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/draco_stream.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include <array>
 #include <cstring>
 #include <new>
-#include <stdexcept>
 
 namespace diptych::gltf {
 
@@ -21,12 +21,8 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr const char* extensionName = "KHR_draco_mesh_compression";
 
-std::string nameOf(std::size_t mesh, std::size_t primitive) {
+std::string primitiveName(std::size_t mesh, std::size_t primitive) {
     return fmt::format("mesh {}, primitive {}: {}", mesh, primitive, extensionName);
-}
-
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
 }
 
 const tinygltf::Accessor& accessorAt(const tinygltf::Model& model, int index) {
@@ -51,7 +47,7 @@ std::size_t elementBytes(const tinygltf::Accessor& a) {
 DracoPrimitive readExtension(const tinygltf::Model& model, const tinygltf::Value& e, std::size_t mesh,
                              std::size_t index) {
     const tinygltf::Primitive& primitive = model.meshes[mesh].primitives[index];
-    const std::string who = nameOf(mesh, index);
+    const std::string who = primitiveName(mesh, index);
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP)
         fail(who, fmt::format("mode {}, neither triangles nor a strip", primitive.mode));
     DracoPrimitive result{mesh, index, 0, {}, 0};
@@ -159,7 +155,7 @@ Bytes valuesOf(const draco::Mesh& mesh, const DracoPrimitive::Attribute& attribu
 }
 
 Result decoded(const tinygltf::Model& model, const DracoPrimitive& p, std::size_t limit) {
-    const std::string who = nameOf(p.mesh, p.primitive);
+    const std::string who = primitiveName(p.mesh, p.primitive);
     const tinygltf::Primitive& primitive = model.meshes[p.mesh].primitives[p.primitive];
     DracoExpectation expected{p.vertices, {}, p.attributes.size(), limit};
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && primitive.indices >= 0) {

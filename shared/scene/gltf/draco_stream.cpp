@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/draco_stream.h"
 
+#include "shared/text/fail.h"
+
 #include <draco/compression/entropy/symbol_decoding.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
@@ -9,17 +11,12 @@
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace diptych::gltf {
 
 namespace {
-
-[[noreturn]] void fail(const std::string& why) {
-    throw std::runtime_error(why);
-}
 
 template <class Number>
 Number next(draco::DecoderBuffer& buffer) {

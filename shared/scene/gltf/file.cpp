@@ -5,6 +5,7 @@
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/schema.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/fail.h"
 #include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
@@ -24,10 +25,6 @@ namespace {
 
 using Json = nlohmann::json;
 using Bytes = std::vector<unsigned char>;
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 constexpr std::array builtExtensions{"EXT_meshopt_compression", "KHR_draco_mesh_compression",
                                      "KHR_lights_punctual",     "KHR_materials_emissive_strength",

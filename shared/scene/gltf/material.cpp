@@ -5,6 +5,7 @@
 #include "shared/scene/gltf/texture.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/material_slots.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -17,10 +18,6 @@
 namespace diptych::gltf {
 
 namespace {
-
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
-}
 
 // ---- materials ---------------------------------------------------------------------------------------
 

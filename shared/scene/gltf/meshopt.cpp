@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/meshopt.h"
 
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -19,12 +20,12 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr const char* extensionName = "EXT_meshopt_compression";
 
-std::string nameOf(std::size_t view) {
+std::string viewName(std::size_t view) {
     return fmt::format("bufferView {}: {}", view, extensionName);
 }
 
-[[noreturn]] void fail(std::size_t view, const std::string& why) {
-    throw std::runtime_error(nameOf(view) + ": " + why);
+[[noreturn]] void failView(std::size_t view, const std::string& why) {
+    fail(viewName(view), why);
 }
 
 // ---- the extension's rules ---------------------------------------------------------------------------
@@ -37,23 +38,23 @@ Enum choice(const tinygltf::Value& object, const char* key, const char* const (&
                              : !object.Get(key).IsString() ? ""
                                                            : object.Get(key).Get<std::string>();
     const auto at = std::find(std::begin(words), std::end(words), word);
-    if (at == std::end(words)) fail(view, fmt::format("\"{}\" is no {}", oneLine(word), key));
+    if (at == std::end(words)) failView(view, fmt::format("\"{}\" is no {}", oneLine(word), key));
     return static_cast<Enum>(at - words);
 }
 
 // The bytes of the stream, checked to lie inside their buffer.
 std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tinygltf::Value& e,
                                         std::size_t view) {
-    const std::string who = nameOf(view);
+    const std::string who = viewName(view);
     const int index = checkedIndex(indexIn(e, "buffer", -1, who), model.buffers.size(), who, "buffer");
-    if (index < 0) fail(view, "names no buffer");
+    if (index < 0) failView(view, "names no buffer");
     const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(index)];
-    if (!missing(buffer).empty()) fail(view, missing(buffer));
+    if (!missing(buffer).empty()) failView(view, missing(buffer));
     const auto offset = static_cast<std::size_t>(indexIn(e, "byteOffset", 0, who));
     const auto length = static_cast<std::size_t>(indexIn(e, "byteLength", 0, who));
     if (offset > buffer.data.size() || length > buffer.data.size() - offset)
-        fail(view, fmt::format("{} bytes from {} on end past buffer {} ({} bytes)", length, offset, index,
-                               buffer.data.size()));
+        failView(view, fmt::format("{} bytes from {} on end past buffer {} ({} bytes)", length, offset, index,
+                                   buffer.data.size()));
     return std::span(buffer.data).subspan(offset, length);
 }
 
@@ -76,7 +77,7 @@ std::size_t shortestStream(const MeshoptView& v) {
 
 void checkRules(const MeshoptView& v, const tinygltf::BufferView& parent) {
     const auto require = [&](bool holds, const std::string& rule) {
-        if (!holds) fail(v.view, rule);
+        if (!holds) failView(v.view, rule);
     };
     const auto stride = [&](const char* rule) {
         return fmt::format("byteStride {}, not {}", v.stride, rule);
@@ -114,9 +115,9 @@ Bytes decoded(const MeshoptView& v) {
                            ? meshopt_decodeIndexBuffer(bytes.data(), v.count, v.stride, stream, size)
                            : meshopt_decodeIndexSequence(bytes.data(), v.count, v.stride, stream, size);
     // The library's three error codes.
-    if (result == -1) fail(v.view, "its bytes are not of its mode");
-    if (result == -2) fail(v.view, "its bytes end before its elements");
-    if (result != 0) fail(v.view, "its bytes do not end with its elements");
+    if (result == -1) failView(v.view, "its bytes are not of its mode");
+    if (result == -2) failView(v.view, "its bytes end before its elements");
+    if (result != 0) failView(v.view, "its bytes do not end with its elements");
 
     switch (v.filter) {
         case Filter::none:
@@ -139,8 +140,8 @@ MeshoptView viewOf(const tinygltf::Model& model, const tinygltf::Value& e, std::
     static constexpr const char* filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
     MeshoptView v{i,
                   streamOf(model, e, i),
-                  static_cast<std::size_t>(indexIn(e, "count", 0, nameOf(i))),
-                  static_cast<std::size_t>(indexIn(e, "byteStride", 0, nameOf(i))),
+                  static_cast<std::size_t>(indexIn(e, "count", 0, viewName(i))),
+                  static_cast<std::size_t>(indexIn(e, "byteStride", 0, viewName(i))),
                   choice<Mode>(e, "mode", modes, "", i),
                   choice<Filter>(e, "filter", filters, "NONE", i)};
     checkRules(v, model.bufferViews[i]);

@@ -4,6 +4,7 @@
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
@@ -18,10 +19,6 @@
 namespace diptych::gltf {
 
 namespace {
-
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
-}
 
 bool allFinite(const std::vector<float>& values) {
     return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });

@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -19,11 +20,7 @@ namespace diptych::gltf {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
-}
-
-std::string nameOf(std::size_t node) {
+std::string nodeName(std::size_t node) {
     return fmt::format("node {}", node);
 }
 
@@ -79,10 +76,11 @@ std::vector<int> parentsOf(const tinygltf::Model& model) {
     std::vector<int> parent(model.nodes.size(), -1);
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
         for (const int child : model.nodes[n].children) {
-            if (checkedIndex(child, model.nodes.size(), nameOf(n), "child") < 0) fail(nameOf(n), "child -1");
+            if (checkedIndex(child, model.nodes.size(), nodeName(n), "child") < 0)
+                fail(nodeName(n), "child -1");
             int& p = parent[static_cast<std::size_t>(child)];
             if (p >= 0)
-                fail(nameOf(static_cast<std::size_t>(child)),
+                fail(nodeName(static_cast<std::size_t>(child)),
                      fmt::format("is a child of node {} and of node {}", p, n));
             p = static_cast<int>(n);
         }
@@ -100,7 +98,7 @@ void refuseCircles(const std::vector<int>& parent) {
             walk[static_cast<std::size_t>(n)] = start + 1;
             n = parent[static_cast<std::size_t>(n)];
             if (n >= 0 && walk[static_cast<std::size_t>(n)] == start + 1)
-                fail(nameOf(static_cast<std::size_t>(n)), "is its own ancestor");
+                fail(nodeName(static_cast<std::size_t>(n)), "is its own ancestor");
         }
     }
 }
@@ -244,9 +242,9 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
         Node node;
         node.name = file.name;
         node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
-        node.parent_from_node = transformOf(file, nameOf(n), nodeNotes);
-        node.mesh = checkedIndex(file.mesh, model.meshes.size(), nameOf(n), "mesh");
-        if (checkedIndex(file.camera, model.cameras.size(), nameOf(n), "camera") >= 0) {
+        node.parent_from_node = transformOf(file, nodeName(n), nodeNotes);
+        node.mesh = checkedIndex(file.mesh, model.meshes.size(), nodeName(n), "mesh");
+        if (checkedIndex(file.camera, model.cameras.size(), nodeName(n), "camera") >= 0) {
             try {
                 Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
                                            fmt::format("camera {}", file.camera), notes);
@@ -258,8 +256,8 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
             }
         }
         if (const auto* e = extension(file.extensions, "KHR_lights_punctual")) {
-            const int index =
-                checkedIndex(indexIn(*e, "light", -1, nameOf(n)), model.lights.size(), nameOf(n), "light");
+            const int index = checkedIndex(indexIn(*e, "light", -1, nodeName(n)), model.lights.size(),
+                                           nodeName(n), "light");
             if (index >= 0) {
                 Light light = readLight(model.lights[static_cast<std::size_t>(index)],
                                         fmt::format("light {}", index), notes);

@@ -5,6 +5,7 @@
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangents.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -14,15 +15,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 
 namespace diptych::gltf {
 
 namespace {
-
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
-}
 
 bool drawsTriangles(int mode) {
     return mode >= TINYGLTF_MODE_TRIANGLES && mode <= TINYGLTF_MODE_TRIANGLE_FAN;

@@ -3,6 +3,7 @@
 
 #include "shared/image/file_bytes.h"
 #include "shared/scene/gltf/limits.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -21,10 +22,6 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error(what);
-}
 
 char lower(char c) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -2,6 +2,7 @@
 #include "shared/scene/gltf/rules.h"
 
 #include "shared/scene/gltf/properties.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <vector>
 
 namespace diptych::gltf {
@@ -19,10 +19,6 @@ namespace diptych::gltf {
 namespace {
 
 using Json = nlohmann::json;
-
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
-}
 
 const Json::json_pointer& lightsPlace() {
     static const Json::json_pointer place("/extensions/KHR_lights_punctual/lights");

@@ -42,7 +42,7 @@ struct Where {
     }
 };
 
-[[noreturn]] void fail(const Where& where, const std::string& why) {
+[[noreturn]] void failAt(const Where& where, const std::string& why) {
     const std::string words = where.words();
     throw std::runtime_error(words.empty() ? why : words + ": " + why);
 }
@@ -72,7 +72,7 @@ public:
 
     // Removes the members that are not read and checks the others.
     void object(Json& value, std::span<const Property> properties, const Where& where) {
-        if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
+        if (!value.is_object()) failAt(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end();) {
             const auto property = std::ranges::find(properties, at.key(), &Property::key);
             if (property == properties.end() && at.key() == "extensions") leaveOut(at.value(), where);
@@ -85,7 +85,7 @@ public:
         }
         for (const Property& property : properties)
             if (property.required && !value.contains(property.key))
-                fail(where, fmt::format("has no {}", property.key));
+                failAt(where, fmt::format("has no {}", property.key));
     }
 
 private:
@@ -181,7 +181,7 @@ private:
 
     [[noreturn]] static void wrong(const Json& value, std::string_view key, std::string_view expected,
                                    const Where& where) {
-        fail(where, fmt::format("{} is {}, not {}", key, quoted(value), expected));
+        failAt(where, fmt::format("{} is {}, not {}", key, quoted(value), expected));
     }
 
     static Json& array(Json& value, const Property& p, const Where& where) {
@@ -226,7 +226,7 @@ private:
     static void numbers(Json& value, const Property& p, const Where& where) {
         array(value, p, where);
         if (value.size() < p.least || value.size() > p.most)
-            fail(where, fmt::format("{} has {} numbers, not {}", p.key, value.size(), p.least));
+            failAt(where, fmt::format("{} has {} numbers, not {}", p.key, value.size(), p.least));
         for (std::size_t i = 0; i < value.size(); ++i) {
             const auto key = [&] { return fmt::format("{}[{}]", p.key, i); };
             if (!value[i].is_number()) wrong(value[i], key(), "a number", where);
@@ -244,9 +244,9 @@ private:
         const std::size_t count = of.empty() ? std::numeric_limits<int>::max() : references.count(of);
         if (!(v >= 0 && v < static_cast<double>(count))) {
             const std::string_view one = of == "KHR_lights_punctual" ? "light" : schema::itemOf(of);
-            fail(where,
-                 fmt::format("{}{} {}, but the file has {}", key == one ? "" : fmt::format("{} names ", key),
-                             one, value.dump(), count));
+            failAt(where,
+                   fmt::format("{}{} {}, but the file has {}",
+                               key == one ? "" : fmt::format("{} names ", key), one, value.dump(), count));
         }
         value = static_cast<std::int64_t>(v);
         if (!of.empty() && of != "skins" && of != "cameras")
@@ -254,10 +254,10 @@ private:
     }
 
     void attributes(Json& value, const Property& p, const Where& where) {
-        if (!value.is_object()) fail(where, fmt::format("is {}, not an object", quoted(value)));
+        if (!value.is_object()) failAt(where, fmt::format("is {}, not an object", quoted(value)));
         for (auto at = value.begin(); at != value.end();) {
             const std::string name = oneLine(at.key());
-            if (name != at.key()) fail(where, fmt::format("{} is no name of an attribute", name));
+            if (name != at.key()) failAt(where, fmt::format("{} is no name of an attribute", name));
             if (at.value().is_null()) {
                 note(where, name + " is null: taken as absent");
                 at = value.erase(at);

@@ -8,6 +8,7 @@
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/image/decode.h"
 #include "shared/scene/image/radiance_layer.h"
+#include "shared/text/fail.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
@@ -19,10 +20,6 @@
 namespace diptych::gltf {
 
 namespace {
-
-[[noreturn]] void fail(const std::string& who, const std::string& why) {
-    throw std::runtime_error(who + ": " + why);
-}
 
 Wrap wrapOf(int value, const std::string& who) {
     switch (value) {

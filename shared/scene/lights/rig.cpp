@@ -2,6 +2,7 @@
 #include "shared/scene/lights/rig.h"
 
 #include "shared/scene/lights/lights_json.h"
+#include "shared/scene/model/luminance.h"
 #include "shared/scene/motion/bounds.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ struct Box {
     glm::dvec3 min, size;
 };
 
-[[noreturn]] void fail(const std::string& lights, const std::string& fault) {
+[[noreturn]] void failLights(const std::string& lights, const std::string& fault) {
     throw std::runtime_error(
         fmt::format("--lights {}: {}; it takes KIND:N[,KIND:N...] with KIND point, spot or area, or the name "
                     "of a JSON file",
@@ -46,15 +47,16 @@ struct Box {
 
 Order parseOrder(const std::string& lights, std::string_view item) {
     const std::size_t colon = item.find(':');
-    if (colon == std::string_view::npos) fail(lights, fmt::format("'{}' is neither KIND:N nor a file", item));
+    if (colon == std::string_view::npos)
+        failLights(lights, fmt::format("'{}' is neither KIND:N nor a file", item));
     const std::string_view kind = item.substr(0, colon), digits = item.substr(colon + 1);
     const auto found = std::ranges::find(STREAM_NAMES, kind);
-    if (found == STREAM_NAMES.end()) fail(lights, fmt::format("unknown kind '{}'", kind));
+    if (found == STREAM_NAMES.end()) failLights(lights, fmt::format("unknown kind '{}'", kind));
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
     if (error == std::errc::result_out_of_range) count = MOST_LIGHTS + 1;
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
-        fail(lights, fmt::format("'{}' is no count", digits));
+        failLights(lights, fmt::format("'{}' is no count", digits));
     return {static_cast<Stream>(found - STREAM_NAMES.begin()), count};
 }
 
@@ -65,7 +67,7 @@ std::vector<Order> parseOrders(const std::string& lights) {
         const std::size_t end = std::min(lights.find(',', begin), lights.size());
         orders.push_back(parseOrder(lights, std::string_view(lights).substr(begin, end - begin)));
         if (orders.back().count > MOST_LIGHTS - total)
-            fail(lights, fmt::format("more than 2^31 ({}) lights", MOST_LIGHTS));
+            failLights(lights, fmt::format("more than 2^31 ({}) lights", MOST_LIGHTS));
         total += orders.back().count;
         begin = end + 1;
     }
@@ -88,10 +90,6 @@ Box boxIn(const Bounds& bounds) {
 
 double frac(double x) {
     return x - std::floor(x);
-}
-
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
 // A colour of this hue (0 and 1 red, 1/3 green, 2/3 blue) mixed with white; the largest component is 1.
@@ -190,7 +188,7 @@ std::vector<Light> makeLights(const std::string& lights, std::uint32_t seed, con
     try {
         made.reserve(total);
     } catch (const std::exception&) {
-        fail(lights, fmt::format("{} lights do not fit in memory", total));
+        failLights(lights, fmt::format("{} lights do not fit in memory", total));
     }
 
     const Box box = boxIn(bounds);
