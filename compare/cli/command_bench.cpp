@@ -17,16 +17,7 @@ namespace {
 // Frames of one kernel where --runs says less: its slope is that of the fastest two.
 constexpr int fewestKernelRuns = 15;
 
-std::filesystem::path folderOf(const Options& options) {
-    const Output output = outputOf(options.out.empty() ? "diptych-bench" : options.out);
-    if (output.kind != OutputKind::folder)
-        throw std::runtime_error(
-            fmt::format("-o {}: a benchmark is a folder; give a name without ending", output.path.string()));
-    checkReplaceable(output, benchManifest, options.force);
-    return output.path;
-}
-
-void checkOptions(const Options& options) {
+void checkBenchOptions(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
             fmt::format("{}: a benchmark is of one scene; run it once for each", options.scenes[1]));
@@ -54,10 +45,10 @@ BenchOptions benchOptions(const Options& options) {
 }  // namespace
 
 int runBench(const Options& options) {
-    checkOptions(options);
+    checkBenchOptions(options);
     const BenchOptions requested = benchOptions(options);
     const BenchCases cases = casesOf(options, requested);
-    const std::filesystem::path folder = folderOf(options);
+    const std::filesystem::path folder = outputFolder(options, "diptych-bench", "benchmark", benchManifest);
     if (options.debug_given) note(options, "--debug is not used: a benchmark makes no picture");
     if (!options.channels.empty()) note(options, "--channels is not used: a benchmark makes no channels");
 

@@ -19,15 +19,6 @@
 namespace diptych::cli {
 namespace {
 
-std::filesystem::path reportFolder(const Options& options) {
-    const Output output = outputOf(options.out.empty() ? "diptych-report" : options.out);
-    if (output.kind != OutputKind::folder)
-        throw std::runtime_error(
-            fmt::format("-o {}: a report is a folder; give a name without ending", output.path.string()));
-    checkReplaceable(output, "report.json", options.force);
-    return output.path;
-}
-
 CompareOptions compareOptions(const Options& options) {
     CompareOptions compare;
     compare.baseline = options.baseline;
@@ -154,7 +145,7 @@ Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> basel
 
 int runCompare(const Options& options) {
     const std::vector<Settings> settings = settingsOf(options, pathsOf(options));
-    const std::filesystem::path folder = reportFolder(options);
+    const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare draws both");
     if (options.heat) note(options, "--heat is not used: the report shows every channel, light_count too");

@@ -34,16 +34,7 @@ double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::filesystem::path folderOf(const Options& options) {
-    const Output output = outputOf(options.out.empty() ? "diptych-tradeoff" : options.out);
-    if (output.kind != OutputKind::folder)
-        throw std::runtime_error(
-            fmt::format("-o {}: a tradeoff is a folder; give a name without ending", output.path.string()));
-    checkReplaceable(output, tradeoffManifest, options.force);
-    return output.path;
-}
-
-void checkOptions(const Options& options) {
+void checkTradeoffOptions(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
             fmt::format("{}: a tradeoff is of one scene; run it once for each", options.scenes[1]));
@@ -92,7 +83,7 @@ public:
     Sweep(const Options& options, const SweepRows& sweep)
         : options_(options),
           sweep_(sweep),
-          folder_(folderOf(options)),
+          folder_(outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffManifest)),
           references_(folder_, true),
           progress_(progressOutput(options)),
           device_(deviceOptions(options)) {
@@ -238,7 +229,7 @@ private:
 }  // namespace
 
 int runTradeoff(const Options& options) {
-    checkOptions(options);
+    checkTradeoffOptions(options);
     const Settings& given = options.settings;
     const SweepRows sweep =
         makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 
+#include "compare/files/output.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/load.h"
 
@@ -21,6 +22,16 @@ int runCommand(const Options& options) {
     for (const auto& [name, run] : commands)
         if (name == options.command) return run(options);
     throw std::runtime_error(options.command + " is not built yet");
+}
+
+std::filesystem::path outputFolder(const Options& options, const char* name, const char* what,
+                                   const char* manifest) {
+    const Output output = outputOf(options.out.empty() ? name : options.out);
+    if (output.kind != OutputKind::folder)
+        throw std::runtime_error(
+            fmt::format("-o {}: a {} is a folder; give a name without ending", output.path.string(), what));
+    checkReplaceable(output, manifest, options.force);
+    return output.path;
 }
 
 std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths) {

@@ -11,6 +11,7 @@
 #include "shared/scene/model/scene.h"
 #include "shared/vulkan/device.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,11 @@ ReportDevice reportDevice(const Device& device);
 
 // Throws where -o was given to a command that writes no file.
 void refuseOut(const Options& options);
+
+// The folder named by -o, or `name` where none is given, for `what` ("benchmark"); throws where -o is no
+// folder or there is something else than an earlier one, which holds `manifest` (output.h).
+std::filesystem::path outputFolder(const Options& options, const char* name, const char* what,
+                                   const char* manifest);
 
 // With --validate any message of the layers is a failure: throws how many there were and the first one.
 void checkValidation(const Device& device);

@@ -149,7 +149,7 @@ constexpr const char* legend =
     "</dl><p class=\"soft\">They act on the card that the pointer was on last. Arrows act after a click into "
     "the picture.</p></details>\n";
 
-std::string used(const ChannelDiff& channel) {
+std::string usedText(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
     // There the largest error equals the tolerance by construction, and a full meter would read as "just
     // barely passed".
@@ -185,7 +185,7 @@ std::string overview(const Comparison& comparison, std::size_t index) {
                 "<td class=\"n\">{}</td><td class=\"optional\">{}</td>",
                 number(s.max), number(s.mean), number(s.p999),
                 std::isfinite(channel->tolerance.max) ? number(channel->tolerance.max) : "rule",
-                used(*channel));
+                usedText(*channel));
         out += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", nameOf(channel->verdict));
     }
     return out + "</table></div>\n";

@@ -17,7 +17,7 @@ using page::number;
 namespace {
 
 // The share of its tolerance that a channel uses; infinite if the tolerance is 0 and the channel differs.
-double used(const ChannelDiff& channel) {
+double usedShare(const ChannelDiff& channel) {
     if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0)
         return std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ const ChannelDiff* worstOf(const Comparison& comparison) {
             if ((channel.verdict == Verdict::fail) != failing || channel.verdict == Verdict::forward_only)
                 continue;
             if (!failing && channel.unexplained_pixels) continue;  // their largest error equals the tolerance
-            if (!worst || used(channel) > used(*worst)) worst = &channel;
+            if (!worst || usedShare(channel) > usedShare(*worst)) worst = &channel;
         }
         if (worst) return worst;
     }
@@ -47,7 +47,7 @@ const ChannelDiff* worstOf(const Comparison& comparison) {
 std::string worstCell(const Comparison& comparison, std::size_t index) {
     const ChannelDiff* worst = worstOf(comparison);
     if (!worst) return "<td></td><td class=\"n optional\" data-value=\"0\"></td>";
-    const double share = used(*worst);
+    const double share = usedShare(*worst);
     return fmt::format(
         "<td><a href=\"#c{}-{}\">{}</a></td><td class=\"n optional\" data-value=\"{:.6g}\">{}</td>", index,
         worst->mode->name, worst->mode->name, share < std::numeric_limits<double>::infinity() ? share : 1e300,

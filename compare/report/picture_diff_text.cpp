@@ -19,7 +19,7 @@ using page::number;
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Row = std::array<std::string, 9>;
+using TextRow = std::array<std::string, 9>;
 
 Json finiteOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -47,7 +47,7 @@ std::string wordOf(Level level) {
     return level == Level::fail ? "FAIL" : std::string(nameOf(level));
 }
 
-Row rowOf(const PictureChannelDiff& channel) {
+TextRow rowOf(const PictureChannelDiff& channel) {
     const Measurement& m = *channel.measurement;
     const Condition* bound = singleBound(channel);
     const auto shown = [&](const char* figure) {
@@ -123,13 +123,13 @@ Json channelJson(const PictureChannelDiff& channel) {
 std::string pictureDiffTable(const PictureDiff& diff) {
     std::string out =
         fmt::format("{} against {}, {}x{}\n", diff.test, diff.reference, diff.width, diff.height);
-    std::vector<Row> rows{
+    std::vector<TextRow> rows{
         {"channel", "figure", "value", "tolerance", "max", "rmse", "psnr", "ssim", "verdict"}};
     for (const PictureChannelDiff* channel : failuresFirst(diff)) rows.push_back(rowOf(*channel));
     std::array<std::size_t, 9> widths{};
-    for (const Row& row : rows)
+    for (const TextRow& row : rows)
         for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    for (const Row& row : rows) {
+    for (const TextRow& row : rows) {
         out += fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
         for (std::size_t i = 2; i + 1 < row.size(); ++i) out += fmt::format("  {:>{}}", row[i], widths[i]);
         out += "  " + row.back() + "\n";

@@ -17,7 +17,7 @@ using page::number;
 
 namespace {
 
-using Row = std::array<std::string, 7>;
+using TableRow = std::array<std::string, 7>;
 
 // Where the encoding's effect is known for each pixel, the tolerance is its largest and max equals it by
 // construction, so the outcome is shown instead.
@@ -28,7 +28,7 @@ std::string toleranceOf(const ChannelDiff& channel) {
                                             : fmt::format("{} px left", *channel.unexplained_pixels);
 }
 
-Row rowOf(const ChannelDiff& channel) {
+TableRow rowOf(const ChannelDiff& channel) {
     const std::string verdict(channel.verdict == Verdict::fail ? "FAIL" : nameOf(channel.verdict));
     const std::string name(channel.mode->name), metric(nameOf(channel.mode->metric));
     if (channel.verdict == Verdict::forward_only) return {name, metric, "-", "-", "-", "-", verdict};
@@ -62,12 +62,12 @@ std::string reportTable(const Report& report) {
                            pairTitle(report, comparison));
         out += frameLine(baseline) + frameLine(test);
 
-        std::vector<Row> rows{{"channel", "metric", "max", "mean", "p99.9", "tolerance", "verdict"}};
+        std::vector<TableRow> rows{{"channel", "metric", "max", "mean", "p99.9", "tolerance", "verdict"}};
         for (const ChannelDiff* channel : failuresFirst(comparison)) rows.push_back(rowOf(*channel));
         std::array<std::size_t, 7> widths{};
-        for (const Row& row : rows)
+        for (const TableRow& row : rows)
             for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-        for (const Row& row : rows) {
+        for (const TableRow& row : rows) {
             std::string line = fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
             for (std::size_t i = 2; i < 6; ++i) line += fmt::format("  {:>{}}", row[i], widths[i]);
             out += line + "  " + row[6] + "\n";

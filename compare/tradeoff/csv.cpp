@@ -19,7 +19,10 @@ std::string quoted(const std::string& text) {
 
 std::string line(const std::vector<std::string>& fields) {
     std::string out;
-    for (std::size_t i = 0; i < fields.size(); ++i) out += (i > 0 ? "," : "") + quoted(fields[i]);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (i > 0) out += ',';
+        out += quoted(fields[i]);
+    }
     return out + "\r\n";
 }
 
@@ -29,7 +32,7 @@ std::string digits(double value) {
 }
 
 // All options that may be swept except the path, which has a column of its own.
-std::vector<std::string> sweptOptions() {
+std::vector<std::string> optionColumns() {
     std::vector<std::string> options;
     for (const Field& field : settingFields())
         if (!field.sweep.empty() && field.option != "path") options.emplace_back(field.option);
@@ -46,7 +49,7 @@ std::vector<std::string> passNames(const Tradeoff& tradeoff) {
 
 std::vector<std::string> head(const std::vector<std::string>& passes) {
     std::vector<std::string> names{"row", "path"};
-    for (const std::string& option : sweptOptions()) names.push_back(option);
+    for (const std::string& option : optionColumns()) names.push_back(option);
     for (const char* name : {"ms", "ms_min", "ms_max", "runs"}) names.emplace_back(name);
     for (const ErrorFigure& figure : errorFigures)
         for (const char* which : {"", "_min", "_max"}) names.push_back(std::string(figure.name) + which);
@@ -68,7 +71,7 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         std::vector<std::string> fields{fmt::format("{}", i + 1), std::string(nameOf(row.settings.path))};
-        for (const std::string& option : sweptOptions())
+        for (const std::string& option : optionColumns())
             fields.push_back(ignoredBecause(row.settings.path, option).empty() ? row.settings.valueOf(option)
                                                                                : "");
         const Spread time = timeOf(row);

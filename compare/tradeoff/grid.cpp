@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string textOf(const Json& json) {
+std::string quotedLine(const Json& json) {
     return oneLine(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -87,7 +87,7 @@ std::string valueFrom(const std::string& key, const std::string& option, const J
 
 Grid gridOf(const Json& json, const Settings& given) {
     if (!json.is_object() || !json.contains("settings") || !json["settings"].is_object())
-        throw std::runtime_error(textOf(json) + " is no object with \"settings\", an object");
+        throw std::runtime_error(quotedLine(json) + " is no object with \"settings\", an object");
     for (const auto& [key, value] : json.items())
         if (key != "settings")
             throw std::runtime_error(fmt::format("\"{}\": unknown beside \"settings\"", oneLine(key)));

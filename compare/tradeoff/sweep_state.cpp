@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* keyFile = "key.json";
 
-std::string textOf(const Json& json) {
+std::string pageOfJson(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -85,7 +85,7 @@ SweepState::SweepState(const fs::path& out, const Json& key) : folder_(folderOf(
                                  ": is there and was not written by diptych; move it away");
     renewed_ = holdsOthers;
     clear();
-    writeFile(folder_ / keyFile, textOf(key));
+    writeFile(folder_ / keyFile, pageOfJson(key));
 }
 
 SweepState::~SweepState() {
@@ -126,7 +126,7 @@ void SweepState::keep(MeasuredRow& measured) {
 }
 
 void SweepState::renew(const TradeoffRow& row) {
-    writeFile(folder_ / (nameOf(row.settings) + ".json"), textOf(jsonOf(row)));
+    writeFile(folder_ / (nameOf(row.settings) + ".json"), pageOfJson(jsonOf(row)));
 }
 
 void SweepState::remove() {

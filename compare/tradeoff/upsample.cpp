@@ -53,8 +53,8 @@ public:
         std::array<double, 3> sum{};
         double weights = 0;
         for (const auto& [row, down] : {std::pair{y.low, 1 - y.part}, {y.high, y.part}})
-            for (const auto& [column, right] : {std::pair{x.low, 1 - x.part}, {x.high, x.part}}) {
-                const double weight = down * right;
+            for (const auto& [column, across] : {std::pair{x.low, 1 - x.part}, {x.high, x.part}}) {
+                const double weight = down * across;
                 if (weight == 0 || ids_.at(column, row) == background) continue;
                 for (int c = 0; c < 3; ++c)
                     sum[static_cast<std::size_t>(c)] += weight * double{lit_.at(column, row, c)};

@@ -27,9 +27,9 @@ using Rgbe = std::array<std::uint8_t, 4>;
 // ---- header ------------------------------------------------------------------------------------------
 
 // The bytes that are not read yet.
-class Cursor {
+class RadianceCursor {
 public:
-    explicit Cursor(std::span<const std::byte> rest) : rest_(rest) {}
+    explicit RadianceCursor(std::span<const std::byte> rest) : rest_(rest) {}
 
     std::size_t left() const { return rest_.size(); }
     std::uint8_t peek(std::size_t at) const {
@@ -131,7 +131,7 @@ void readResolution(std::string_view line, RadianceHeader& header) {
     header.orientation.columns = axes[0] == 'X';
 }
 
-RadianceHeader readHeader(Cursor& in) {
+RadianceHeader readHeader(RadianceCursor& in) {
     if (in.peek(0) != '#' || in.peek(1) != '?') fail("is not a Radiance picture: it does not begin with #?");
     RadianceHeader header;
     in.line();
@@ -147,7 +147,7 @@ constexpr std::size_t shortest_run_line = 8, longest_run_line = 32767;
 
 // Flat pixels, or 1, 1, 1, n: the pixel before is repeated n times. The counts of consecutive runs are
 // digits of base 256, the lowest first.
-void readOldLine(Cursor& in, std::span<Rgbe> line) {
+void readOldLine(RadianceCursor& in, std::span<Rgbe> line) {
     int shift = 0;
     for (std::size_t x = 0; x < line.size();) {
         const Rgbe pixel = in.pixel();
@@ -167,7 +167,7 @@ void readOldLine(Cursor& in, std::span<Rgbe> line) {
 
 // For each component: either a count up to 128 followed by as many bytes, or 128 + count followed by the
 // byte to repeat.
-void readNewLine(Cursor& in, std::span<Rgbe> line) {
+void readNewLine(RadianceCursor& in, std::span<Rgbe> line) {
     for (std::size_t component = 0; component < 4; ++component)
         for (std::size_t x = 0; x < line.size();) {
             const std::size_t code = in.byte();
@@ -181,7 +181,7 @@ void readNewLine(Cursor& in, std::span<Rgbe> line) {
         }
 }
 
-void readLine(Cursor& in, std::span<Rgbe> line) {
+void readLine(RadianceCursor& in, std::span<Rgbe> line) {
     const std::size_t length = line.size();
     if (length < shortest_run_line || length > longest_run_line || in.peek(0) != 2 || in.peek(1) != 2 ||
         in.peek(2) > 127)
@@ -199,7 +199,7 @@ float decoded(std::uint8_t mantissa, std::uint8_t exponent, double scale) {
 }
 
 Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
-    Cursor in(bytes);
+    RadianceCursor in(bytes);
     const RadianceHeader header = readHeader(in);
     const Orientation& order = header.orientation;
     checkImageSize(header.width, header.height, 3 * sizeof(float), most);
@@ -219,7 +219,7 @@ Image readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
     constexpr std::size_t much = std::size_t{1} << 28;
     const auto bytesOfImage =
         3 * sizeof(float) * static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
-    if (Cursor ahead = in; bytesOfImage > much)
+    if (RadianceCursor ahead = in; bytesOfImage > much)
         for (int i = 0; i < lines; ++i) readLine(ahead, line);
 
     Image image(header.width, header.height, 3);

@@ -91,12 +91,12 @@ int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int 
 
 // For at least so many files an open, flush, close and rename each. A write always goes into a temporary
 // file, so every 13th write is enough.
-constexpr int files = 14;
+constexpr int reportFiles = 14;
 
 TEST(Faults, AnyCallThatFailsOnceLeavesTheEarlierReport) {
     const Folder folder;
     const Reports reports(folder);
-    EXPECT_GE(sweep(folder, reports, {"create,close,move", std::to_string(EIO)}), 4 * files);
+    EXPECT_GE(sweep(folder, reports, {"create,close,move", std::to_string(EIO)}), 4 * reportFiles);
     EXPECT_GE(sweep(folder, reports, {"write", std::to_string(EIO)}, 13), 10);
 }
 
@@ -114,7 +114,7 @@ TEST(Faults, ADiskThatIsFullFromAnyMomentOnLeavesTheEarlierReport) {
 TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
     const Folder folder;
     const Reports reports(folder, true);
-    EXPECT_GE(sweep(folder, reports, {"move", std::to_string(EROFS)}), 2 * files);
+    EXPECT_GE(sweep(folder, reports, {"move", std::to_string(EROFS)}), 2 * reportFiles);
     EXPECT_GE(sweep(folder, reports, {"create", std::to_string(EROFS)}, 3), 10);
 }
 
@@ -146,13 +146,13 @@ void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
 }
 
 TEST(Faults, AKillAtAnyMomentLeavesAWholeReport) {
-    killAtEvery("create,close,move,lock", 3, false, files);
+    killAtEvery("create,close,move,lock", 3, false, reportFiles);
     killAtEvery("remove", 1, false, 10);
     killAtEvery("write", 29, false, 5);
 }
 
 TEST(Faults, AKillBesideFilesOfOthersIsMadeGoodByTheNextRun) {
-    killAtEvery("move", 1, true, 2 * files);
+    killAtEvery("move", 1, true, 2 * reportFiles);
     killAtEvery("remove", 1, true, 10);
     killAtEvery("create", 3, true, 10);
 }

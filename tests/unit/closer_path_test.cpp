@@ -2,6 +2,7 @@
 #include "compare/verdict/closer_path.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
+#include "tests/unit/modes.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 namespace diptych {
 namespace {
 
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
-
 // One row of grey pixels, of material 0 but for the last, which is of material 2.
 Frame frameOf(Path path, const std::vector<float>& values) {
     Frame frame;
@@ -20,11 +19,11 @@ Frame frameOf(Path path, const std::vector<float>& values) {
     frame.settings.path = path;
     const int width = static_cast<int>(values.size());
     frame.settings.size = {width, 1};
-    frame.channels[lit] = Image(width, 1, 3);
-    frame.channels[ids] = Image(width, 1, 1);
+    frame.channels[litMode] = Image(width, 1, 3);
+    frame.channels[idMode] = Image(width, 1, 1);
     for (int x = 0; x < width; ++x)
-        for (int c = 0; c < 3; ++c) frame.channels[lit].at(x, 0, c) = values[static_cast<std::size_t>(x)];
-    frame.channels[ids].at(width - 1, 0) = 2;
+        for (int c = 0; c < 3; ++c) frame.channels[litMode].at(x, 0, c) = values[static_cast<std::size_t>(x)];
+    frame.channels[idMode].at(width - 1, 0) = 2;
     return frame;
 }
 
@@ -104,7 +103,7 @@ TEST(CloserPath, TheReferencesOwnUncertaintyIsGrantedByThePixel) {
     const Requirements needs;
     const Coverage covered = coverage(frames[0], frames[1]);
     const auto certain = [&](std::size_t path) {
-        return certainP999(debugMode(lit), {frames[0], frames[path], needs, covered, true, nullptr});
+        return certainP999(debugMode(litMode), {frames[0], frames[path], needs, covered, true, nullptr});
     };
     EXPECT_FALSE(certain(1).has_value()) << "nothing was sampled";
     frames[0].uncertainty = Image(2, 1, 1);
@@ -112,7 +111,7 @@ TEST(CloserPath, TheReferencesOwnUncertaintyIsGrantedByThePixel) {
     EXPECT_EQ(certain(1).value(), 0);
     EXPECT_NEAR(certain(2).value(), 0.03 - 2.29 * 0.005, 1e-6)
         << "what is open elsewhere grants nothing here";
-    frames[2].channels[lit].at(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
+    frames[2].channels[litMode].at(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(std::isinf(certain(2).value()));
 }
 

@@ -3,6 +3,7 @@
 #include "compare/verdict/comparison.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
+#include "tests/unit/modes.h"
 #include "tests/unit/report_maker.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,6 @@
 namespace diptych {
 namespace {
 
-constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
-
 Report compared(std::vector<Frame> frames, const CompareOptions& options, const char* device = "cpu") {
     const std::vector<Requirements> needs(frames.size());
     return makeReport(std::move(frames), needs, {"a device", "1.0", device}, options);
@@ -22,7 +21,7 @@ Report compared(std::vector<Frame> frames, const CompareOptions& options, const 
 
 const ChannelDiff& litOf(const Report& report) {
     for (const ChannelDiff& channel : report.comparisons.at(0).channels)
-        if (channel.mode->number == lit) return channel;
+        if (channel.mode->number == litMode) return channel;
     throw std::runtime_error("no lit");
 }
 
@@ -33,8 +32,8 @@ bool says(const std::vector<std::string>& lines, const std::string& words) {
 // Two paths whose lit differs by a relative 0.25 at the only covered pixel, which no encoding explains.
 std::vector<Frame> framesApart() {
     std::vector<Frame> frames = bothFrames("one.glb");
-    frames[0].channels.at(lit).at(1, 2) = 1;
-    frames[1].channels.at(lit).at(1, 2) = 1.25f;
+    frames[0].channels.at(litMode).at(1, 2) = 1;
+    frames[1].channels.at(litMode).at(1, 2) = 1.25f;
     frames[1].through_gbuffer.clear();
     return frames;
 }
@@ -76,8 +75,8 @@ TEST(CompareOptions, ColoursHaveAFlip) {
 // A second run of a path that differs from the first by 0.3 at 2 pixels.
 std::vector<Frame> noisyFrames() {
     std::vector<Frame> frames = framesApart();
-    frames[0].noise[lit] = {2, 0.3};
-    frames[1].noise[lit] = {0, 0};
+    frames[0].noise[litMode] = {2, 0.3};
+    frames[1].noise[litMode] = {0, 0};
     return frames;
 }
 

@@ -51,16 +51,6 @@ void expectSurface(const Primitive& p, int n, float positionError, float texcoor
     }
 }
 
-std::string lineOf(GltfFile& f) {
-    const std::string binary = f.binary();
-    try {
-        parseGltf({binary.begin(), binary.end()}, "file");
-    } catch (const std::runtime_error& e) {
-        return std::string(e.what()).substr(6);  // "file: "
-    }
-    return "";
-}
-
 // Loads damaged bytes, which must result in a scene or a one-line error. Returns that line.
 std::string lineOfDamage(const std::string& binary) {
     try {

@@ -80,16 +80,6 @@ std::string written(GltfFile& f) {
     return file;
 }
 
-std::string lineOf(GltfFile& f) {
-    const std::string file = written(f);
-    try {
-        loadScene(file);
-    } catch (const std::runtime_error& e) {
-        return std::string(e.what()).substr(file.size() + 2);
-    }
-    return "";
-}
-
 // A height field of n x n vertices, more than one of the encoder's blocks of 256 elements.
 struct Grid {
     static constexpr std::uint32_t n = 20;

@@ -3,6 +3,7 @@
 #include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/unit/nonfinite.h"
+#include "tests/unit/test_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -14,18 +15,12 @@ namespace diptych {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-Image row(int components, std::vector<float> values) {
-    Image image(static_cast<int>(values.size()) / components, 1, components);
-    image.data = std::move(values);
-    return image;
-}
-
 ChannelStats scalars(Metric metric, const std::vector<float>& baseline, const std::vector<float>& test) {
-    return channelStats(metric, ChannelKind::scalar, row(1, baseline), row(1, test),
+    return channelStats(metric, ChannelKind::scalar, rowOf(1, baseline), rowOf(1, test),
                         everyPixel(baseline.size()));
 }
 double angle(std::vector<float> a, std::vector<float> b) {
-    return channelStats(Metric::angular, ChannelKind::vector, row(3, std::move(a)), row(3, std::move(b)),
+    return channelStats(Metric::angular, ChannelKind::vector, rowOf(3, std::move(a)), rowOf(3, std::move(b)),
                         everyPixel(1))
         .max;
 }
@@ -55,15 +50,15 @@ TEST(Metrics, PercentilesAreTheNearestRank) {
 
 TEST(Metrics, RelativeIsOverTheBaselinesLargestComponent) {
     // Blue moves by 1 beside a green of 4.
-    const ChannelStats s = channelStats(Metric::relative, ChannelKind::color, row(3, {0, 4, 1}),
-                                        row(3, {0, 4, 2}), everyPixel(1));
+    const ChannelStats s = channelStats(Metric::relative, ChannelKind::color, rowOf(3, {0, 4, 1}),
+                                        rowOf(3, {0, 4, 2}), everyPixel(1));
     EXPECT_EQ(s.max, 0.25);
 }
 
 TEST(Metrics, RelativeHasAFloorOfAThousandthOfTheMeanLuminance) {
     // Rec.709: the first pixel's luminance is 0.7152 x 1000, the second's 0; the mean is 357.6, the floor
     // 0.3576.
-    const Image baseline = row(3, {0, 1000, 0, 0, 0, 0}), test = row(3, {0, 1000, 0, 0.5f, 0, 0});
+    const Image baseline = rowOf(3, {0, 1000, 0, 0, 0, 0}), test = rowOf(3, {0, 1000, 0, 0.5f, 0, 0});
     const ChannelStats s = channelStats(Metric::relative, ChannelKind::color, baseline, test, everyPixel(2));
     EXPECT_NEAR(s.max, 0.5 / 0.3576, 1e-12);
     // Scalars: the mean magnitude, (1000 + 0) / 2.
@@ -87,8 +82,8 @@ TEST(Metrics, AnglesAreExactWhereACosineIsNot) {
 }
 
 TEST(Metrics, ExactCountsPixelsNotComponents) {
-    const ChannelStats s = channelStats(Metric::exact, ChannelKind::id, row(2, {1, 2, 3, 4, 5, 6}),
-                                        row(2, {1, 2, 9, 9, 5, 6.0000005f}), everyPixel(3));
+    const ChannelStats s = channelStats(Metric::exact, ChannelKind::id, rowOf(2, {1, 2, 3, 4, 5, 6}),
+                                        rowOf(2, {1, 2, 9, 9, 5, 6.0000005f}), everyPixel(3));
     EXPECT_EQ(s.max, 1);
     EXPECT_EQ(s.different, 2u);
     EXPECT_DOUBLE_EQ(s.mean, 2.0 / 3);
@@ -97,7 +92,7 @@ TEST(Metrics, ExactCountsPixelsNotComponents) {
 TEST(Metrics, NonFiniteAgainstANumberIsInfiniteInEveryMetric) {
     for (const Metric metric : {Metric::relative, Metric::absolute, Metric::angular, Metric::exact})
         for (const float bad : {nan, inf, -inf}) {
-            const Image good = row(3, {1, 2, 3, 1, 2, 3}), broken = row(3, {1, 2, 3, 1, bad, 3});
+            const Image good = rowOf(3, {1, 2, 3, 1, 2, 3}), broken = rowOf(3, {1, 2, 3, 1, bad, 3});
             for (const bool inTest : {false, true}) {
                 const ChannelStats s = channelStats(metric, ChannelKind::vector, inTest ? good : broken,
                                                     inTest ? broken : good, everyPixel(2));
@@ -113,7 +108,7 @@ TEST(Metrics, NonFiniteAgainstANumberIsInfiniteInEveryMetric) {
 
 TEST(Metrics, TheSameNonFiniteIsNoDifferenceButIsCounted) {
     for (const Metric metric : {Metric::relative, Metric::absolute, Metric::angular, Metric::exact}) {
-        const Image both = row(3, {1, nan, 3, inf, 2, 3, 1, 2, 3});
+        const Image both = rowOf(3, {1, nan, 3, inf, 2, 3, 1, 2, 3});
         const ChannelStats s = channelStats(metric, ChannelKind::color, both, both, everyPixel(3));
         EXPECT_EQ(s.max, 0) << nameOf(metric);
         EXPECT_EQ(s.different, 0u);
@@ -135,17 +130,17 @@ TEST(Metrics, ATrueDifferenceBelowFloat32StaysVisible) {
 
 TEST(Metrics, SizesMustAgree) {
     EXPECT_THROW(
-        channelStats(Metric::absolute, ChannelKind::scalar, row(1, {1}), row(1, {1, 2}), everyPixel(1)),
+        channelStats(Metric::absolute, ChannelKind::scalar, rowOf(1, {1}), rowOf(1, {1, 2}), everyPixel(1)),
         std::runtime_error);
     EXPECT_THROW(
-        channelStats(Metric::angular, ChannelKind::vector, row(2, {1, 1}), row(2, {1, 2}), everyPixel(1)),
+        channelStats(Metric::angular, ChannelKind::vector, rowOf(2, {1, 1}), rowOf(2, {1, 2}), everyPixel(1)),
         std::runtime_error);
 }
 
 Frame ids(std::vector<float> values) {
     Frame frame;
     frame.settings.size = {static_cast<int>(values.size()), 1};
-    frame.channels[gpu::DEBUG_material_id] = row(1, std::move(values));
+    frame.channels[gpu::DEBUG_material_id] = rowOf(1, std::move(values));
     return frame;
 }
 
@@ -159,24 +154,24 @@ TEST(Coverage, APixelIsBackgroundOnlyInBoth) {
 TEST(Coverage, DepthTellsWhereThereAreNoIds) {
     Frame frame;
     frame.settings.size = {2, 1};
-    frame.channels[gpu::DEBUG_depth] = row(1, {0, 5});
+    frame.channels[gpu::DEBUG_depth] = rowOf(1, {0, 5});
     EXPECT_EQ(coverage(frame, frame).covered, (std::vector<std::uint8_t>{0, 1}));
     Frame bare;
     bare.settings.size = {2, 1};
-    bare.channels[gpu::DEBUG_lit] = row(3, {0, 0, 0, 1, 1, 1});
+    bare.channels[gpu::DEBUG_lit] = rowOf(3, {0, 0, 0, 1, 1, 1});
     EXPECT_FALSE(coverage(bare, bare).known);
     EXPECT_EQ(coverage(bare, bare).count, 2u);
 }
 
 TEST(Coverage, AChannelOfAnotherSizeIsAnError) {
     Frame frame = ids({0, 1});
-    frame.channels[gpu::DEBUG_depth] = row(1, {0, 5, 6});
+    frame.channels[gpu::DEBUG_depth] = rowOf(1, {0, 5, 6});
     EXPECT_THROW(coverage(frame, frame), std::runtime_error);
 }
 
 TEST(Coverage, BackgroundIsOutsideMeansAndErrors) {
     const Coverage c = coverage(ids({-1, 1}), ids({-1, 1}));
-    const Image baseline = row(1, {0, 1}), test = row(1, {7, 1.5f});  // 7: background, must not count
+    const Image baseline = rowOf(1, {0, 1}), test = rowOf(1, {7, 1.5f});  // 7: background, must not count
     EXPECT_EQ(channelStats(Metric::absolute, ChannelKind::scalar, baseline, test, c).mean, 0.5);
     const Image errors = errorImage(Metric::absolute, ChannelKind::scalar, baseline, test, c);
     EXPECT_EQ(errors.data, (std::vector<float>{0, 0.5f}));
@@ -184,13 +179,13 @@ TEST(Coverage, BackgroundIsOutsideMeansAndErrors) {
 
 TEST(Metrics, UnequalPixelsSeesBitsOrUlps) {
     const float up = std::nextafter(1.0f, 2.0f);
-    EXPECT_EQ(unequalPixels(row(1, {1, 0, nan}), row(1, {1, -0.0f, nan}), 0), 1u) << "-0 is not 0";
-    EXPECT_EQ(unequalPixels(row(1, {1}), row(1, {up}), 0), 1u);
-    EXPECT_EQ(unequalPixels(row(1, {1}), row(1, {up}), 16), 0u);
+    EXPECT_EQ(unequalPixels(rowOf(1, {1, 0, nan}), rowOf(1, {1, -0.0f, nan}), 0), 1u) << "-0 is not 0";
+    EXPECT_EQ(unequalPixels(rowOf(1, {1}), rowOf(1, {up}), 0), 1u);
+    EXPECT_EQ(unequalPixels(rowOf(1, {1}), rowOf(1, {up}), 16), 0u);
     // 17 steps of 2^-23 beside a largest component of 1, whatever the small component's own step.
-    EXPECT_EQ(unequalPixels(row(2, {1, 0}), row(2, {1, 17 * 0x1p-23f}), 16), 1u);
-    EXPECT_EQ(unequalPixels(row(2, {1, 0}), row(2, {1, 15 * 0x1p-23f}), 16), 0u);
-    EXPECT_EQ(unequalPixels(row(1, {1}), row(1, {nan}), 16), 1u);
+    EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 17 * 0x1p-23f}), 16), 1u);
+    EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 15 * 0x1p-23f}), 16), 0u);
+    EXPECT_EQ(unequalPixels(rowOf(1, {1}), rowOf(1, {nan}), 16), 1u);
 }
 
 }  // namespace

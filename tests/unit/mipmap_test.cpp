@@ -20,7 +20,7 @@ TextureImage image(int width, int height, auto texel) {
     return result;
 }
 
-TextureImage noise(int width, int height) {
+TextureImage noiseTexture(int width, int height) {
     std::mt19937 random(1);
     return image(width, height, [&](int, int, int) { return random() & 255u; });
 }
@@ -66,19 +66,19 @@ TEST(Mipmap, CheckerIsAveragedInLinearLight) {
 }
 
 TEST(Mipmap, SizesHalveRoundedDownToOne) {
-    const TextureImage source = noise(5, 3);
+    const TextureImage source = noiseTexture(5, 3);
     const MipChain chain(source, true, Texels::srgb8);
     ASSERT_EQ(chain.count(), 3u);
     EXPECT_EQ(chain.width(1), 2);
     EXPECT_EQ(chain.height(1), 1);
     EXPECT_EQ(chain.width(2), 1);
     EXPECT_EQ(chain.height(2), 1);
-    EXPECT_EQ(levels(noise(1, 9), false).size(), 4u);
-    EXPECT_EQ(levels(noise(1, 1), true).size(), 1u);
+    EXPECT_EQ(levels(noiseTexture(1, 9), false).size(), 4u);
+    EXPECT_EQ(levels(noiseTexture(1, 1), true).size(), 1u);
 }
 
 TEST(Mipmap, LevelZeroIsTheImage) {
-    const TextureImage source = noise(7, 4);
+    const TextureImage source = noiseTexture(7, 4);
     EXPECT_EQ(levels(source, true)[0], source.rgba);
 }
 
@@ -103,7 +103,7 @@ TEST(Mipmap, FiveByOneIsWeightedByArea) {
 // each texel.
 TEST(Mipmap, OddSizesConserveTheMean) {
     for (const auto& [width, height] : {std::pair{3, 1}, {5, 3}, {7, 7}, {1, 5}, {641, 359}}) {
-        const TextureImage source = noise(width, height);
+        const TextureImage source = noiseTexture(width, height);
         for (const auto& level : levels(source, false))
             for (std::size_t c = 0; c < 4; ++c)
                 EXPECT_NEAR(mean(level, c), mean(source.rgba, c), 0.5001) << width << "x" << height;
@@ -137,7 +137,7 @@ TEST(Mipmap, EncodingRoundsToTheNearestCode) {
 }
 
 TEST(Mipmap, AnyNumberOfThreadsGivesTheSameBits) {
-    const TextureImage source = noise(517, 301);
+    const TextureImage source = noiseTexture(517, 301);
     const auto many = levels(source, true);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const auto single = levels(source, true);
@@ -195,7 +195,7 @@ TEST(Mipmap, EverySixteenBitCodeStays) {
 }
 
 TEST(Mipmap, TexelsThatTheImageHasNotAreALogicError) {
-    EXPECT_THROW(MipChain(noise(2, 2), false, Texels::linear16), std::logic_error);
+    EXPECT_THROW(MipChain(noiseTexture(2, 2), false, Texels::linear16), std::logic_error);
     EXPECT_THROW(MipChain(deepImage(1, 1, {0, 0, 0, 0}), true, Texels::srgb8), std::logic_error);
     EXPECT_THROW(MipChain(TextureImage{"none", 1, 1, {}}, true, Texels::srgb8), std::logic_error);
 }

@@ -14,15 +14,9 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-Image row(int components, std::vector<float> values) {
-    Image image(static_cast<int>(values.size()) / components, 1, components);
-    image.data = std::move(values);
-    return image;
-}
-
 PlainMetrics scalars(std::vector<float> reference, std::vector<float> test) {
     const std::size_t count = reference.size();
-    return plainMetrics(row(1, std::move(reference)), row(1, std::move(test)), ChannelKind::scalar,
+    return plainMetrics(rowOf(1, std::move(reference)), rowOf(1, std::move(test)), ChannelKind::scalar,
                         Range::linear, everyPixel(count));
 }
 PlainMetrics colors(const Image& reference, const Image& test, Range range = Range::linear) {
@@ -30,7 +24,7 @@ PlainMetrics colors(const Image& reference, const Image& test, Range range = Ran
 }
 PlainMetrics vectors(std::vector<float> reference, std::vector<float> test) {
     const std::size_t count = reference.size() / 3;
-    return plainMetrics(row(3, std::move(reference)), row(3, std::move(test)), ChannelKind::vector,
+    return plainMetrics(rowOf(3, std::move(reference)), rowOf(3, std::move(test)), ChannelKind::vector,
                         Range::linear, everyPixel(count));
 }
 
@@ -107,7 +101,7 @@ TEST(PlainMetrics, ANanAgainstANumberIsInfinite) {
     EXPECT_EQ(alike.mse, 1.0 / 3);
     EXPECT_EQ(alike.nonfinite_different, 0u);
     // The other, finite components of a pixel with equal NaNs are compared.
-    EXPECT_EQ(colors(row(3, {nan, 1, 2}), row(3, {nan, 1, 2.5f})).max, 0.5);
+    EXPECT_EQ(colors(rowOf(3, {nan, 1, 2}), rowOf(3, {nan, 1, 2.5f})).max, 0.5);
 }
 
 TEST(PlainMetrics, WhatIsNotCoveredIsNotThere) {
@@ -156,7 +150,7 @@ TEST(PlainMetrics, AnglesByHand) {
     // A float acos has a resolution of 0.02 degrees.
     EXPECT_NEAR(vectors({0, 0, 1}, {0, 1e-6f, 1}).angle_max, 1e-6 * 180 / 3.14159265358979, 1e-10);
     EXPECT_EQ(vectors({0, 0, 1}, {0, nan, 1}).angle_max, endless);
-    EXPECT_EQ(colors(row(3, {1, 0, 0}), row(3, {0, 1, 0})).angle_max, 0) << "colours have none";
+    EXPECT_EQ(colors(rowOf(3, {1, 0, 0}), rowOf(3, {0, 1, 0})).angle_max, 0) << "colours have none";
 }
 
 TEST(PlainMetrics, AgreeWithTheChannelsStatistics) {

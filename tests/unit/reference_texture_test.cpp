@@ -10,7 +10,7 @@ namespace diptych::reference {
 namespace {
 
 // Random codes, opaque.
-TextureImage noise(int width, int height) {
+TextureImage noiseTexels(int width, int height) {
     TextureImage image{"noise", width, height, {}};
     std::uint32_t state = 1;
     for (int i = 0; i < width * height; ++i) {
@@ -38,7 +38,7 @@ int repeated(int i, int size) {
 
 TEST(ReferenceTexture, PyramidsKeepTheMeanOfAnySize) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {2, 2}, {7, 5}, {13, 1}, {1, 9}, {16, 3}, {33, 17}}) {
-        const TextureImage image = noise(size.x, size.y);
+        const TextureImage image = noiseTexels(size.x, size.y);
         const Pyramid levels(image, false);
         double mean = 0;
         for (int y = 0; y < size.y; ++y)
@@ -75,7 +75,7 @@ TEST(ReferenceTexture, ColoursAreDecodedBeforeTheyAreMixed) {
 // Closer than a texel: bilinear about the texels' middles, or the one that it lies in; beyond the edge as
 // glTF says.
 TEST(ReferenceTexture, MagnifiedAndWrapped) {
-    const TextureImage image = noise(4, 4);
+    const TextureImage image = noiseTexels(4, 4);
     const auto edge = [](int i, Wrap wrap) {
         if (wrap == Wrap::clamp_to_edge) return std::clamp(i, 0, 3);
         const int within = repeated(i, wrap == Wrap::repeat ? 4 : 8);
@@ -112,7 +112,7 @@ TEST(ReferenceTexture, MagnifiedAndWrapped) {
 // bilinear interpolation spreads texels over their neighbours: with noise of 0.29 that leaves an error of a
 // few hundredths for the smallest box here, 8 x 8 texels, and less for larger ones.
 TEST(ReferenceTexture, FootprintsAreMeans) {
-    const TextureImage image = noise(64, 64);
+    const TextureImage image = noiseTexels(64, 64);
     const Scene scene = sceneOf(image, {});
     const Textures textures(scene);
     const auto box = [&](const Footprint& f) {

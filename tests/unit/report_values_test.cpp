@@ -81,7 +81,7 @@ Decoded decoded(const std::string& script) {
     return result;
 }
 
-Image noise(int width, int height, int components, double largest, unsigned seed) {
+Image noiseUpTo(int width, int height, int components, double largest, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> exponent(-30, 0);
     Image image(width, height, components);
@@ -95,8 +95,8 @@ Decoded through(const Image& a, const Image& b, const Image& errors) {
 }
 
 TEST(ReportValues, SmallPicturesAreExact) {
-    Image a = noise(31, 17, 3, 3e38, 1);
-    const Image b = noise(31, 17, 3, 1e-38, 2), errors = noise(31, 17, 1, 2, 3);
+    Image a = noiseUpTo(31, 17, 3, 3e38, 1);
+    const Image b = noiseUpTo(31, 17, 3, 1e-38, 2), errors = noiseUpTo(31, 17, 1, 2, 3);
     a.data[5] = -0.0f;
     a.data[6] = std::numeric_limits<float>::infinity();
     a.data[7] = std::numeric_limits<float>::quiet_NaN();
@@ -135,8 +135,8 @@ TEST(ReportValues, WhatElevenBitsHoldIsExactInSixteen) {
 // Half a step of 11 bits, down to 2^-29 of the largest; whatever the largest is.
 TEST(ReportValues, LargePicturesKeepElevenBits) {
     for (const double largest : {1.0, 1e30, 3e-30}) {
-        const Image a = noise(300, 200, 3, largest, 4), b = noise(300, 200, 3, largest, 5);
-        Image errors = noise(300, 200, 1, 1e-4, 6);
+        const Image a = noiseUpTo(300, 200, 3, largest, 4), b = noiseUpTo(300, 200, 3, largest, 5);
+        Image errors = noiseUpTo(300, 200, 1, 1e-4, 6);
         for (float& e : errors.data) e = std::abs(e);
         errors.data[11] = HUGE_VALF;
         const Decoded back = through(a, b, errors);
@@ -156,7 +156,7 @@ TEST(ReportValues, LargePicturesKeepElevenBits) {
 }
 
 TEST(ReportValues, OneFrameAloneHasItsOwn) {
-    const Image a = noise(5, 4, 2, 1, 7);
+    const Image a = noiseUpTo(5, 4, 2, 1, 7);
     const Decoded back = decoded(valuesScript("a.values.js", {&a, nullptr, nullptr}));
     EXPECT_EQ(back.head["images"], 1);
     ASSERT_EQ(back.planes.size(), 2u);

@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace diptych {
 
@@ -33,6 +35,13 @@ inline Image noise(int width, int height, unsigned seed, float low = 0, float hi
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> value(low, high);
     for (float& v : image.data) v = value(random);
+    return image;
+}
+
+// One row of pixels.
+inline Image rowOf(int components, std::vector<float> values) {
+    Image image(static_cast<int>(values.size()) / components, 1, components);
+    image.data = std::move(values);
     return image;
 }
 

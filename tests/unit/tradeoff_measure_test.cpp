@@ -3,6 +3,7 @@
 #include "compare/tradeoff/measure.h"
 #include "compare/tradeoff/upsample.h"
 #include "shared/contract/debug_mode.h"
+#include "tests/unit/modes.h"
 #include "tests/unit/test_pictures.h"
 
 #include <gtest/gtest.h>
@@ -16,18 +17,16 @@ using namespace tradeoff;
 
 namespace {
 
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
-
 // lit is grey, of these values; a negative one is background.
 Frame frameOf(int width, int height, const std::vector<float>& values) {
     Frame frame;
     frame.name = "deferred";
     frame.settings.size = {width, height};
-    frame.channels[lit] = Image(width, height, 3);
-    frame.channels[ids] = Image(width, height, 1);
+    frame.channels[litMode] = Image(width, height, 3);
+    frame.channels[idMode] = Image(width, height, 1);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        frame.channels[ids].data[i] = values[i] < 0 ? -1.0f : static_cast<float>(i);
-        for (int c = 0; c < 3; ++c) frame.channels[lit].pixel(i)[c] = std::max(values[i], 0.0f);
+        frame.channels[idMode].data[i] = values[i] < 0 ? -1.0f : static_cast<float>(i);
+        for (int c = 0; c < 3; ++c) frame.channels[litMode].pixel(i)[c] = std::max(values[i], 0.0f);
     }
     return frame;
 }
@@ -42,28 +41,28 @@ TEST(TradeoffUpsample, IsBilinearBetweenPixelCentres) {
     // From two pixels to four: the new centres are at -0.25 (clamped), 0.25, 0.75 and 1.25 (clamped) of the
     // old.
     const Frame wide = upsampled(frameOf(2, 1, {0, 8}), {4, 1});
-    EXPECT_EQ(rowOf(wide.channels.at(lit), 0), (std::vector<float>{0, 2, 6, 8}));
-    EXPECT_EQ(rowOf(wide.channels.at(ids), 0), (std::vector<float>{0, 0, 1, 1}));
+    EXPECT_EQ(rowOf(wide.channels.at(litMode), 0), (std::vector<float>{0, 2, 6, 8}));
+    EXPECT_EQ(rowOf(wide.channels.at(idMode), 0), (std::vector<float>{0, 0, 1, 1}));
     EXPECT_EQ(wide.settings.size, (Size{4, 1}));
     // Three to four: new centres at 0.375, 1.125, 1.875, 2.625 in old pixels from the edge.
     const Frame odd = upsampled(frameOf(3, 1, {0, 16, 32}), {4, 1});
-    EXPECT_EQ(rowOf(odd.channels.at(lit), 0), (std::vector<float>{0, 10, 22, 32}));
+    EXPECT_EQ(rowOf(odd.channels.at(litMode), 0), (std::vector<float>{0, 10, 22, 32}));
     const Frame tall = upsampled(frameOf(2, 2, {0, 8, 16, 24}), {4, 4});
-    EXPECT_EQ(rowOf(tall.channels.at(lit), 1), (std::vector<float>{4, 6, 10, 12}));
+    EXPECT_EQ(rowOf(tall.channels.at(litMode), 1), (std::vector<float>{4, 6, 10, 12}));
 }
 
 TEST(TradeoffUpsample, BackgroundNeitherDarkensNorGrows) {
     const Frame wide = upsampled(frameOf(3, 1, {8, -1, 4}), {6, 1});
-    EXPECT_EQ(rowOf(wide.channels.at(lit), 0), (std::vector<float>{8, 8, 0, 0, 4, 4}));
-    EXPECT_EQ(rowOf(wide.channels.at(ids), 0), (std::vector<float>{0, 0, -1, -1, 2, 2}));
+    EXPECT_EQ(rowOf(wide.channels.at(litMode), 0), (std::vector<float>{8, 8, 0, 0, 4, 4}));
+    EXPECT_EQ(rowOf(wide.channels.at(idMode), 0), (std::vector<float>{0, 0, -1, -1, 2, 2}));
 }
 
 TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
     const Frame frame = frameOf(2, 2, {1, -1, 3, 0.1f});
     const Frame same = upsampled(frame, {2, 2});
-    EXPECT_EQ(same.channels.at(lit).data, frame.channels.at(lit).data);
+    EXPECT_EQ(same.channels.at(litMode).data, frame.channels.at(litMode).data);
     Frame without = frame;
-    without.channels.erase(ids);
+    without.channels.erase(idMode);
     EXPECT_THROW(upsampled(without, {4, 4}), std::runtime_error);
 }
 
@@ -71,9 +70,9 @@ TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
 TEST(TradeoffErrors, AreThoseOfTheReport) {
     const Image reference = noise(40, 30, 1), test = noise(40, 30, 2);
     Frame a = frameOf(40, 30, std::vector<float>(1200, 1)), b = a;
-    a.channels[lit] = reference;
-    b.channels[lit] = test;
-    for (std::size_t i = 0; i < 300; ++i) a.channels[ids].data[i] = b.channels[ids].data[i] = -1;
+    a.channels[litMode] = reference;
+    b.channels[litMode] = test;
+    for (std::size_t i = 0; i < 300; ++i) a.channels[idMode].data[i] = b.channels[idMode].data[i] = -1;
     const FrameErrors errors = errorsOf(a, b);
     const ChannelStats stats =
         channelStats(Metric::relative, ChannelKind::color, reference, test, coverage(a, b));
@@ -98,7 +97,7 @@ TEST(TradeoffErrors, ArePixelsThatTheReferenceShows) {
 TEST(TradeoffErrors, ANanIsInfinite) {
     const Frame reference = frameOf(2, 1, {1, 1});
     Frame broken = reference;
-    broken.channels[lit].data[0] = nan;
+    broken.channels[litMode].data[0] = nan;
     const FrameErrors errors = errorsOf(reference, broken);
     EXPECT_TRUE(std::isinf(errors.errors[1]));
     EXPECT_GT(errors.errors[0], 0);

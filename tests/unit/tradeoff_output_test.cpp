@@ -148,7 +148,7 @@ TEST(TradeoffOutput, RowsSurviveTheirJson) {
 
 TEST(TradeoffOutput, PlotsAndPageAreWellFormed) {
     const Tradeoff tradeoff = several();
-    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
+    for (std::size_t figure = 0; figure < tradeoff::errorFigures.size(); ++figure)
         for (const std::optional<Path> path : {std::optional<Path>(), std::optional(Path::deferred)}) {
             const std::string svg = tradeoffPlot(tradeoff, figure, path, PlotPlace::file);
             EXPECT_EQ(markupFault(svg), "");

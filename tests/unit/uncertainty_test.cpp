@@ -8,6 +8,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/image/exr.h"
 #include "tests/unit/files.h"
+#include "tests/unit/modes.h"
 
 #include <cmath>
 #include <limits>
@@ -16,7 +17,6 @@
 namespace diptych {
 namespace {
 
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
 const ReportDevice device{"a device", "1.0", "cpu"};
 
 // Two grey pixels.
@@ -27,9 +27,9 @@ Frame frameOf(Path path, float left, float right) {
     frame.settings.path = path;
     frame.settings.size = {2, 1};
     frame.camera.far = std::numeric_limits<double>::infinity();
-    frame.channels[lit] = Image(2, 1, 3);
-    frame.channels[lit].data = {left, left, left, right, right, right};
-    frame.channels[ids] = Image(2, 1, 1);
+    frame.channels[litMode] = Image(2, 1, 3);
+    frame.channels[litMode].data = {left, left, left, right, right, right};
+    frame.channels[idMode] = Image(2, 1, 1);
     return frame;
 }
 
@@ -65,7 +65,7 @@ TEST(Uncertainty, ComesBackAsItWas) {
     EXPECT_EQ(back.relative_uncertainty, referenceFrame.relative_uncertainty);
     EXPECT_EQ(back.notes, std::vector<std::string>{uncertaintyNote(referenceFrame.relative_uncertainty)});
     EXPECT_EQ(back.channels.size(), 2u) << "it is no channel";
-    EXPECT_EQ(back.channels.at(lit).data, referenceFrame.channels.at(lit).data);
+    EXPECT_EQ(back.channels.at(litMode).data, referenceFrame.channels.at(litMode).data);
 }
 
 // Infinite and NaN uncertainties are read back, too: a reader accepts all that this program writes.
@@ -85,7 +85,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
     for (const float right : {2.0f, 2.02f, 2.2f}) {
         const Frame path = frameOf(Path::forward_plus, 1.5f, right);
         const ChannelDiff now = judged(referenceFrame, path), stored = judged(back, path);
-        ASSERT_EQ(now.mode->number, lit);
+        ASSERT_EQ(now.mode->number, litMode);
         EXPECT_EQ(now.verdict, right > 2.1f ? Verdict::fail : Verdict::pass) << right;
         EXPECT_EQ(stored.verdict, now.verdict) << right;
         ASSERT_TRUE(stored.certain_p999.has_value());
@@ -102,7 +102,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
 
 TEST(Uncertainty, IsWrittenBesideLitAlone) {
     Frame referenceFrame = sampled();
-    referenceFrame.requested = {ids};
+    referenceFrame.requested = {idMode};
     EXPECT_TRUE(throughExr(referenceFrame).uncertainty.empty());
     referenceFrame = sampled();
     referenceFrame.uncertainty = {};

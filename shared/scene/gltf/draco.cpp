@@ -19,10 +19,10 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr const char* extensionName = "KHR_draco_mesh_compression";
+constexpr const char* dracoName = "KHR_draco_mesh_compression";
 
 std::string primitiveName(std::size_t mesh, std::size_t primitive) {
-    return fmt::format("mesh {}, primitive {}: {}", mesh, primitive, extensionName);
+    return fmt::format("mesh {}, primitive {}: {}", mesh, primitive, dracoName);
 }
 
 const tinygltf::Accessor& accessorAt(const tinygltf::Model& model, int index) {
@@ -102,7 +102,7 @@ struct Type {
     const char* name;
     bool (*convert)(const draco::PointAttribute&, draco::AttributeValueIndex, std::size_t, unsigned char*);
 };
-constexpr std::array types{
+constexpr std::array dracoTypes{
     Type{draco::DT_INT8, TINYGLTF_COMPONENT_TYPE_BYTE, "bytes", convert<std::int8_t>},
     Type{draco::DT_UINT8, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, "unsigned bytes", convert<std::uint8_t>},
     Type{draco::DT_INT16, TINYGLTF_COMPONENT_TYPE_SHORT, "shorts", convert<std::int16_t>},
@@ -113,8 +113,9 @@ constexpr std::array types{
 
 template <class Key>
 const Type* typeOf(Key Type::*member, Key key) {
-    const auto at = std::find_if(types.begin(), types.end(), [&](const Type& t) { return t.*member == key; });
-    return at == types.end() ? nullptr : at;
+    const auto at =
+        std::find_if(dracoTypes.begin(), dracoTypes.end(), [&](const Type& t) { return t.*member == key; });
+    return at == dracoTypes.end() ? nullptr : at;
 }
 
 // The attribute's values in the type of its accessor. Integers may have another width in the stream, as many
@@ -206,7 +207,7 @@ std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::v
     std::vector<DracoPrimitive> result;
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
         for (std::size_t p = 0; drawn[m] && p < model.meshes[m].primitives.size(); ++p)
-            if (const auto* e = extension(model.meshes[m].primitives[p].extensions, extensionName))
+            if (const auto* e = extension(model.meshes[m].primitives[p].extensions, dracoName))
                 result.push_back(readExtension(model, *e, m, p));
     return result;
 }
@@ -242,7 +243,7 @@ void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& prim
         results[i].indices = {};
         primitive.indices = append(model, std::move(indices), std::move(bytes));
         primitive.mode = TINYGLTF_MODE_TRIANGLES;
-        primitive.extensions.erase(extensionName);
+        primitive.extensions.erase(dracoName);
     }
 }
 

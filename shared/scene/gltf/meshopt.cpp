@@ -18,10 +18,10 @@ using Mode = MeshoptView::Mode;
 using Filter = MeshoptView::Filter;
 using Bytes = std::vector<unsigned char>;
 
-constexpr const char* extensionName = "EXT_meshopt_compression";
+constexpr const char* meshoptName = "EXT_meshopt_compression";
 
 std::string viewName(std::size_t view) {
-    return fmt::format("bufferView {}: {}", view, extensionName);
+    return fmt::format("bufferView {}: {}", view, meshoptName);
 }
 
 [[noreturn]] void failView(std::size_t view, const std::string& why) {
@@ -153,7 +153,7 @@ void give(tinygltf::Model& model, std::size_t view, Bytes bytes, std::string lin
     tinygltf::BufferView& file = model.bufferViews[view];
     file.buffer = static_cast<int>(model.buffers.size());
     file.byteOffset = 0;
-    file.extensions.erase(extensionName);
+    file.extensions.erase(meshoptName);
     tinygltf::Buffer& buffer = model.buffers.emplace_back();
     buffer.data = std::move(bytes);
     setMissing(buffer, std::move(line));
@@ -164,7 +164,7 @@ void give(tinygltf::Model& model, std::size_t view, Bytes bytes, std::string lin
 std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model) {
     std::vector<MeshoptView> views;
     for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
-        const tinygltf::Value* e = extension(model.bufferViews[i].extensions, extensionName);
+        const tinygltf::Value* e = extension(model.bufferViews[i].extensions, meshoptName);
         if (!e) continue;
         try {
             views.push_back(viewOf(model, *e, i));
