@@ -2,7 +2,6 @@
 // glTF files for tests: a small valid one, in which a test changes one thing.
 #pragma once
 
-#include "shared/scene/gltf/gltf.h"
 #include "shared/scene/load.h"
 #include "shared/scene/model/scene.h"
 
@@ -118,16 +117,5 @@ inline const char* const twoPixels =
     "data:image/png;base64,"
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAA"
     "D0lEQVR4nGP4z8DwHwgbABB5A359Y87XAAAAAElFTkSuQmCC";
-
-// The line that loading the file fails with, without the file's name; empty if it loads.
-inline std::string lineOf(GltfFile& f) {
-    const std::string binary = f.binary();
-    try {
-        parseGltf({binary.begin(), binary.end()}, "file");
-    } catch (const std::runtime_error& e) {
-        return std::string(e.what()).substr(6);  // "file: "
-    }
-    return "";
-}
 
 }  // namespace diptych

@@ -208,7 +208,7 @@ TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
                   [](AnimatedFile& f) {
                       withTimes(f, {0, 1, 0.5f});
                   }},
-             Case{"input: key 1 is at NAN s",
+             Case{"input: key 1 is at nan s",
                   [](AnimatedFile& f) {
                       withTimes(f, {0, NAN, 2});
                   }},
