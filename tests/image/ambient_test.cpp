@@ -13,7 +13,7 @@ std::vector<Frame> drawIn(const Scene& scene, const Rgb& ambient, Size size = {4
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = size;
     settings.ambient = ambient;
-    return bothPaths(scene, settings);
+    return bothPaths(scene, settings, {lit, lit_ambient, static_cast<int>(gpu::DEBUG_material_id)});
 }
 
 // A base without a specular layer reflects its colour's share; the green texel of the square's texture is
@@ -104,7 +104,7 @@ TEST_P(AmbientReference, BothPathsAreTheIntegral) {
     settings.size = size;
     settings.ambient = {0.3f, 0.4f, 0.5f};
     RenderOptions options;
-    options.channels = allChannels();
+    options.channels = {lit_ambient, static_cast<int>(gpu::DEBUG_material_id)};
     options.runs = 0;
     const Frame referenceFrame = drawAll(scene, {settings}, options).front();
     for (const Frame& path : drawIn(scene, settings.ambient, size)) {

@@ -14,7 +14,7 @@ namespace {
 // lit, after `change` has modified the path's input.
 Image litWith(const Scene& scene, const Settings& settings,
               const std::function<void(PreparedView&)>& change) {
-    SharedResources shared(device(), scene);
+    SharedResources shared(device(), scene, pipelines());
     const SceneView seen = makeSceneView(scene, viewRequest(settings));
     PreparedView view(device(), shared, seen, settings);
     change(view);

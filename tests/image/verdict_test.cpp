@@ -32,12 +32,10 @@ std::string failuresOf(const Report& report) {
 class BuiltinVerdict : public testing::TestWithParam<std::string> {};
 class AssetVerdict : public testing::TestWithParam<std::string> {};
 
-void expectPass(UploadedScene& scene, Size size) {
+void expectPass(UploadedScene& scene, Settings (*picture)(GBufferEncoding)) {
     for (const GBufferEncoding encoding :
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
-        Settings settings = smallPicture(encoding);
-        settings.size = size;
-        const Report report = verdictOn(scene.bothPaths(settings), scene.scene);
+        const Report report = verdictOn(scene.bothPaths(picture(encoding)), scene.scene);
         EXPECT_TRUE(report.passed()) << nameOf(encoding) << "\n" << failuresOf(report);
         ASSERT_EQ(report.comparisons.size(), 1u);
         for (const ChannelDiff& channel : report.comparisons[0].channels)
@@ -46,7 +44,7 @@ void expectPass(UploadedScene& scene, Size size) {
 }
 
 TEST_P(BuiltinVerdict, Passes) {
-    expectPass(uploaded(GetParam()), {160, 90});
+    expectPass(uploaded(GetParam()), smallPicture);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinVerdict, testing::ValuesIn(builtinScenes()),
@@ -56,7 +54,7 @@ TEST_P(AssetVerdict, Passes) {
     const std::filesystem::path file = assets() / GetParam();
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
-    expectPass(uploaded(file.string()), {320, 180});
+    expectPass(uploaded(file.string()), assetPicture);
 }
 
 INSTANTIATE_TEST_SUITE_P(Asset, AssetVerdict, testing::ValuesIn(assetScenes()), [](const auto& scene) {
