@@ -194,7 +194,8 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
         GltfFile f = compressed(s);
         ASSERT_EQ(dracoLine(f), "");
         fault.change(f);
-        EXPECT_EQ(dracoLine(f), std::string("mesh 0, primitive 0: KHR_draco_mesh_compression: ") + fault.line);
+        EXPECT_EQ(dracoLine(f),
+                  std::string("mesh 0, primitive 0: KHR_draco_mesh_compression: ") + fault.line);
     }
 }
 
