@@ -20,6 +20,8 @@
 namespace diptych {
 namespace {
 
+using metrics::finite;
+
 constexpr float notMeasured = -1;  // in a list of errors: not measured
 constexpr double mostStops = 126;  // 2^126 is a float
 

@@ -14,6 +14,8 @@
 namespace diptych {
 namespace {
 
+using metrics::size;
+
 // Wide and high enough that the border, 10 pixels for a usual viewer, costs little; rows that fit in a cache.
 constexpr int tileWidth = 256, tileHeight = 128;
 
