@@ -62,9 +62,10 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
                          const std::string& fragment, Variant variant, const std::vector<VkFormat>& colors,
                          const LightBatch& batch) {
     for (const ImageRef image : frame.gbuffer)
-        if (image.valid()) pass.samples(image);
+        if (image.valid()) pass.samples(image, inFragment);
     batch.read(pass);
-    pass.samples(frame.depth).depthTest(frame.depth);
+    inputs.lists.read(passes, pass);
+    pass.samples(frame.depth, inFragment).depthTest(frame.depth);
     variant.set(gpu::FEATURE_light_batch, batch.kind);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "deferred_lighting.vert",
                                                                  .fragment = fragment,

@@ -20,6 +20,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
         else
             pass.depth(images.depth, Load::clear);
         batch.read(pass);
+        inputs.lists.read(passes, pass);
         pass.record(recordDraws(
             inputs,
             [&](const DrawItem& item) {
@@ -46,6 +47,7 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
         if (modes.empty()) continue;
         const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
             pass.depthTest(frame.depth);
+            inputs.lists.read(passes, pass);
             pass.record(recordDraws(
                 inputs,
                 [&](const DrawItem& item) {
@@ -56,6 +58,7 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
         for (const CaptureGroup& group : captureGroups(modes)) {
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
             last.read(pass);
+            inputs.lists.read(passes, pass);
             for (CapturedImage image : addCaptureImages(passes, pass, group)) {
                 image.through_gbuffer = throughGBuffer;
                 images.push_back(image);

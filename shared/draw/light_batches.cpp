@@ -10,7 +10,7 @@ namespace diptych {
 
 void LightBatch::read(Pass& pass) const {
     if (sums)
-        for (const ImageRef image : images) pass.samples(image);
+        for (const ImageRef image : images) pass.samples(image, inFragment);
 }
 
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add) {
@@ -20,15 +20,18 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
     while (batch.first + most < packets) {
         Pass& pass = passes.draw("shade earlier lights");
         batch.read(pass);
-        const std::array<ImageRef, 2> images{passes.image("partial diffuse sum", litFormat),
-                                             passes.image("partial specular sum", litFormat)};
+        const auto sum = [&](const char* name) {
+            return passes.image({.name = name, .format = litFormat, .life = Life::transient});
+        };
+        const std::array<ImageRef, 2> images{sum("partial diffuse sum"), sum("partial specular sum")};
         for (const ImageRef image : images) pass.color(image, Load::clear);
         add(pass, batch);
         auto sums = std::make_shared<DescriptorSets>(inputs.device, inputs.layouts.partial_sums,
                                                      partialSumBindings(), 1);
-        for (gpu::uint i = 0; i < images.size(); ++i)
-            sums->image(0, i, passes.view(images[i]), inputs.layouts.nearest,
-                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        pass.prepare([&passes, sums, images, sampler = inputs.layouts.nearest.get()] {
+            for (gpu::uint i = 0; i < images.size(); ++i)
+                sums->image(0, i, passes.view(images[i]), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        });
         batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + most, packets), images, std::move(sums)};
     }
     return batch;

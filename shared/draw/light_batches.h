@@ -15,9 +15,10 @@ namespace diptych {
 // The packets of each light list that one draw walks, and the sums that it continues from.
 struct LightBatch {
     gpu::uint kind = gpu::BATCH_WHOLE;
-    gpu::uint first = 0, end = 0;                     // packets, counted from a list's begin
-    std::array<ImageRef, 2> images = {};              // the sums of earlier batches: diffuse, specular
-    std::shared_ptr<const DescriptorSets> sums = {};  // the same as SET_PARTIAL_SUMS; null: none
+    gpu::uint first = 0, end = 0;         // packets, counted from a list's begin
+    std::array<ImageRef, 2> images = {};  // the sums of earlier batches: diffuse, specular
+    std::shared_ptr<DescriptorSets> sums =
+        {};  // the same as SET_PARTIAL_SUMS, filled once the images have memory; null: none
 
     // Declares that the pass samples the sums, where there are some.
     void read(Pass& pass) const;

@@ -24,13 +24,6 @@ std::uint32_t workgroups(std::uint32_t count) {
     return (count + threads - 1) / threads;
 }
 
-void computeBarrier(VkCommandBuffer commands) {
-    memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
-}
-
 // The list of all local lights in packets, each kind beginning a new packet.
 std::vector<gpu::uint> listOfAll(const gpu::LightGrid& grid) {
     std::vector<gpu::uint> all;
@@ -109,9 +102,9 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     counts_ =
         buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
     tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec3));
-    overflow_ =
-        GpuBuffer(device, "overflow", 4,
-                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    overflow_ = buffer("light list overflow", 1, 4);
+    overflow_seen_ = GpuBuffer(device, "light list overflow, read back", 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                               MemoryUse::readback);
     sampler_ = makeNearestSampler(device);
     sets_ = DescriptorSets(device, layouts.lists(), listTypes, 1);
     sets_.buffer(0, gpu::BINDING_BOUNDS, bounds_.handle());
@@ -159,45 +152,89 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     // Only tiled lists read the depth, but lavapipe follows every descriptor of a bound set.
     sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-    if (choice_.lists == gpu::LISTS_TILED) {
-        const VkPipeline depths = kernel("light_depths.comp.0");
-        passes.compute("assign depth bounds").samples(depth).record([=, this](VkCommandBuffer commands) {
-            bind(commands);
-            dispatch(commands, depths, {grid_.tiles.x, grid_.tiles.y, 1});
-        });
+    const BufferRef masks = passes.buffer("light masks", masks_),
+                    used = passes.buffer("used words", used_words_),
+                    counts = passes.buffer("light counts", counts_),
+                    begins = passes.buffer("list begins", four_begins_),
+                    depths = passes.buffer("tile depths", tile_depths_),
+                    overflow = passes.buffer("list overflow", overflow_),
+                    heads = passes.buffer("list heads", heads_),
+                    indices = passes.buffer("light lists", indices_),
+                    listed = passes.buffer("list counts", listed_);
+    const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
+    const bool tiled = choice_.lists == gpu::LISTS_TILED;
+    if (tiled) {
+        const VkPipeline bounds = kernel("light_depths.comp.0");
+        passes.compute("assign depth bounds")
+            .samples(depth, inCompute)
+            .uses(depths, write)
+            .record([=, this](VkCommandBuffer commands) {
+                bind(commands);
+                dispatch(commands, bounds, {grid_.tiles.x, grid_.tiles.y, 1});
+            });
     }
     const bool scatters = choice_.kernel == ListKernel::scatter;
-    const VkPipeline mark = kernel(scatters ? "light_scatter.comp" : "light_gather.comp");
+    const char* const name = "assign lights";
+    Pass& clear = passes.copy(name).uses(overflow, access::transferWrite);
+    if (scatters) clear.uses(masks, access::transferWrite);
+    clear.record([=, this](VkCommandBuffer commands) {
+        vkCmdFillBuffer(commands, overflow_.handle(), 0, VK_WHOLE_SIZE, 0);
+        if (scatters) vkCmdFillBuffer(commands, masks_.handle(), 0, VK_WHOLE_SIZE, 0);
+    });
+    const auto step = [&](const std::string& shader, glm::uvec3 size) -> Pass& {
+        const VkPipeline pipeline = kernel(shader);
+        return passes.compute(name).record([=](VkCommandBuffer commands) {
+            bind(commands);
+            dispatch(commands, pipeline, size);
+        });
+    };
     // In rows, as no device need run more than 65,535 workgroups along an axis.
     constexpr gpu::uint row = 32768;
     const gpu::uint scattered = workgroups(grid_.local_lights * gpu::SCATTER_THREADS);
-    const glm::uvec3 marks = scatters ? glm::uvec3(std::min(scattered, row), (scattered + row - 1) / row, 1)
-                                      : glm::uvec3(grid_.tiles.x, grid_.tiles.y, grid_.slices);
-    const VkPipeline count = kernel("light_count.comp"), scan = kernel("light_scan.comp"),
-                     fill = kernel("light_fill.comp");
-    passes.compute("assign lights").record([=, this](VkCommandBuffer commands) {
-        vkCmdFillBuffer(commands, overflow_.handle(), 0, VK_WHOLE_SIZE, 0);
-        if (scatters) vkCmdFillBuffer(commands, masks_.handle(), 0, VK_WHOLE_SIZE, 0);
-        memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-        bind(commands);
-        dispatch(commands, mark, marks);
-        computeBarrier(commands);
-        dispatch(commands, count, {workgroups(grid_.list_stride / 4), 1, 1});
-        computeBarrier(commands);
-        dispatch(commands, scan, {1, 1, 1});
-        computeBarrier(commands);
-        dispatch(commands, fill, {workgroups(grid_.lists), grid_.segments, 1});
-        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-    });
+    Pass& mark = scatters
+                     ? step("light_scatter.comp", {std::min(scattered, row), (scattered + row - 1) / row, 1})
+                     : step("light_gather.comp", {grid_.tiles.x, grid_.tiles.y, grid_.slices});
+    mark.uses(masks, write);
+    if (scatters) mark.uses(masks, read);  // atomically
+    if (tiled) mark.uses(depths, read);
+    step("light_count.comp", {workgroups(grid_.list_stride / 4), 1, 1})
+        .uses(masks, access::texelRead(inCompute))
+        .uses(used, write)
+        .uses(counts, write)
+        .uses(counts, read)
+        .uses(begins, write);
+    step("light_scan.comp", {1, 1, 1}).uses(begins, read).uses(begins, write);
+    step("light_fill.comp", {workgroups(grid_.lists), grid_.segments, 1})
+        .uses(masks, read)
+        .uses(used, read)
+        .uses(counts, read)
+        .uses(begins, read)
+        .uses(overflow, read)
+        .uses(overflow, write)
+        .uses(heads, write)
+        .uses(indices, write)
+        .uses(listed, write);
+}
+
+void LightLists::read(PassList& passes, Pass& pass) const {
+    if (!any()) return;
+    pass.uses(passes.buffer("list heads", heads_), access::texelRead(inFragment))
+        .uses(passes.buffer("light lists", indices_), access::texelRead(inFragment))
+        .uses(passes.buffer("list counts", listed_), access::storageRead(inFragment));
 }
 
 std::uint64_t LightLists::overflowed() const {
     if (!any()) return 0;
+    device_.submit([&](VkCommandBuffer commands) {
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+        const VkBufferCopy copy{0, 0, sizeof(gpu::uint)};
+        vkCmdCopyBuffer(commands, overflow_.handle(), overflow_seen_.handle(), 1, &copy);
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    });
     gpu::uint lists = 0;
-    std::memcpy(&lists, overflow_.mapped(), sizeof lists);
+    std::memcpy(&lists, overflow_seen_.mapped(), sizeof lists);
     return lists;
 }
 

@@ -62,7 +62,10 @@ public:
     void addPasses(PassList& passes, Pipelines& pipelines, const Variant& variant, VkDescriptorSet frame_set,
                    ImageRef depth);
 
-    std::uint64_t overflowed() const;  // lists of the last frame that found no room
+    // Declares that the pass's fragment shaders walk the lists.
+    void read(PassList& passes, Pass& pass) const;
+
+    std::uint64_t overflowed() const;  // lists of the last frame that found no room; reads back
     std::uint64_t bytes() const;
     // What the last frame left, for tests: heads, then all numbers of the index buffer.
     const GpuBuffer& heads() const { return heads_; }
@@ -75,7 +78,7 @@ private:
     Choice choice_;
     gpu::LightGrid grid_{};
     GpuBuffer grid_buffer_, bounds_, masks_, used_words_, four_begins_, counts_, tile_depths_, overflow_,
-        heads_, indices_, listed_;
+        overflow_seen_, heads_, indices_, listed_;
     OwnedBufferView masks_view_, heads_view_, indices_view_;
     OwnedSampler sampler_;
     DescriptorSets sets_;

@@ -149,12 +149,18 @@ std::vector<DeviceInfo> listDevices() {
     return infos;
 }
 
+std::uint64_t elapsedTicks(std::uint64_t from, std::uint64_t to, std::uint32_t validBits) {
+    const std::uint64_t mask = validBits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << validBits) - 1;
+    return ((to & mask) - (from & mask)) & mask;
+}
+
 struct Device::State {
     ValidationLog log;
     std::optional<Instance> instance;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceInfo info;
     VkPhysicalDeviceLimits limits{};
+    std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
     std::unique_ptr<VkDevice, DeviceDeleter> device;
     std::unique_ptr<Memory> memory;
     VkQueue queue = VK_NULL_HANDLE;
@@ -181,6 +187,11 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.limits = properties.limits;
 
     const std::uint32_t family = *graphicsFamily(s.physical);  // a required fact: chooseDevice saw to it
+    std::uint32_t families = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, nullptr);
+    std::vector<VkQueueFamilyProperties> queues(families);
+    vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, queues.data());
+    s.timestamp_bits = queues.at(family).timestampValidBits;
     s.device.reset(createDevice(s.physical, family));
     s.memory = std::make_unique<Memory>(s.physical, s.device.get());
     vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
@@ -223,6 +234,12 @@ bool Device::countsFragments() const {
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(state_->physical, &features);
     return features.occlusionQueryPrecise == VK_TRUE;
+}
+bool Device::timestamps() const {
+    return !state_->info.isCpu() && state_->timestamp_bits > 0;
+}
+std::uint64_t Device::ticksBetween(std::uint64_t from, std::uint64_t to) const {
+    return elapsedTicks(from, to, state_->timestamp_bits);
 }
 const VkPhysicalDeviceLimits& Device::limits() const {
     return state_->limits;

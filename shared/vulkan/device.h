@@ -28,6 +28,10 @@ struct TargetRounding {
     std::string kind;  // "to nearest", "towards zero", ...
 };
 
+// Ticks from one time stamp to a later one, of which the lowest `validBits` count: the others are undefined,
+// and the counter wraps around.
+std::uint64_t elapsedTicks(std::uint64_t from, std::uint64_t to, std::uint32_t validBits);
+
 // Every device, in the loader's order. Throws std::runtime_error where there is no Vulkan at all.
 std::vector<DeviceInfo> listDevices();
 
@@ -45,6 +49,9 @@ public:
     VkPhysicalDevice physical() const;
     Memory& memory();
     bool countsFragments() const;  // occlusion queries are exact
+    // Time stamps around passes are true. On a CPU device they are not: its work runs later than it says.
+    bool timestamps() const;
+    std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 
     // Records, submits, and waits until the device is done. Returns the wall clock from submit to fence, ms.
     double submit(const std::function<void(VkCommandBuffer)>& record);

@@ -3,59 +3,102 @@
 
 #include "shared/vulkan/check.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
 
 namespace diptych {
 
+struct PassList::Resource {
+    // Exactly one of the two.
+    std::optional<GpuImage> image;
+    const GpuBuffer* buffer = nullptr;
+    Life life = Life::kept;
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, OwnedImageView> views;
+    // Of a transient, once it has memory: its first and last pass, and whose the memory is before.
+    std::size_t first = 0, last = 0;
+    std::optional<std::size_t> before;
+};
+
 namespace {
 
-constexpr VkAccessFlags2 writeAccess = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-                                       VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
-                                       VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-constexpr VkPipelineStageFlags2 depthStages =
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+bool isDepth(const GpuImage& image) {
+    return image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;
+}
 
-constexpr ImageState colorAttachment{
-    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT};
-constexpr ImageState depthAttachment{
-    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, depthStages,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-constexpr VkPipelineStageFlags2 shaderStages =
-    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr ImageState sampledColor{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, shaderStages,
-                                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-// Tested and sampled in one pass: one state for both.
-constexpr ImageState readDepth{
-    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, depthStages | shaderStages,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-constexpr ImageState copySource{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
-                                VK_ACCESS_2_TRANSFER_READ_BIT};
+VkImageUsageFlags usageOf(const ImageDeclaration& declared) {
+    VkImageUsageFlags usage = declared.usage | VK_IMAGE_USAGE_SAMPLED_BIT;
+    usage |= aspectOf(declared.format) == VK_IMAGE_ASPECT_DEPTH_BIT
+                 ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                 : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (declared.life == Life::kept) usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    return usage;
+}
+
+Part wholeOf(const GpuImage& image) {
+    return {0, image.info().levels, 0, image.info().layers};
+}
+
+Part partOf(const Slice& slice) {
+    return {slice.level, 1, slice.layer, 1};
+}
+
+std::uint64_t bytesOf(const GpuImageInfo& info) {
+    std::uint64_t texels = 0;
+    for (std::uint32_t level = 0; level < info.levels; ++level)
+        texels += std::uint64_t{std::max(1u, info.width >> level)} * std::max(1u, info.height >> level);
+    return texels * info.layers * static_cast<std::uint64_t>(info.samples) * bytesPerTexel(info.format);
+}
 
 }  // namespace
 
-Pass& Pass::color(ImageRef image, Load load, VkClearColorValue clear) {
-    colors_.push_back({image, load, {.color = clear}});
+// ---- declaring ---------------------------------------------------------------------------------------
+
+Pass& Pass::color(ImageRef image, Load load, VkClearColorValue clear, Slice slice, ImageRef resolved) {
+    colors_.push_back({image, load, {.color = clear}, slice, resolved});
     return *this;
 }
 
-Pass& Pass::depth(ImageRef image, Load load, float clear) {
-    depth_ = {image, load, {.depthStencil = {clear, 0}}};
+Pass& Pass::depth(ImageRef image, Load load, float clear, Slice slice) {
+    depth_ = {image, load, {.depthStencil = {clear, 0}}, slice, {}};
     depth_writes_ = true;
     return *this;
 }
 
-Pass& Pass::depthTest(ImageRef image) {
-    depth_ = {image, Load::keep, {}};
+Pass& Pass::depthTest(ImageRef image, Slice slice) {
+    depth_ = {image, Load::keep, {}, slice, {}};
     depth_writes_ = false;
     return *this;
 }
 
-Pass& Pass::samples(ImageRef image) {
-    sampled_.push_back(image);
+// The layout, which depends on the format, is filled in when the pass's uses are listed.
+Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages) {
+    images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, {}, true});
+    return *this;
+}
+
+Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages, const Part& part) {
+    images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, part});
+    return *this;
+}
+
+Pass& Pass::uses(ImageRef image, const Access& access, const Part& part, bool discards) {
+    images_.push_back({image, access, part, false, discards});
+    return *this;
+}
+
+Pass& Pass::uses(BufferRef buffer, const Access& access) {
+    buffers_.emplace_back(buffer, access);
+    return *this;
+}
+
+Pass& Pass::prepare(std::function<void()> make) {
+    prepare_ = std::move(make);
     return *this;
 }
 
@@ -66,114 +109,308 @@ Pass& Pass::record(std::function<void(VkCommandBuffer)> commands) {
 
 PassList::PassList(Device& device, std::uint32_t width, std::uint32_t height)
     : device_(device), width_(width), height_(height) {}
+PassList::~PassList() = default;
 
-ImageRef PassList::image(const std::string& name, VkFormat format) {
-    const VkImageUsageFlags attachment = aspectOf(format) == VK_IMAGE_ASPECT_DEPTH_BIT
-                                             ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                             : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    resources_.push_back(
-        {GpuImage(device_, {name, format, width_, height_, 1,
-                            attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}),
-         {}});
+ImageRef PassList::image(const ImageDeclaration& declared) {
+    auto resource = std::make_unique<Resource>();
+    const bool own = declared.extent.width == 0;
+    resource->life = declared.life;
+    resource->image.emplace(device_,
+                            GpuImageInfo{declared.name, declared.format, own ? width_ : declared.extent.width,
+                                         own ? height_ : declared.extent.height, declared.levels,
+                                         usageOf(declared), declared.layers, declared.samples},
+                            declared.life == Life::kept ? GpuImage::Memory::own : GpuImage::Memory::none);
+    tracker_.add(declared.name, declared.levels, declared.layers);
+    resources_.push_back(std::move(resource));
     return {resources_.size() - 1};
+}
+
+BufferRef PassList::buffer(const std::string& name, const GpuBuffer& buffer) {
+    for (std::size_t i = 0; i < resources_.size(); ++i)
+        if (resources_[i]->buffer != nullptr && resources_[i]->buffer->handle() == buffer.handle())
+            return {i};
+    auto resource = std::make_unique<Resource>();
+    resource->buffer = &buffer;
+    resources_.push_back(std::move(resource));
+    const std::size_t index = tracker_.add(name);
+    tracker_.setWritten(index);
+    return {index};
+}
+
+PassList::Resource& PassList::resource(ImageRef image) const {
+    Resource& found = *resources_.at(image.index);
+    if (!found.image) throw std::logic_error("PassList: " + tracker_.name(image.index) + " is no image");
+    return found;
+}
+
+VkImageView PassList::view(ImageRef image) const {
+    const Resource& found = resource(image);
+    if (!found.image->bound())
+        throw std::logic_error(
+            fmt::format("PassList: {} is a transient: its view is there from Pass::prepare() on",
+                        found.image->info().name));
+    return found.image->view();
+}
+
+VkFormat PassList::format(ImageRef image) const {
+    return resource(image).image->info().format;
 }
 
 Pass& PassList::draw(const std::string& name) {
     passes_.push_back(std::make_unique<Pass>());
+    prepared_.push_back(false);
     passes_.back()->name_ = name;
     return *passes_.back();
 }
 
 Pass& PassList::compute(const std::string& name) {
     Pass& pass = draw(name);
-    pass.computes_ = true;
+    pass.kind_ = Pass::Kind::compute;
     return pass;
 }
 
-VkImageView PassList::view(ImageRef image) const {
-    return resources_.at(image.index).image.view();
+Pass& PassList::copy(const std::string& name) {
+    Pass& pass = draw(name);
+    pass.kind_ = Pass::Kind::copy;
+    return pass;
 }
 
-void PassList::transition(std::vector<VkImageMemoryBarrier2>& barriers, ImageRef ref, const ImageState& to,
-                          bool discard) {
-    Resource& resource = resources_.at(ref.index);
-    ImageState& from = resource.state;
-    const bool hazard = ((from.access | to.access) & writeAccess) != 0 || from.layout != to.layout;
-    if (!hazard) {
-        from.stage |= to.stage;
-        return;
+// ---- what a pass uses, and memory --------------------------------------------------------------------
+
+std::vector<Use> PassList::usesOf(const Pass& pass) const {
+    std::vector<Use> uses;
+    for (const Pass::ImageUse& use : pass.images_) {
+        const GpuImage& image = *resource(use.image).image;
+        Access access = use.access;
+        if (access.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+            access =
+                isDepth(image) ? access::sampledDepth(access.stages) : access::sampledColor(access.stages);
+        uses.push_back({use.image.index, use.whole ? wholeOf(image) : use.part, access, use.discards});
     }
-    ImageState source = from;
-    if (discard) source.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    barriers.push_back(barrier(resource.image.handle(), resource.image.aspect(), source, to));
-    from = to;
-}
-
-void PassList::runPass(const Pass& pass, VkCommandBuffer commands) {
-    std::vector<VkImageMemoryBarrier2> barriers;
-    for (const ImageRef image : pass.sampled_)
-        transition(
-            barriers, image,
-            resources_[image.index].image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT ? readDepth : sampledColor,
-            false);
-    for (const auto& color : pass.colors_)
-        transition(barriers, color.image, colorAttachment, color.load == Load::clear);
+    for (const auto& [buffer, access] : pass.buffers_) uses.push_back({buffer.index, {}, access});
+    for (const Pass::Attachment& color : pass.colors_) {
+        uses.push_back(
+            {color.image.index, partOf(color.slice), access::colorAttachment, color.load == Load::clear});
+        if (color.resolved.valid()) uses.push_back({color.resolved.index, {}, access::colorAttachment, true});
+    }
     if (pass.depth_.image.valid())
-        transition(barriers, pass.depth_.image, pass.depth_writes_ ? depthAttachment : readDepth,
-                   pass.depth_writes_ && pass.depth_.load == Load::clear);
-    submitBarriers(commands, barriers);
-    if (pass.computes_) {
-        device_.beginLabel(commands, pass.name_);
-        pass.record_(commands);
-        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | shaderStages,
-                      VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT);
-        device_.endLabel(commands);
-        return;
-    }
+        uses.push_back({pass.depth_.image.index, partOf(pass.depth_.slice),
+                        pass.depth_writes_ ? access::depthAttachment : access::depthTest,
+                        pass.depth_writes_ && pass.depth_.load == Load::clear});
+    return uses;
+}
 
+// Transients that have no memory yet: in the order of their sizes each goes into the first block where no
+// other lives while it does (first fit, decreasing), or into a new one.
+void PassList::allocate() {
+    struct Block {
+        VkMemoryRequirements needs;
+        std::vector<std::size_t> images;  // by the time of their lives, which do not overlap
+    };
+    std::vector<std::size_t> waiting;
+    for (std::size_t i = 0; i < resources_.size(); ++i)
+        if (resources_[i]->image && !resources_[i]->image->bound()) waiting.push_back(i);
+    if (waiting.empty()) return;
+    for (const std::size_t i : waiting) resources_[i]->first = passes_.size();
+    for (std::size_t p = 0; p < passes_.size(); ++p)
+        for (const Use& use : usesOf(*passes_[p])) {
+            Resource& used = *resources_[use.resource];
+            used.first = std::min(used.first, p);
+            used.last = std::max(used.last, p);
+        }
+    std::map<std::size_t, VkMemoryRequirements> needs;
+    for (const std::size_t i : waiting) needs[i] = resources_[i]->image->requirements();
+    std::ranges::stable_sort(waiting,
+                             [&](std::size_t a, std::size_t b) { return needs[a].size > needs[b].size; });
+    std::vector<Block> blocks;
+    std::uint64_t alone = 0, together = 0;
+    for (const std::size_t i : waiting) {
+        const auto apart = [&](std::size_t other) {
+            return resources_[other]->last < resources_[i]->first ||
+                   resources_[i]->last < resources_[other]->first;
+        };
+        const auto block = std::ranges::find_if(blocks, [&](const Block& b) {
+            return (b.needs.memoryTypeBits & needs[i].memoryTypeBits) != 0 &&
+                   std::ranges::all_of(b.images, apart);
+        });
+        alone += needs[i].size;
+        if (block == blocks.end()) {
+            blocks.push_back({needs[i], {i}});
+            together += needs[i].size;
+            continue;
+        }
+        block->needs.memoryTypeBits &= needs[i].memoryTypeBits;
+        block->needs.alignment = std::max(block->needs.alignment, needs[i].alignment);
+        block->images.push_back(i);
+    }
+    for (Block& block : blocks) {
+        blocks_.push_back(device_.memory().allocate(block.needs, MemoryUse::device, true));
+        std::ranges::sort(block.images, {}, [&](std::size_t i) { return resources_[i]->first; });
+        for (std::size_t k = 0; k < block.images.size(); ++k) {
+            Resource& here = *resources_[block.images[k]];
+            here.image->bind(blocks_.back().memory(), blocks_.back().offset());
+            // The first of a run comes after the last of the run before.
+            if (block.images.size() > 1)
+                here.before = block.images[(k + block.images.size() - 1) % block.images.size()];
+        }
+    }
+    shared_bytes_ += alone - together;
+}
+
+void PassList::prepare(std::size_t first, std::size_t last) {
+    allocate();
+    for (std::size_t i = first; i < last; ++i) {
+        for (const Use& use : usesOf(*passes_[i])) {
+            const Resource& used = *resources_[use.resource];
+            if (used.life == Life::transient && (i < used.first || i > used.last))
+                throw std::logic_error(fmt::format("pass {}: the transient {} has given its memory to others",
+                                                   passes_[i]->name_, tracker_.name(use.resource)));
+        }
+        if (!prepared_[i] && passes_[i]->prepare_) passes_[i]->prepare_();
+        prepared_[i] = true;
+    }
+    recorded_.clear();
+}
+
+// ---- running -----------------------------------------------------------------------------------------
+
+VkImageView PassList::attachmentView(ImageRef image, const Slice& slice) {
+    Resource& found = resource(image);
+    const GpuImageInfo& info = found.image->info();
+    if (info.levels == 1 && info.layers == 1) return view(image);
+    OwnedImageView& made = found.views[{slice.level, 1, slice.layer, 1}];
+    if (made == VK_NULL_HANDLE) made = found.image->makeView(slice.level, 1, slice.layer, 1);
+    return made;
+}
+
+void PassList::barriersBefore(const Pass& pass, const std::vector<Use>& uses, VkCommandBuffer commands) {
+    std::vector<VkImageMemoryBarrier2> images;
+    std::vector<VkBufferMemoryBarrier2> buffers;
+    for (const Barrier& barrier : tracker_.before(pass.name_, uses)) {
+        recorded_.push_back(
+            {pass.name_, tracker_.name(barrier.resource), barrier.part, barrier.from, barrier.to});
+        const Resource& found = *resources_[barrier.resource];
+        if (found.image)
+            images.push_back(
+                {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                 .pNext = nullptr,
+                 .srcStageMask = barrier.from.stages,
+                 .srcAccessMask = barrier.from.access,
+                 .dstStageMask = barrier.to.stages,
+                 .dstAccessMask = barrier.to.access,
+                 .oldLayout = barrier.from.layout,
+                 .newLayout = barrier.to.layout,
+                 .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                 .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                 .image = found.image->handle(),
+                 .subresourceRange = {found.image->aspect(), barrier.part.level, barrier.part.levels,
+                                      barrier.part.layer, barrier.part.layers}});
+        else
+            buffers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
+                               .pNext = nullptr,
+                               .srcStageMask = barrier.from.stages,
+                               .srcAccessMask = barrier.from.access,
+                               .dstStageMask = barrier.to.stages,
+                               .dstAccessMask = barrier.to.access,
+                               .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                               .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                               .buffer = found.buffer->handle(),
+                               .offset = 0,
+                               .size = VK_WHOLE_SIZE});
+    }
+    if (images.empty() && buffers.empty()) return;
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .pNext = nullptr,
+                                .dependencyFlags = 0,
+                                .memoryBarrierCount = 0,
+                                .pMemoryBarriers = nullptr,
+                                .bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size()),
+                                .pBufferMemoryBarriers = buffers.data(),
+                                .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
+                                .pImageMemoryBarriers = images.data()};
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+// Transients that are used by this pass first wait for whoever had their memory before.
+void PassList::beginLives(std::size_t pass) {
+    for (std::size_t i = 0; i < resources_.size(); ++i)
+        if (resources_[i]->before && resources_[i]->first == pass) tracker_.alias(i, *resources_[i]->before);
+}
+
+void PassList::runPass(std::size_t index, VkCommandBuffer commands) {
+    const Pass& pass = *passes_[index];
+    beginLives(index);
+    barriersBefore(pass, usesOf(pass), commands);
+    device_.beginLabel(commands, pass.name_);
+    if (pass.kind_ == Pass::Kind::draw)
+        renderPass(pass, commands);
+    else if (pass.record_)
+        pass.record_(commands);
+    device_.endLabel(commands);
+}
+
+void PassList::renderPass(const Pass& pass, VkCommandBuffer commands) {
+    VkExtent2D extent{width_, height_};
     const auto attach = [&](const Pass::Attachment& a, VkImageLayout layout, bool store) {
+        const GpuImageInfo& image = resource(a.image).image->info();
+        extent = {std::max(1u, image.width >> a.slice.level), std::max(1u, image.height >> a.slice.level)};
         VkRenderingAttachmentInfo info{};
         info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-        info.imageView = view(a.image);
+        info.imageView = attachmentView(a.image, a.slice);
         info.imageLayout = layout;
         info.loadOp = a.load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
         info.storeOp = store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
         info.clearValue = a.clear;
+        if (a.resolved.valid()) {
+            info.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+            info.resolveImageView = view(a.resolved);
+            info.resolveImageLayout = layout;
+        }
         return info;
     };
     std::vector<VkRenderingAttachmentInfo> colors;
-    for (const auto& color : pass.colors_) colors.push_back(attach(color, colorAttachment.layout, true));
+    for (const auto& color : pass.colors_)
+        colors.push_back(attach(color, access::colorAttachment.layout, true));
     VkRenderingAttachmentInfo depth{};
     if (pass.depth_.image.valid())
-        depth = attach(pass.depth_, pass.depth_writes_ ? depthAttachment.layout : readDepth.layout,
+        depth = attach(pass.depth_,
+                       pass.depth_writes_ ? access::depthAttachment.layout : access::depthTest.layout,
                        pass.depth_writes_);
     const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                                .pNext = nullptr,
                                .flags = 0,
-                               .renderArea = {{0, 0}, {width_, height_}},
+                               .renderArea = {{0, 0}, extent},
                                .layerCount = 1,
                                .viewMask = 0,
                                .colorAttachmentCount = static_cast<std::uint32_t>(colors.size()),
                                .pColorAttachments = colors.data(),
                                .pDepthAttachment = pass.depth_.image.valid() ? &depth : nullptr,
                                .pStencilAttachment = nullptr};
-    device_.beginLabel(commands, pass.name_);
     vkCmdBeginRendering(commands, &info);
     // Depth is reversed and 0 says that nothing was drawn: what lies exactly on the far plane gets the least
     // depth above it. Everything else is unchanged, being far larger.
     constexpr float leastDepth = 1e-37f;
-    const VkViewport viewport{0, 0, static_cast<float>(width_), static_cast<float>(height_), leastDepth, 1};
+    const VkViewport viewport{
+        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), leastDepth, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &info.renderArea);
     if (pass.record_) pass.record_(commands);
     vkCmdEndRendering(commands);
-    device_.endLabel(commands);
 }
 
-// Milliseconds of each pass, from time stamps around it; the device must have true ones.
-std::vector<double> PassList::runWithTimestamps(std::size_t first, std::size_t last) {
-    const auto count = static_cast<std::uint32_t>(last - first + 1);
+std::vector<PassList::Span> PassList::spans(std::size_t first, std::size_t last) const {
+    std::vector<Span> all;
+    for (std::size_t i = first; i < last; ++i)
+        if (!all.empty() && passes_[i]->name_ == passes_[all.back().first]->name_)
+            all.back().last = i + 1;
+        else
+            all.push_back({i, i + 1});
+    return all;
+}
+
+// Milliseconds of each span, from time stamps around it; the device must have true ones.
+std::vector<double> PassList::runWithTimestamps(const std::vector<Span>& spans) {
+    const auto count = static_cast<std::uint32_t>(spans.size() + 1);
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .pNext = nullptr,
                                      .flags = 0,
@@ -186,9 +423,9 @@ std::vector<double> PassList::runWithTimestamps(std::size_t first, std::size_t l
     device_.submit([&](VkCommandBuffer commands) {
         vkCmdResetQueryPool(commands, pool, 0, count);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 0);
-        for (std::uint32_t i = 0; i + 1 < count; ++i) {
-            runPass(*passes_[first + i], commands);
-            vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, i + 1);
+        for (std::uint32_t s = 0; s + 1 < count; ++s) {
+            for (std::size_t i = spans[s].first; i < spans[s].last; ++i) runPass(i, commands);
+            vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, s + 1);
         }
     });
     std::vector<std::uint64_t> ticks(count);
@@ -198,35 +435,40 @@ std::vector<double> PassList::runWithTimestamps(std::size_t first, std::size_t l
         "vkGetQueryPoolResults");
     std::vector<double> ms;
     for (std::size_t i = 0; i + 1 < count; ++i)
-        ms.push_back(static_cast<double>(ticks[i + 1] - ticks[i]) *
+        ms.push_back(static_cast<double>(device_.ticksBetween(ticks[i], ticks[i + 1])) *
                      static_cast<double>(device_.limits().timestampPeriod) * 1e-6);
     return ms;
 }
 
 double PassList::run(std::size_t first, std::size_t last) {
-    if (!device_.info().isCpu() && device_.limits().timestampComputeAndGraphics == VK_TRUE) {
+    prepare(first, last);
+    if (device_.timestamps()) {
         double total = 0;
-        for (const double ms : runWithTimestamps(first, last)) total += ms;
+        for (const double ms : runWithTimestamps(spans(first, last))) total += ms;
         return total;
     }
     return device_.submit([&](VkCommandBuffer commands) {
-        for (std::size_t i = first; i < last; ++i) runPass(*passes_[i], commands);
+        for (std::size_t i = first; i < last; ++i) runPass(i, commands);
     });
 }
 
 std::vector<PassMs> PassList::profile(std::size_t first, std::size_t last) {
+    prepare(first, last);
+    const std::vector<Span> all = spans(first, last);
     std::vector<PassMs> times;
-    if (!device_.info().isCpu() && device_.limits().timestampComputeAndGraphics == VK_TRUE) {
-        const std::vector<double> ms = runWithTimestamps(first, last);
-        for (std::size_t i = first; i < last; ++i) times.push_back({passes_[i]->name_, ms[i - first]});
+    if (device_.timestamps()) {
+        const std::vector<double> ms = runWithTimestamps(all);
+        for (std::size_t s = 0; s < all.size(); ++s) times.push_back({passes_[all[s].first]->name_, ms[s]});
     } else {
-        for (std::size_t i = first; i < last; ++i)
-            times.push_back({passes_[i]->name_, device_.submit([&](VkCommandBuffer commands) {
-                                 runPass(*passes_[i], commands);
+        for (const Span& span : all)
+            times.push_back({passes_[span.first]->name_, device_.submit([&](VkCommandBuffer commands) {
+                                 for (std::size_t i = span.first; i < span.last; ++i) runPass(i, commands);
                              })});
     }
     return times;
 }
+
+// ---- reading back ------------------------------------------------------------------------------------
 
 std::vector<std::vector<float>> PassList::readBack(std::span<const ReadBack> requests) {
     constexpr std::size_t stagingBytes = std::size_t{256} << 20;
@@ -247,22 +489,30 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
     for (const ReadBack& request : requests)
         buffers.emplace_back(device_, "read back", texels * floatsPerTexel(request.image) * 4,
                              VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    Pass pass;
+    pass.name_ = "read back";
+    std::vector<Use> uses;
+    for (const ReadBack& request : requests) {
+        const Resource& found = resource(request.image);
+        if (found.life == Life::transient)
+            throw std::logic_error("PassList: " + found.image->info().name +
+                                   " is a transient and cannot be read back");
+        uses.push_back({request.image.index, wholeOf(*found.image), access::copiedFromImage});
+    }
     device_.submit([&](VkCommandBuffer commands) {
-        std::vector<VkImageMemoryBarrier2> barriers;
-        for (const ReadBack& request : requests) transition(barriers, request.image, copySource, false);
-        submitBarriers(commands, barriers);
+        barriersBefore(pass, uses, commands);
         for (std::size_t i = 0; i < requests.size(); ++i) {
-            const GpuImage& image = resources_.at(requests[i].image.index).image;
+            const GpuImage& image = *resource(requests[i].image).image;
             const VkBufferImageCopy copy{.bufferOffset = 0,
                                          .bufferRowLength = 0,
                                          .bufferImageHeight = 0,
                                          .imageSubresource = {image.aspect(), 0, 0, 1},
                                          .imageOffset = {},
                                          .imageExtent = {width_, height_, 1}};
-            vkCmdCopyImageToBuffer(commands, image.handle(), copySource.layout, buffers[i].handle(), 1,
-                                   &copy);
+            vkCmdCopyImageToBuffer(commands, image.handle(), access::copiedFromImage.layout,
+                                   buffers[i].handle(), 1, &copy);
         }
-        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
     tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t image) {
@@ -284,14 +534,14 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
 
 std::vector<std::string> PassList::names() const {
     std::vector<std::string> names;
-    for (const auto& pass : passes_) names.push_back(pass->name_);
+    for (const Span& span : spans(0, size())) names.push_back(passes_[span.first]->name_);
     return names;
 }
 
 std::uint64_t PassList::imageBytes() const {
     std::uint64_t bytes = 0;
-    for (const Resource& resource : resources_)
-        bytes += std::uint64_t{width_} * height_ * bytesPerTexel(resource.image.info().format);
+    for (const auto& resource : resources_)
+        if (resource->image) bytes += bytesOf(resource->image->info());
     return bytes;
 }
 

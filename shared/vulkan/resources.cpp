@@ -74,7 +74,8 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
 }
 
-GpuImage::GpuImage(Device& device, const GpuImageInfo& info) : info_(info) {
+GpuImage::GpuImage(Device& device, const GpuImageInfo& info, Memory memory)
+    : device_(device.handle()), info_(info) {
     const VkImageCreateInfo create{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                    .pNext = nullptr,
                                    .flags = 0,
@@ -82,8 +83,8 @@ GpuImage::GpuImage(Device& device, const GpuImageInfo& info) : info_(info) {
                                    .format = info.format,
                                    .extent = {info.width, info.height, 1},
                                    .mipLevels = info.levels,
-                                   .arrayLayers = 1,
-                                   .samples = VK_SAMPLE_COUNT_1_BIT,
+                                   .arrayLayers = info.layers,
+                                   .samples = info.samples,
                                    .tiling = VK_IMAGE_TILING_OPTIMAL,
                                    .usage = info.usage,
                                    .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
@@ -91,29 +92,43 @@ GpuImage::GpuImage(Device& device, const GpuImageInfo& info) : info_(info) {
                                    .pQueueFamilyIndices = nullptr,
                                    .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     VkImage image = VK_NULL_HANDLE;
-    checkResult(vkCreateImage(device.handle(), &create, nullptr, &image), "vkCreateImage");
-    image_ = OwnedImage(device.handle(), image);
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device.handle(), image, &needs);
-    memory_ = device.memory().allocate(needs, MemoryUse::device, true);
-    checkResult(vkBindImageMemory(device.handle(), image, memory_.memory(), memory_.offset()),
-                "vkBindImageMemory");
+    checkResult(vkCreateImage(device_, &create, nullptr, &image), "vkCreateImage");
+    image_ = OwnedImage(device_, image);
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), info.name);
+    if (memory == Memory::none) return;
+    memory_ = device.memory().allocate(requirements(), MemoryUse::device, true);
+    bind(memory_.memory(), memory_.offset());
+}
+
+VkMemoryRequirements GpuImage::requirements() const {
+    VkMemoryRequirements needs;
+    vkGetImageMemoryRequirements(device_, image_, &needs);
+    return needs;
+}
+
+void GpuImage::bind(VkDeviceMemory memory, VkDeviceSize offset) {
+    checkResult(vkBindImageMemory(device_, image_, memory, offset), "vkBindImageMemory");
+    bound_ = true;
     constexpr VkImageUsageFlags viewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
                                          VK_IMAGE_USAGE_STORAGE_BIT;
-    if ((info.usage & viewed) == 0) return;
-    const VkImageViewCreateInfo viewInfo{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-                                         .pNext = nullptr,
-                                         .flags = 0,
-                                         .image = image,
-                                         .viewType = VK_IMAGE_VIEW_TYPE_2D,
-                                         .format = info.format,
-                                         .components = {},
-                                         .subresourceRange = {aspect(), 0, info.levels, 0, 1}};
+    if ((info_.usage & viewed) != 0) view_ = makeView(0, info_.levels, 0, info_.layers);
+}
+
+OwnedImageView GpuImage::makeView(std::uint32_t level, std::uint32_t levels, std::uint32_t layer,
+                                  std::uint32_t layers) const {
+    const VkImageViewCreateInfo viewInfo{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .image = image_,
+        .viewType = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
+        .format = info_.format,
+        .components = {},
+        .subresourceRange = {aspect(), level, levels, layer, layers}};
     VkImageView view = VK_NULL_HANDLE;
-    checkResult(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view), "vkCreateImageView");
-    view_ = OwnedImageView(device.handle(), view);
+    checkResult(vkCreateImageView(device_, &viewInfo, nullptr, &view), "vkCreateImageView");
+    return {device_, view};
 }
 
 OwnedBufferView makeTexelView(Device& device, const std::string& name, const GpuBuffer& buffer,

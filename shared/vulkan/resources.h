@@ -41,24 +41,38 @@ struct GpuImageInfo {
     VkFormat format = VK_FORMAT_UNDEFINED;
     std::uint32_t width = 1, height = 1, levels = 1;
     VkImageUsageFlags usage = 0;
+    std::uint32_t layers = 1;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
+// A two-dimensional image, an array where it has several layers.
 class GpuImage {
 public:
+    enum class Memory { own, none };  // none: bind() gives it some before anything else
+
     GpuImage() = default;
-    GpuImage(Device& device, const GpuImageInfo& info);
+    GpuImage(Device& device, const GpuImageInfo& info, Memory memory = Memory::own);
+
+    // To memory that outlives the image and meets requirements().
+    void bind(VkDeviceMemory memory, VkDeviceSize offset);
+    VkMemoryRequirements requirements() const;
+    bool bound() const { return bound_; }
 
     VkImage handle() const { return image_; }
-    VkImageView view() const { return view_; }
+    VkImageView view() const { return view_; }  // all levels and layers; none where the usage allows no view
+    OwnedImageView makeView(std::uint32_t level, std::uint32_t levels, std::uint32_t layer,
+                            std::uint32_t layers) const;
     const GpuImageInfo& info() const { return info_; }
     VkImageAspectFlags aspect() const;
     VkDeviceSize bytes() const { return memory_.size(); }
 
 private:
+    VkDevice device_ = VK_NULL_HANDLE;
     GpuImageInfo info_;
     Allocation memory_;
     OwnedImage image_;
     OwnedImageView view_;
+    bool bound_ = false;
 };
 
 VkImageAspectFlags aspectOf(VkFormat format);
