@@ -332,14 +332,14 @@ void PassList::barriersBefore(const Pass& pass, const std::vector<Use>& uses, Vk
 }
 
 // Transients that are used by this pass first wait for whoever had their memory before.
-void PassList::beginLives(std::size_t pass) {
+void PassList::beginLives(BarrierTracker& tracker, std::size_t pass) const {
     for (std::size_t i = 0; i < resources_.size(); ++i)
-        if (resources_[i]->before && resources_[i]->first == pass) tracker_.alias(i, *resources_[i]->before);
+        if (resources_[i]->before && resources_[i]->first == pass) tracker.alias(i, *resources_[i]->before);
 }
 
 void PassList::runPass(std::size_t index, VkCommandBuffer commands) {
     const Pass& pass = *passes_[index];
-    beginLives(index);
+    beginLives(tracker_, index);
     barriersBefore(pass, usesOf(pass), commands);
     device_.beginLabel(commands, pass.name_);
     if (pass.kind_ == Pass::Kind::draw)
@@ -530,6 +530,37 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
         float* to = out.data();
         for (std::size_t i = 0; i < texels; ++i, from += stored, to += kept) std::copy_n(from, kept, to);
     });
+}
+
+std::vector<DeclaredUse> PassList::declarations() const {
+    std::vector<DeclaredUse> all;
+    for (const auto& pass : passes_)
+        for (const Use& use : usesOf(*pass))
+            all.push_back({pass->name_, tracker_.name(use.resource), use.access});
+    return all;
+}
+
+std::vector<RecordedBarrier> PassList::plannedBarriers(int runs, const std::set<std::size_t>& without) const {
+    BarrierTracker tracker;
+    for (std::size_t i = 0; i < resources_.size(); ++i) {
+        const auto& image = resources_[i]->image;
+        tracker.add(tracker_.name(i), image ? image->info().levels : 1, image ? image->info().layers : 1);
+        if (!image) tracker.setWritten(i);
+    }
+    std::vector<RecordedBarrier> planned;
+    for (int run = 0; run < runs; ++run) {
+        std::size_t declaration = 0;
+        for (std::size_t p = 0; p < passes_.size(); ++p) {
+            beginLives(tracker, p);
+            std::vector<Use> uses;
+            for (const Use& use : usesOf(*passes_[p]))
+                if (!without.contains(declaration++)) uses.push_back(use);
+            for (const Barrier& barrier : tracker.before(passes_[p]->name_, uses))
+                planned.push_back({passes_[p]->name_, tracker.name(barrier.resource), barrier.part,
+                                   barrier.from, barrier.to});
+        }
+    }
+    return planned;
 }
 
 std::vector<std::string> PassList::names() const {

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -105,6 +106,13 @@ struct RecordedBarrier {
     std::string pass, resource;  // it stands before the pass
     Part part;
     Access from, to;
+    bool operator==(const RecordedBarrier&) const = default;
+};
+
+// One use that a pass declares, its attachments among them.
+struct DeclaredUse {
+    std::string pass, resource;
+    Access access;
 };
 
 class PassList {
@@ -162,6 +170,11 @@ public:
     void allocate();
     // Those of the last run() or profile(), in order.
     const std::vector<RecordedBarrier>& barriers() const { return recorded_; }
+    // Every declaration, pass by pass; and the barriers of `runs` runs of the whole list, one after the
+    // other, from undefined contents on, as if the declarations of these numbers were not there. Records
+    // nothing.
+    std::vector<DeclaredUse> declarations() const;
+    std::vector<RecordedBarrier> plannedBarriers(int runs, const std::set<std::size_t>& without = {}) const;
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
 
@@ -174,7 +187,7 @@ private:
     std::vector<Use> usesOf(const Pass& pass) const;
     VkImageView attachmentView(ImageRef image, const Slice& slice);
     void barriersBefore(const Pass& pass, const std::vector<Use>& uses, VkCommandBuffer commands);
-    void beginLives(std::size_t pass);
+    void beginLives(BarrierTracker& tracker, std::size_t pass) const;
     void runPass(std::size_t index, VkCommandBuffer commands);
     void renderPass(const Pass& pass, VkCommandBuffer commands);
     void prepare(std::size_t first, std::size_t last);

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// What the passes of a frame declare: the barriers that follow from it, stage by stage (the validation layer
+// does not see a source stage that is missing), and that no declaration is there in vain.
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <set>
+
+namespace diptych::tests {
+namespace {
+
+struct Bit {
+    std::uint64_t bit;
+    const char* name;
+};
+constexpr Bit stageNames[] = {{inVertex, "vertex"},
+                              {inFragment, "fragment"},
+                              {inCompute, "compute"},
+                              {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, "early"},
+                              {VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, "late"},
+                              {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, "color"},
+                              {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, "transfer"}};
+constexpr Bit accessNames[] = {{VK_ACCESS_2_SHADER_STORAGE_READ_BIT, "read"},
+                               {VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, "write"},
+                               {VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, "sample"},
+                               {VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT, "blend"},
+                               {VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, "write"},
+                               {VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, "test"},
+                               {VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, "write"},
+                               {VK_ACCESS_2_TRANSFER_WRITE_BIT, "fill"},
+                               {VK_ACCESS_2_TRANSFER_READ_BIT, "copy"}};
+
+template <std::size_t n>
+std::string bitText(std::uint64_t bits, const Bit (&names)[n]) {
+    std::string text;
+    for (const Bit& name : names) {
+        if ((bits & name.bit) == 0) continue;
+        text += (text.empty() ? "" : "+") + std::string(name.name);
+        bits &= ~name.bit;
+    }
+    if (bits != 0) text += fmt::format("+{:#x}", bits);
+    return text.empty() ? "-" : text;
+}
+
+std::string textOf(const RecordedBarrier& barrier) {
+    return fmt::format("{}: {}, {} {} -> {} {}{}", barrier.pass, barrier.resource,
+                       bitText(barrier.from.stages, stageNames), bitText(barrier.from.access, accessNames),
+                       bitText(barrier.to.stages, stageNames), bitText(barrier.to.access, accessNames),
+                       barrier.from.layout != barrier.to.layout ? ", layout" : "");
+}
+
+// The passes of one path, declared and not run.
+class Declared {
+public:
+    Declared(Path path, Assignment assign, const char* lights = "point:40,spot:10")
+        : scene_(loadScene("builtin:triangle")), shared_(device(), scene_, pipelines()) {
+        Settings settings = smallPicture(GBufferEncoding::standard);
+        settings.path = path;
+        settings.assign = assign;
+        settings.lights = lights;
+        settings.light_kernel = LightKernel::scatter;
+        settings.prepass = Switch::on;
+        seen_.emplace(makeSceneView(scene_, viewRequest(settings)));
+        frame_ = std::make_unique<PreparedFrame>(device(), shared_, *seen_, settings);
+        frame_->passes.allocate();
+    }
+    PassList& passes() { return frame_->passes; }
+
+private:
+    Scene scene_;
+    SharedResources shared_;
+    std::optional<SceneView> seen_;
+    std::unique_ptr<PreparedFrame> frame_;
+};
+
+std::vector<std::string> secondRun(const PassList& passes) {
+    const std::vector<RecordedBarrier> one = passes.plannedBarriers(1), two = passes.plannedBarriers(2);
+    std::vector<std::string> lines;
+    for (std::size_t i = one.size(); i < two.size(); ++i) lines.push_back(textOf(two[i]));
+    return lines;
+}
+
+// Of a frame that is drawn again: whatever it writes waits for the readers of the frame before.
+TEST(Declarations, BarriersOfForwardPlusWithClusters) {
+    Declared declared(Path::forward_plus, Assignment::clustered);
+    EXPECT_EQ(secondRun(declared.passes()),
+              (std::vector<std::string>{
+                  "depth pre-pass: depth, early+late - -> early+late test+write, layout",
+                  "assign lights: list overflow, compute write -> transfer fill",
+                  "assign lights: light masks, compute write -> transfer fill",
+                  "assign lights: light masks, transfer fill -> compute read+write",
+                  "assign lights: light masks, compute write -> compute sample",
+                  "assign lights: used words, compute write -> compute write",
+                  "assign lights: light counts, compute write -> compute read+write",
+                  "assign lights: list begins, compute write -> compute write",
+                  "assign lights: list begins, compute write -> compute read+write",
+                  "assign lights: light masks, compute write -> compute read",
+                  "assign lights: used words, compute write -> compute read",
+                  "assign lights: light counts, compute write -> compute read",
+                  "assign lights: list begins, compute write -> compute read",
+                  "assign lights: list overflow, transfer fill -> compute read+write",
+                  "assign lights: list heads, fragment+compute write -> compute write",
+                  "assign lights: light lists, fragment+compute write -> compute write",
+                  "assign lights: list counts, fragment+compute write -> compute write",
+                  "shade: list heads, compute write -> fragment sample",
+                  "shade: light lists, compute write -> fragment sample",
+                  "shade: list counts, compute write -> fragment read",
+                  "shade: lit, color write -> color blend+write, layout",
+                  "shade: depth, early+late write -> early+late test, layout",
+              }));
+}
+
+// Clusters need no depth: nothing of them waits for the G-buffer. Tiles do.
+TEST(Declarations, OnlyTilesWaitForDepth) {
+    for (const Assignment assign : {Assignment::clustered, Assignment::tiled}) {
+        Declared declared(Path::deferred, assign);
+        std::size_t waits = 0;
+        for (const std::string& line : secondRun(declared.passes()))
+            waits += line.starts_with("assign") && line.find(" depth,") != line.npos;
+        EXPECT_EQ(waits, assign == Assignment::tiled ? 1u : 0u) << nameOf(assign);
+    }
+}
+
+// The declarations without which the barriers of two frames are the same, and which no other declaration
+// covers: without that one, too, they would differ. Those that are covered are kept among the test's results,
+// with what covers them.
+std::string inVain(const PassList& passes) {
+    const std::vector<DeclaredUse> all = passes.declarations();
+    const std::vector<RecordedBarrier> whole = passes.plannedBarriers(2);
+    std::string covered, vain;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (passes.plannedBarriers(2, {i}) != whole) continue;
+        std::size_t cover = 0;
+        while (cover < all.size() &&
+               (cover == i || passes.plannedBarriers(2, {cover}) == passes.plannedBarriers(2, {i, cover})))
+            ++cover;
+        if (cover == all.size())
+            vain += fmt::format("{}: {}\n", all[i].pass, all[i].resource);
+        else
+            covered += fmt::format("{}: {} is covered by {}: {}\n", all[i].pass, all[i].resource,
+                                   all[cover].pass, all[cover].resource);
+    }
+    testing::Test::RecordProperty("covered", covered);
+    return vain;
+}
+
+TEST(Declarations, NoneIsInVain) {
+    for (const Path path : {Path::forward_plus, Path::deferred})
+        for (const Assignment assign : {Assignment::clustered, Assignment::tiled, Assignment::every})
+            EXPECT_EQ(inVain(Declared(path, assign).passes()), "") << nameOf(path) << ", " << nameOf(assign);
+    EXPECT_EQ(inVain(Declared(Path::deferred, Assignment::every, "point:70000").passes()), "");
+}
+
+TEST(Declarations, OneInVainIsFound) {
+    const GpuBuffer uploaded(device(), "uploaded", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    Declared declared(Path::deferred, Assignment::clustered);
+    PassList& passes = declared.passes();
+    passes.compute("idle").uses(passes.buffer("uploaded", uploaded), access::storageRead(inCompute));
+    EXPECT_EQ(inVain(passes), "idle: uploaded\n");
+}
+
+// The sums of batches of lights hand their memory on: two batches' sums at a time are needed, whatever their
+// number.
+TEST(Declarations, PartialSumsShareMemory) {
+    Declared declared(Path::deferred, Assignment::every, "point:200000");
+    std::size_t batches = 0;
+    for (const DeclaredUse& use : declared.passes().declarations())
+        batches += use.resource == "partial diffuse sum" && writes(use.access);
+    ASSERT_GT(batches, 2u);
+    constexpr std::uint64_t sums = 2u * 160 * 90 * 16;
+    EXPECT_GE(declared.passes().sharedBytes(), (batches - 2) * sums);
+    EXPECT_LT(declared.passes().sharedBytes(), (batches - 1) * sums);
+}
+
+}  // namespace
+}  // namespace diptych::tests
