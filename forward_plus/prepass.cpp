@@ -15,14 +15,6 @@ namespace diptych {
 
 namespace {
 
-// Times in ns: of a triangle and of a pixel in a depth pass; in shading of a fragment's surface, of each of
-// its textures and of each light.
-struct Costs {
-    double triangle, depth, surface, texture, light;
-};
-// Measured on lavapipe with two cores. A GPU is assumed to take about a hundredth of each.
-constexpr Costs cpuCosts{65, 1, 20, 10, 3}, gpuCosts{0.6, 0.01, 0.2, 0.1, 0.03};
-
 int texturesOf(const Variant& variant) {
     int count = 0;
     for (const gpu::uint feature : slotFeatures) count += variant.get(feature) != 0;
@@ -102,8 +94,8 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     return overdraw;
 }
 
-PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, bool cpu) {
-    const Costs& costs = cpu ? cpuCosts : gpuCosts;
+PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, const DeviceProfile& device) {
+    const DeviceCosts& costs = device.costs;
     const auto fragments = static_cast<double>(overdraw.fragments),
                covered = static_cast<double>(overdraw.covered);
     const double saved = (fragments - covered) *
@@ -115,7 +107,7 @@ PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, bool cpu) {
                     "--prepass auto is {}: {:.2f} fragments a covered pixel; the pre-pass would take about "
                     "{:.2g} ms on {} device and save {:.2g} ms of shading",
                     on ? "on" : "off", covered > 0 ? fragments / covered : 0.0, cost,
-                    cpu ? "this CPU" : "this GPU", saved)};
+                    device.software ? "this CPU" : "this GPU", saved)};
 }
 
 std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings& settings) {
@@ -128,7 +120,7 @@ std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings&
     const PrepassChoice choice =
         choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
                                       static_cast<std::uint32_t>(settings.size.height)),
-                      static_cast<double>(atPixel + inputs.lights.directional), inputs.device.info().isCpu());
+                      static_cast<double>(atPixel + inputs.lights.directional), inputs.device.profile());
     inputs.prepass = choice.on;
     return {choice.because};
 }

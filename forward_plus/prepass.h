@@ -29,6 +29,6 @@ struct PrepassChoice {
     bool on = true;
     std::string because;
 };
-PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, bool cpu);
+PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, const DeviceProfile& device);
 
 }  // namespace diptych

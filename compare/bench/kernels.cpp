@@ -80,7 +80,7 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress) {
                              [&, one = drawn.back().get()](int length) {
                                  double ms = 0;
                                  const double cpu = cpuMs(report.threads, [&] { ms = one->draw(length); });
-                                 return device.info().isCpu() ? cpu : ms;
+                                 return device.profile().software ? cpu : ms;
                              });
     }
 

@@ -38,6 +38,7 @@ Json jsonOf(const ScenePlan& plan) {
         paths.push_back({{"path", path.path},
                          {"passes", path.passes},
                          {"bytes_per_pixel", path.bytes_per_pixel},
+                         {"shared_bytes_per_pixel", path.shared_bytes_per_pixel},
                          {"notes", path.notes}});
     return {{"scene", plan.scene},
             {"draws", plan.needs.draws},
@@ -61,8 +62,11 @@ void print(const ScenePlan& plan) {
             if (line.modelled == modelled) fmt::print("    {:<26} {}\n", line.what, line.why);
     }
     for (const PathPlan& path : plan.paths) {
-        fmt::print("  {}: {}; {} bytes per pixel\n", path.path, fmt::join(path.passes, " > "),
-                   path.bytes_per_pixel);
+        fmt::print("  {}: {}; {} bytes per pixel{}\n", path.path, fmt::join(path.passes, " > "),
+                   path.bytes_per_pixel,
+                   path.shared_bytes_per_pixel > 0 ? fmt::format(", and {} saved by images that share memory",
+                                                                 path.shared_bytes_per_pixel)
+                                                   : "");
         for (const std::string& line : path.notes) fmt::print("    {}\n", line);
     }
     for (const std::string& line : plan.notes) fmt::print("  note: {}\n", line);

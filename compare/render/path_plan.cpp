@@ -18,7 +18,12 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
         const std::size_t pipelinesBefore = shared.pipelines.count();
         PassList passes(device, 1, 1);
         path.add(passes, view.inputs);
-        PathPlan plan{std::string(nameOf(s.path)), passes.names(), path.bytesPerPixel(view.inputs), {}};
+        passes.allocate();
+        PathPlan plan{std::string(nameOf(s.path)),
+                      passes.names(),
+                      path.bytesPerPixel(view.inputs),
+                      passes.sharedBytes(),
+                      {}};
         for (const std::string& note : view.notes) plan.notes.push_back(note);
         plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", view.draws.items.size(),
                                          view.draws.culled, shared.pipelines.count() - pipelinesBefore));

@@ -15,6 +15,8 @@ struct PathPlan {
     std::string path;
     std::vector<std::string> passes;
     unsigned bytes_per_pixel = 0;  // attachments that carry geometry: G-buffer and depth; without lit
+    std::uint64_t shared_bytes_per_pixel =
+        0;  // saved where images that are never needed together share memory
     std::vector<std::string> notes;
 };
 std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::vector<Settings>& settings);

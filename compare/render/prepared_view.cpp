@@ -45,7 +45,7 @@ GpuLights lightsOf(const std::vector<Light>& lights, const View& view, const Set
 // light in every cell (shared/light/README.md, "What lists cost").
 ListKernel kernelOf(LightKernel kernel, const Device& device) {
     if (kernel == LightKernel::automatic)
-        return device.info().isCpu() ? ListKernel::scatter : ListKernel::gather;
+        return device.profile().wide_groups ? ListKernel::gather : ListKernel::scatter;
     return kernel == LightKernel::scatter ? ListKernel::scatter : ListKernel::gather;
 }
 
@@ -91,7 +91,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .gbuffer = gbuffer,
       } {
     buffers.lists().specialise(inputs.variant);
-    if (device.info().isCpu()) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
+    if (device.profile().gathers_uniforms) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
     const LightLists& lists = buffers.lists();
     const ObjectLightBuffers& objects = buffers.objects();
     inputs.variant.set(gpu::FEATURE_object_lights, objects.features());

@@ -117,7 +117,7 @@ private:
             (captured[i].through_gbuffer ? frame_.through_gbuffer : frame_.channels)[captured[i].mode] =
                 std::move(channels[i]);
         frame_.counters.unreproduced_pixels =
-            unequalPixels(frame_.channels[lit], lit_, device_.info().isCpu() ? 0 : gpuUlps);
+            unequalPixels(frame_.channels[lit], lit_, device_.profile().bit_exact ? 0 : gpuUlps);
         frame_.channels[lit] = std::move(lit_);
         if (options_.twice) {
             announce("once more");

@@ -192,7 +192,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         return frame->origin.file.empty() ||
                (frame->origin.device == report.device.name && frame->origin.driver == report.device.driver);
     });
-    const bool cpu = report.device.type == "cpu" && here;
+    const bool cpu = report.device.bitExact() && here;
     comparison.coverage = coverage(left, right);
     applySelection(comparison.coverage, left.settings.size.width, left.settings.size.height,
                    options.selection, objectsOf(left, right), comparison.notes);
@@ -336,7 +336,7 @@ Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requi
     report.device = std::move(device);
     report.frames.push_back(std::move(baseline));
     std::ranges::move(frames, std::back_inserter(report.frames));
-    explainAsNow(report.frames[0], report.frames, report.device.type == "cpu");
+    explainAsNow(report.frames[0], report.frames, report.device.bitExact());
     for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
         CompareOptions here = options;
         const auto done = static_cast<double>(report.comparisons.size());

@@ -54,7 +54,9 @@ struct FrameOrigin {
 
 // The device that a Frame was drawn on, as reports name it.
 struct ReportDevice {
-    std::string name, driver, type;  // with type "cpu", all pipelines round alike
+    std::string name, driver, type;
+    // All pipelines round alike there (DeviceProfile::bit_exact, of a device that may be elsewhere).
+    bool bitExact() const { return type == "cpu"; }
 };
 
 // The camera of the picture, in world space, metres; for the report and for other renderers.

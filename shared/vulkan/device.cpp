@@ -159,6 +159,7 @@ struct Device::State {
     std::optional<Instance> instance;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceInfo info;
+    DeviceProfile profile;
     VkPhysicalDeviceLimits limits{};
     std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
     std::unique_ptr<VkDevice, DeviceDeleter> device;
@@ -192,6 +193,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     std::vector<VkQueueFamilyProperties> queues(families);
     vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, queues.data());
     s.timestamp_bits = queues.at(family).timestampValidBits;
+    s.profile = profileOf(s.info, s.timestamp_bits);
     s.device.reset(createDevice(s.physical, family));
     s.memory = std::make_unique<Memory>(s.physical, s.device.get());
     vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
@@ -235,8 +237,8 @@ bool Device::countsFragments() const {
     vkGetPhysicalDeviceFeatures(state_->physical, &features);
     return features.occlusionQueryPrecise == VK_TRUE;
 }
-bool Device::timestamps() const {
-    return !state_->info.isCpu() && state_->timestamp_bits > 0;
+const DeviceProfile& Device::profile() const {
+    return state_->profile;
 }
 std::uint64_t Device::ticksBetween(std::uint64_t from, std::uint64_t to) const {
     return elapsedTicks(from, to, state_->timestamp_bits);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/vulkan/device_info.h"
+#include "shared/vulkan/device_profile.h"
 #include "shared/vulkan/memory.h"
 #include "shared/vulkan/owned.h"
 
@@ -49,8 +50,7 @@ public:
     VkPhysicalDevice physical() const;
     Memory& memory();
     bool countsFragments() const;  // occlusion queries are exact
-    // Time stamps around passes are true. On a CPU device they are not: its work runs later than it says.
-    bool timestamps() const;
+    const DeviceProfile& profile() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 
     // Records, submits, and waits until the device is done. Returns the wall clock from submit to fence, ms.

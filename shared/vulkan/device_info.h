@@ -22,7 +22,6 @@ struct DeviceInfo {
     std::vector<DeviceFact> facts;
 
     bool usable() const;  // every required fact is there
-    bool isCpu() const { return type == "cpu"; }
 };
 
 }  // namespace diptych

@@ -233,10 +233,10 @@ void PassList::allocate() {
             return (b.needs.memoryTypeBits & needs[i].memoryTypeBits) != 0 &&
                    std::ranges::all_of(b.images, apart);
         });
-        alone += needs[i].size;
+        alone += bytesOf(resources_[i]->image->info());
         if (block == blocks.end()) {
             blocks.push_back({needs[i], {i}});
-            together += needs[i].size;
+            together += bytesOf(resources_[i]->image->info());
             continue;
         }
         block->needs.memoryTypeBits &= needs[i].memoryTypeBits;
@@ -442,7 +442,7 @@ std::vector<double> PassList::runWithTimestamps(const std::vector<Span>& spans) 
 
 double PassList::run(std::size_t first, std::size_t last) {
     prepare(first, last);
-    if (device_.timestamps()) {
+    if (device_.profile().time_stamps) {
         double total = 0;
         for (const double ms : runWithTimestamps(spans(first, last))) total += ms;
         return total;
@@ -456,7 +456,7 @@ std::vector<PassMs> PassList::profile(std::size_t first, std::size_t last) {
     prepare(first, last);
     const std::vector<Span> all = spans(first, last);
     std::vector<PassMs> times;
-    if (device_.timestamps()) {
+    if (device_.profile().time_stamps) {
         const std::vector<double> ms = runWithTimestamps(all);
         for (std::size_t s = 0; s < all.size(); ++s) times.push_back({passes_[all[s].first]->name_, ms[s]});
     } else {

@@ -162,8 +162,8 @@ public:
 
     // One name for passes of the same name that follow each other.
     std::vector<std::string> names() const;
-    // Of all images, as if none shared memory; and what sharing saves of that, once the list has run or been
-    // allocated.
+    // Texels of all images, as if none shared memory; and what sharing saves of that, once the list has run
+    // or been allocated.
     std::uint64_t imageBytes() const;
     std::uint64_t sharedBytes() const { return shared_bytes_; }
     // Gives every image memory; run() does so itself. Transients of one call share memory with each other.

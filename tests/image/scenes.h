@@ -187,7 +187,7 @@ inline Settings smallPicture(GBufferEncoding gbuffer) {
 
 // Pixels that differ. On a CPU device they must be the same bits; a GPU's compiler may contract two
 // shaders differently: there 16 ULP of the pixel's largest component are the same.
-inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = device().info().isCpu()) {
+inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = device().profile().bit_exact) {
     if (a.width != b.width || a.height != b.height || a.components != b.components) return a.pixels() + 1;
     return unequalPixels(a, b, bits ? 0 : gpuUlps);
 }

@@ -46,7 +46,7 @@ void expectSame(const std::string& name, const Settings& settings,
 TEST(SkippedWork, TheViewIsTheSameFromEverySource) {
     const auto uniform = [](PreparedView& view) {
         EXPECT_EQ(view.inputs.variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM,
-                  device().info().isCpu());
+                  device().profile().gathers_uniforms);
         view.inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_UNIFORM);
     };
     for (const Path path : {Path::deferred, Path::forward_plus})

@@ -76,6 +76,29 @@ Faults otherUsersOfLibpng(const Files& files) {
     return faults;
 }
 
+// Decisions by the device's kind are made in its profile alone, and by what a Frame says of a device
+// elsewhere.
+Faults askersForTheKindOfDevice(const Files& files) {
+    static const std::regex asks("== *\"cpu\"|DEVICE_TYPE_CPU|\\bisCpu\\b|llvmpipe");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("tests/") &&
+            !path.starts_with("shared/vulkan/device_profile.") &&
+            path != "shared/vulkan/physical_device.cpp" && path != "shared/frame/frame.h" &&
+            std::regex_search(text, asks))
+            faults.push_back(path);
+    return faults;
+}
+
+TEST(Conventions, OnlyTheProfileAsksForTheKindOfDevice) {
+    EXPECT_EQ(joined(askersForTheKindOfDevice(sources())), "");
+}
+
+TEST(Conventions, APlantedQuestionForTheKindOfDeviceIsFound) {
+    EXPECT_EQ(askersForTheKindOfDevice({{"compare/render/planted.cpp", "if (info.type == \"cpu\") return;"}}),
+              Faults{"compare/render/planted.cpp"});
+}
+
 TEST(Conventions, LibpngIsUsedInOnePlace) {
     EXPECT_EQ(joined(otherUsersOfLibpng(sources())), "");
 }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What is chosen by the device instead of by the scene or the Settings. Nothing else asks what kind of device
+// it is.
+#pragma once
+
+#include "shared/vulkan/device_info.h"
+
+#include <cstdint>
+
+namespace diptych {
+
+// Nanoseconds of work on the whole device, for choices between two ways to draw the same picture.
+struct DeviceCosts {
+    double triangle = 0;  // of a depth pass
+    double depth = 0;     // a fragment of a depth pass
+    double surface = 0;   // making the surface of a shaded fragment
+    double texture = 0;   // each texture of it
+    double light = 0;     // each light at it
+};
+
+struct DeviceProfile {
+    // A CPU draws: what a frame takes is this machine's CPU time.
+    bool software = false;
+    // Two pipelines that compute the same from the same bits agree bit for bit; elsewhere within some ULP.
+    bool bit_exact = false;
+    // Time stamps around passes are true. On lavapipe they are not: work runs later than they say.
+    bool time_stamps = false;
+    // A shader's load of a uniform is gathered for every lane anew, so that fragment shaders read the view
+    // from texels.
+    bool gathers_uniforms = false;
+    // Workgroups run as wide as they are written. Otherwise a kernel of a thread a light beats one of a
+    // workgroup a cell.
+    bool wide_groups = false;
+    DeviceCosts costs;
+};
+
+// `timestampBits`: how many bits of a time stamp the queue writes.
+DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits);
+
+}  // namespace diptych
