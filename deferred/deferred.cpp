@@ -4,6 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/draw/light_batches.h"
+#include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
     PipelineKey key{.vertex = "surface.vert",
                     .fragment = fmt::format("gbuffer.frag.{}", formats.size()),
                     .variant = item.variant.only(read & featuresSetBy(FeatureSource::item)),
-                    .input = VertexInput::all,
+                    .input = VERTEX_ALL,
                     .colors = formats,
                     .depth = depthFormat,
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
@@ -70,7 +71,7 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "deferred_lighting.vert",
                                                                  .fragment = fragment,
                                                                  .variant = variant,
-                                                                 .input = VertexInput::none,
+                                                                 .input = NO_VERTICES,
                                                                  .colors = colors,
                                                                  .depth = depthFormat,
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,

@@ -3,6 +3,7 @@
 
 #include "forward_plus/forward_plus.h"
 #include "shared/draw/pipeline_keys.h"
+#include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 #include "shared/vulkan/check.h"
 
@@ -77,7 +78,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "full_screen.vert",
                                                                  .fragment = "",
                                                                  .variant = {},
-                                                                 .input = VertexInput::none,
+                                                                 .input = NO_VERTICES,
                                                                  .colors = {},
                                                                  .depth = depthFormat,
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,

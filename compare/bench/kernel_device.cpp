@@ -5,6 +5,7 @@
 #include "shared/contract/light_list.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/draw/layouts.h"
+#include "shared/draw/pipeline_parts.h"
 #include "shared/vulkan/check.h"
 
 #include <array>
@@ -32,7 +33,7 @@ public:
         : workload_(workload),
           lightsLayout_(makeSetLayout(device, lightTypes)),
           layouts_(device, lightsLayout_),
-          pipelines_(device, layouts_.pipeline),
+          pipelines_(device, layouts_.pipeline, choosePipelineParts),
           lights_(filled(device, "lights", workload.lights)),
           indices_(filled(device, "lists", workload.indices)),
           uploader_(device),
@@ -53,7 +54,7 @@ public:
         const VkPipeline pipeline = pipelines_.get({.vertex = "full_screen.vert",
                                                     .fragment = kernel.shader,
                                                     .variant = variant,
-                                                    .input = VertexInput::none,
+                                                    .input = NO_VERTICES,
                                                     .colors = {litFormat}});
         passes_.draw(kernel.name)
             .color(target_, Load::clear)

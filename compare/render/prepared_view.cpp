@@ -3,6 +3,7 @@
 
 #include "compare/render/frame_facts.h"
 #include "compare/render/left_out.h"
+#include "shared/draw/pipeline_parts.h"
 #include "shared/light/cutoff.h"
 
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ ListKernel kernelOf(LightKernel kernel, const Device& device) {
 PipelineSet::PipelineSet(Device& device)
     : material(Materials::makeLayout(device)),
       layouts(device, material),
-      pipelines(device, layouts.pipeline) {}
+      pipelines(device, layouts.pipeline, choosePipelineParts) {}
 
 SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<PipelineSet> shared)
     : uploader(d),

@@ -2,6 +2,7 @@
 #include "shared/draw/pipeline_keys.h"
 
 #include "shared/contract/object_lights.h"
+#include "shared/draw/pipeline_parts.h"
 
 #include <fmt/format.h>
 
@@ -14,12 +15,12 @@ PipelineKey depthKey(const DrawItem& item) {
     key.depth_write = true;
     if (item.variant.get(gpu::FEATURE_alpha_mask) == 0) {
         key.vertex = "depth.vert";
-        key.input = VertexInput::positions;
+        key.input = VERTEX_POSITIONS;
         return key;
     }
     key.vertex = "surface.vert";
     key.fragment = "depth_mask.frag";
-    key.input = VertexInput::all;
+    key.input = VERTEX_ALL;
     key.variant = item.variant.only(featuresReadBy(gpu::PASS_DEPTH));
     return key;
 }
@@ -29,7 +30,7 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
     PipelineKey key{.vertex = "surface.vert",
                     .fragment = "forward_shade.frag",
                     .variant = item.variant.only(read & featuresSetBy(FeatureSource::item)),
-                    .input = VertexInput::all,
+                    .input = VERTEX_ALL,
                     .colors = {litFormat},
                     .depth = depthFormat,
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,

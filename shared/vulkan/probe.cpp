@@ -33,7 +33,7 @@ std::vector<std::uint32_t> drawProbe(Device& device, const char* fragment, VkFor
     const VkPipeline pipeline = pipelines.get({.vertex = "full_screen.vert",
                                                .fragment = fragment,
                                                .variant = {},
-                                               .input = VertexInput::none,
+                                               .input = 0,
                                                .colors = {format}});
     passes.draw("probe").color(target, Load::clear).record([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/pipeline_parts.h"
+
+#include "shared/contract/geometry.h"
+#include "shared/contract/object_lights.h"
+#include "shared/vulkan/spirv.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+
+namespace diptych {
+
+namespace {
+
+// The least set of inputs (shaders/lib/inputs.glsl) that has what a variant reads. Of the lights of an object
+// only those that are shaded at vertices need one.
+int inputsOf(const Variant& variant) {
+    if ((variant.get(gpu::FEATURE_object_lights) & gpu::OBJECT_LIGHTS_VERTEX) != 0) return 3;
+    for (int inputs = 3; inputs > 0; --inputs)
+        if (variant.any(featuresNeedingInputs(inputs))) return inputs;
+    return 0;
+}
+
+// Some shaders exist as several modules, because a device pays for code and inputs that a variant does not
+// use: with and without the code of area lights, and with fewer inputs.
+std::string moduleOf(const std::string& shader, const Variant& variant) {
+    const auto orElse = [](std::string better, std::string plain) {
+        return findSpirv(better).empty() ? plain : better;
+    };
+    std::string module = shader;
+    if (variant.get(gpu::FEATURE_area_lights) != 0) module = orElse(module + ".area", module);
+    return orElse(fmt::format("{}.inputs{}", module, inputsOf(variant)), module);
+}
+
+}  // namespace
+
+PipelineParts choosePipelineParts(const PipelineKey& key) {
+    PipelineParts parts;
+    parts.vertex = moduleOf(key.vertex, key.variant);
+    if (!key.fragment.empty()) parts.fragment = moduleOf(key.fragment, key.variant);
+    if (key.input == NO_VERTICES) return parts;
+    using Attributes = gpu::VertexAttributes;
+    using Draw = gpu::Draw;
+    constexpr std::uint32_t perDraw = 2;
+    constexpr std::array bindings{
+        VkVertexInputBindingDescription{0, sizeof(gpu::vec3), VK_VERTEX_INPUT_RATE_VERTEX},
+        VkVertexInputBindingDescription{perDraw, sizeof(Draw), VK_VERTEX_INPUT_RATE_INSTANCE},
+        VkVertexInputBindingDescription{1, sizeof(Attributes), VK_VERTEX_INPUT_RATE_VERTEX}};
+    constexpr std::uint32_t clip = offsetof(Draw, clip_from_object),
+                            world = offsetof(Draw, world_from_object),
+                            normal = offsetof(Draw, normal_from_object), column3 = sizeof(gpu::vec3),
+                            column4 = sizeof(gpu::vec4);
+    static_assert(offsetof(Draw, handedness) == normal + 3 * column3);
+    static_assert(offsetof(Attributes, texcoord1) == offsetof(Attributes, texcoord0) + sizeof(gpu::vec2));
+    // What a module does not declare is not bound: with the least set of inputs that reads it, -1 always.
+    struct Attribute {
+        int inputs;
+        VkVertexInputAttributeDescription description;
+    };
+    constexpr VkFormat float3 = VK_FORMAT_R32G32B32_SFLOAT, float4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+    constexpr std::array all{Attribute{-1, {0, 0, float3, 0}},
+                             Attribute{0, {1, 1, float3, offsetof(Attributes, normal)}},
+                             Attribute{2, {2, 1, float4, offsetof(Attributes, tangent)}},
+                             Attribute{1, {3, 1, float4, offsetof(Attributes, texcoord0)}},
+                             Attribute{3, {4, 1, float4, offsetof(Attributes, color)}},
+                             Attribute{-1, {5, perDraw, float4, clip}},
+                             Attribute{-1, {6, perDraw, float4, clip + column4}},
+                             Attribute{-1, {7, perDraw, float4, clip + 2 * column4}},
+                             Attribute{-1, {8, perDraw, float4, clip + 3 * column4}},
+                             Attribute{0, {9, perDraw, float3, normal}},
+                             Attribute{0, {10, perDraw, float3, normal + column3}},
+                             Attribute{0, {11, perDraw, float4, normal + 2 * column3}},
+                             Attribute{2, {12, perDraw, float3, world}},
+                             Attribute{2, {13, perDraw, float3, world + column3}},
+                             Attribute{2, {14, perDraw, float3, world + 2 * column3}},
+                             Attribute{2, {15, perDraw, float3, world + 3 * column3}}};
+    static_assert(all.size() <= 16);  // what every device has
+    const int inputs = key.input == VERTEX_POSITIONS ? -1 : inputsOf(key.variant);
+    parts.bindings.assign(bindings.begin(), bindings.end());
+    for (const Attribute& attribute : all)
+        if (attribute.inputs <= inputs) parts.attributes.push_back(attribute.description);
+    return parts;
+}
+
+}  // namespace diptych

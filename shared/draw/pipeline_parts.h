@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Which embedded modules a pipeline of ours is made of, and the vertices that it reads.
+#pragma once
+
+#include "shared/vulkan/pipelines.h"
+
+namespace diptych {
+
+// Values of PipelineKey::input.
+enum VertexFormat : std::uint32_t {
+    NO_VERTICES = 0,
+    VERTEX_POSITIONS = 1,  // depth alone
+    VERTEX_ALL = 2,        // what the variant reads
+};
+
+// For Pipelines: modules by the variant's features, vertices and draws as shared/contract/geometry.h has
+// them.
+PipelineParts choosePipelineParts(const PipelineKey& key);
+
+}  // namespace diptych
