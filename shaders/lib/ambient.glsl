@@ -13,38 +13,38 @@ layout(set = SET_FRAME, binding = BINDING_ALBEDO, scalar) readonly buffer Albedo
 
 // Lagrange's polynomial through samples at 0, 1, 2 and 3.
 vec4 cubicWeights(float t) {
-    precise float a = t, b = t - 1.0, c = t - 2.0, d = t - 3.0;
-    precise vec4 w = vec4(b * c * d / -6.0, a * c * d * 0.5, a * b * d * -0.5, a * b * c / 6.0);
+    float a = t, b = t - 1.0, c = t - 2.0, d = t - 3.0;
+    vec4 w = vec4(b * c * d / -6.0, a * c * d * 0.5, a * b * d * -0.5, a * b * c / 6.0);
     return w;
 }
 
 // The first of the four samples around x in [0, 1] of `count`, and where x lies among them.
 uint cubicFirst(float x, uint count, out float t) {
-    precise float place = clamp(x, 0.0, 1.0) * float(count - 1u);
+    float place = clamp(x, 0.0, 1.0) * float(count - 1u);
     uint first = uint(clamp(int(place) - 1, 0, int(count) - 4));
     t = place - float(first);
     return first;
 }
 
 vec2 cubicRow(uint first, vec4 w) {
-    precise vec2 sum = albedo_table[first] * w.x + albedo_table[first + 1u] * w.y +
-                       albedo_table[first + 2u] * w.z + albedo_table[first + 3u] * w.w;
+    vec2 sum = albedo_table[first] * w.x + albedo_table[first + 1u] * w.y +
+               albedo_table[first + 2u] * w.z + albedo_table[first + 3u] * w.w;
     return sum;
 }
 
 // Of light of radiance 1 from everywhere the specular lobe sends f0 * x + f90 * y to the viewer.
 vec2 specularAlbedo(float alpha, float n_dot_v) {
     float mu = min(n_dot_v, 1.0), k = 2.0 * alpha, least = sqrt(MIN_PERCEPTUAL_ROUGHNESS);
-    precise float x = ALBEDO_BLEND * sqrt(mu * (1.0 + k) / (mu + k)) + (1.0 - ALBEDO_BLEND) * sqrt(mu);
-    precise float y = (sqrt(sqrt(alpha)) - least) / (1.0 - least);
+    float x = ALBEDO_BLEND * sqrt(mu * (1.0 + k) / (mu + k)) + (1.0 - ALBEDO_BLEND) * sqrt(mu);
+    float y = (sqrt(sqrt(alpha)) - least) / (1.0 - least);
     float tx, ty;
     uint column = cubicFirst(x, ALBEDO_TABLE_WIDTH, tx), row = cubicFirst(y, ALBEDO_TABLE_HEIGHT, ty);
     vec4 across = cubicWeights(tx), down = cubicWeights(ty);
     uint first = row * ALBEDO_TABLE_WIDTH + column;
-    precise vec2 sum = cubicRow(first, across) * down.x +
-                       cubicRow(first + ALBEDO_TABLE_WIDTH, across) * down.y +
-                       cubicRow(first + 2u * ALBEDO_TABLE_WIDTH, across) * down.z +
-                       cubicRow(first + 3u * ALBEDO_TABLE_WIDTH, across) * down.w;
+    vec2 sum = cubicRow(first, across) * down.x +
+               cubicRow(first + ALBEDO_TABLE_WIDTH, across) * down.y +
+               cubicRow(first + 2u * ALBEDO_TABLE_WIDTH, across) * down.z +
+               cubicRow(first + 3u * ALBEDO_TABLE_WIDTH, across) * down.w;
     return sum;
 }
 
@@ -57,14 +57,14 @@ float meanSchlickWeight(float n_dot_v) {
 
 // Of light from everywhere the share that the base gets of the layer above it.
 float baseShare(Brdf b) {
-    precise float share = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * meanSchlickWeight(b.n_dot_v));
+    float share = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * meanSchlickWeight(b.n_dot_v));
     return share;
 }
 
 // What `b` sends to the viewer of radiance `ambient` from everywhere and of the irradiance `lightmap` times
 // pi, which the base alone reflects; W/(sr m^2), unoccluded.
 vec3 reflectedAmbient(Brdf b, vec3 ambient, vec3 lightmap) {
-    precise vec3 radiance = vec3(0.0);
+    vec3 radiance = vec3(0.0);
     if (on(feature_ambient)) {
         vec2 lobe = specularAlbedo(b.alpha, b.n_dot_v);
         radiance = (b.f0 * lobe.x + vec3(b.f90 * lobe.y)) * ambient;

@@ -35,10 +35,10 @@ AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, vec4 cell, float fresnel) {
     a.n = n;
     a.v = v;
     vec3 across = v - n * dot(n, v);
-    float sine = length(across);
-    vec3 x = sine > 1e-6 ? across / -sine
-                         : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
-    a.surface = transpose(mat3(x, cross(n, x), n));
+    float sine = lengthOf(across);
+    vec3 other = abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 x = sine > 1e-6 ? across / -sine : normalized(crossProduct(n, other));
+    a.surface = transpose(mat3(x, crossProduct(n, x), n));
     float sin2 = max(1.0 - brdf.n_dot_v * brdf.n_dot_v, 0.0);
     float m2 = brdf.n_dot_v * brdf.n_dot_v + brdf.alpha * brdf.alpha * sin2;
     a.ltc.inverse_a = m2 / (cell.x * 2.0 * brdf.alpha);
@@ -84,21 +84,21 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
 // lobe, the table's.
 void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
     mat3 world = transpose(a.surface);
-    float weight = schlickWeight(0.5 * length(unitOrZero(world * plain) + a.v));
+    float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
     float base = 1.0 - (a.brdf.base_f0 + (a.brdf.base_f90 - a.brdf.base_f0) * weight);
     float share = clamp(lobe.z, 0.0, 1.0);
-    weight = schlickWeight(0.5 * length(unitOrZero(world * fromCosine(a.ltc, lobe)) + a.v));
+    weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * fromCosine(a.ltc, lobe)) + a.v));
     vec3 reflected = a.brdf.f0 * a.magnitude +
-                     (vec3(a.brdf.f90) - a.brdf.f0) * mix(a.magnitude * weight, a.fresnel, share);
+                     (vec3(a.brdf.f90) - a.brdf.f0) * blend(a.magnitude * weight, a.fresnel, share);
     bool lit = any(greaterThan(radiance, vec3(0.0)));
-    precise vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
-    precise vec3 from_lobe = reflected * share * radiance;
+    vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
+    vec3 from_lobe = reflected * share * radiance;
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 
 // Lengths are divided by the distance of the light's farthest point, so that squares stay within float32 both
 // near a huge light and far from a tiny one.
-float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (length(i.centre) + shape.extent); }
+float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (lengthOf(i.centre) + shape.extent); }
 
 void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
              inout vec3 specular) {
@@ -136,7 +136,8 @@ void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
              inout vec3 specular) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
     float along = dot(i.centre, shape.direction);
-    bool within = length(i.centre - shape.direction * along) <= shape.radius && abs(along) <= length(shape.x);
+    bool within = lengthOf(i.centre - shape.direction * along) <= shape.radius &&
+                  abs(along) <= lengthOf(shape.x);
     if (within) i.radiance = vec3(0.0);  // it shines outwards alone
     if (areaPoints()) {
         addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
@@ -145,7 +146,7 @@ void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3
     }
     float unit = unitOf(i, shape);
     Ltc plain = Ltc(1.0, 1.0, 0.0);
-    Tube t = tubeOf(a.surface * (i.centre * unit), a.surface * shape.direction, length(shape.x) * unit,
+    Tube t = tubeOf(a.surface * (i.centre * unit), a.surface * shape.direction, lengthOf(shape.x) * unit,
                     shape.radius * unit);
     addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), i.radiance, diffuse, specular);
 }

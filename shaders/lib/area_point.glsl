@@ -18,7 +18,7 @@ struct AreaPoint {
 vec3 onPlane(vec3 ray, vec3 c, vec3 n) {
     float towards = dot(ray, n), away = dot(c, n);
     bool meets = towards * away > 0.0;
-    vec3 far_point = ray * (meets ? away / towards : 1e3 * length(c));
+    vec3 far_point = ray * (meets ? away / towards : 1e3 * lengthOf(c));
     vec3 from_centre = far_point - c;
     return from_centre - n * dot(from_centre, n);
 }
@@ -33,7 +33,7 @@ vec3 onDisc(vec3 ray, vec3 c, AreaLight s) {
 }
 // The nearest of its axis, and from there by its radius towards the ray.
 vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
-    float half_length = length(s.x), slope = dot(ray, s.direction), along = dot(c, s.direction);
+    float half_length = lengthOf(s.x), slope = dot(ray, s.direction), along = dot(c, s.direction);
     float t = (slope * dot(c, ray) - along) / max(1.0 - slope * slope, 1e-6);
     vec3 p = c + s.direction * clamp(t, -half_length, half_length);
     vec3 to_ray = ray * max(dot(p, ray), 0.0) - p;
@@ -47,7 +47,7 @@ float solidAngleOf(float area, float distance2) { return area / (distance2 + are
 // Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 22.
 vec3 specularRay(Brdf b, vec3 n, vec3 v) {
     float smooth_part = max(1.0 - b.alpha, 0.0);
-    return normalize(mix(n, reflect(-v, n), smooth_part * (sqrt(smooth_part) + b.alpha)));
+    return normalized(blend(n, reflection(-v, n), smooth_part * (sqrt(smooth_part) + b.alpha)));
 }
 vec3 diffuseRay(vec3 n, vec3 c) {
     vec3 ray = n + c * inversesqrt(max(dot(c, c), MIN_LIGHT_DISTANCE_SQUARED));
@@ -60,7 +60,7 @@ AreaPoint flatPoint(vec3 diffuse_at, vec3 specular_at, float area, vec2 half_siz
     return AreaPoint(diffuse_at, specular_at, solidAngleOf(area, d2) * seen, half_size);
 }
 AreaPoint rectPoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
-    vec2 half_size = vec2(length(s.x), length(s.y));
+    vec2 half_size = vec2(lengthOf(s.x), lengthOf(s.y));
     // As wide as an ellipse of the same area.
     return flatPoint(onRect(diffuseRay(n, c), c, s), onRect(mirrored, c, s), 4.0 * half_size.x * half_size.y,
                      half_size * (2.0 * inversesqrt(PI)), s.direction);
@@ -73,7 +73,7 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     AreaPoint p;
     p.diffuse_at = onTube(diffuseRay(n, c), c, s);
     p.specular_at = onTube(mirrored, c, s);
-    float half_length = length(s.x), d2 = max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED);
+    float half_length = lengthOf(s.x), d2 = max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED);
     float cosine = dot(p.diffuse_at, s.direction) * inversesqrt(d2);
     float area = 4.0 * s.radius * half_length * sqrt(max(1.0 - cosine * cosine, 0.0)) +
                  PI * s.radius * s.radius * abs(cosine);
@@ -86,7 +86,7 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
 void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3 diffuse,
                   inout vec3 specular) {
     vec3 l = p.diffuse_at * inversesqrt(max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED));
-    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(0.5 * length(l + v)));
+    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(0.5 * lengthOf(l + v)));
     float received = max(dot(n, l), 0.0) * p.solid_angle;
 
     float to_point = inversesqrt(max(dot(p.specular_at, p.specular_at), MIN_LIGHT_DISTANCE_SQUARED));
@@ -105,8 +105,8 @@ void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3
         specularLobe(b, n, sum, sum2, n_dot_l) * n_dot_l * (width2 / (wider.x * wider.y)) * p.solid_angle;
 
     bool lit = any(greaterThan(radiance, vec3(0.0)));
-    precise vec3 from_base = b.diffuse * (base * received) * radiance;
-    precise vec3 from_lobe = fresnel * lobe * radiance;
+    vec3 from_base = b.diffuse * (base * received) * radiance;
+    vec3 from_lobe = fresnel * lobe * radiance;
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 

@@ -20,10 +20,10 @@ struct Brdf {
 };
 
 Brdf makeBrdf(Surface s, vec3 v) {
-    precise Brdf b;  // the same bits in every shader
+    Brdf b;
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
     b.f0 = specularF0(s);
-    b.f90 = mix(s.dielectric_f90, 1.0, s.metallic);
+    b.f90 = blend(s.dielectric_f90, 1.0, s.metallic);
     b.base_f0 = max(s.dielectric_f0.r, max(s.dielectric_f0.g, s.dielectric_f0.b));
     b.base_f90 = s.dielectric_f90;
     float roughness = max(s.roughness, MIN_PERCEPTUAL_ROUGHNESS);
@@ -39,9 +39,9 @@ Brdf makeBrdf(Surface s, vec3 v) {
 // 1e-4 on 40 % of near-highlight samples at roughness 0.1, against none). D = (alpha |s|^2 / denominator)^2 /
 // pi, 1/sr.
 float ggxDenominator(float alpha2, vec3 n, vec3 s) {
-    vec3 n_cross_s = cross(n, s);
+    vec3 n_cross_s = crossProduct(n, s);
     float n_dot_s = dot(n, s);
-    precise float q = dot(n_cross_s, n_cross_s) + n_dot_s * n_dot_s * alpha2;
+    float q = dot(n_cross_s, n_cross_s) + n_dot_s * n_dot_s * alpha2;
     return q;
 }
 
@@ -56,7 +56,7 @@ float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
     float a = b.alpha * s2;
     // At the least alpha, 0.002, q^2 lambda is above 1e-34 where s2 is above 1e-8; the floor only keeps 0 / 0
     // away.
-    precise float lobe = a * a * (0.5 * INVERSE_PI) / max(q * q * lambda, 1e-37);
+    float lobe = a * a * (0.5 * INVERSE_PI) / max(q * q * lambda, 1e-37);
     return dot(n, s) > 0.0 && s2 > 1e-12 ? lobe : 0.0;
 }
 
@@ -77,8 +77,8 @@ void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffus
     float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
     float lobe = specularLobe(b, n, s, s2, n_dot_l);
     vec3 received = irradiance * n_dot_l;
-    precise vec3 from_base = b.diffuse * base * received;
-    precise vec3 from_lobe = fresnel * lobe * received;
+    vec3 from_base = b.diffuse * base * received;
+    vec3 from_lobe = fresnel * lobe * received;
     diffuse += from_base;
     specular += from_lobe;
 }

@@ -5,6 +5,7 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shaders/lib/arithmetic.glsl"
 #include "shared/contract/area_light.h"
 #include "shared/contract/bindings.h"
 #include "shared/contract/constants.h"

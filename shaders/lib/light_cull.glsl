@@ -72,8 +72,8 @@ bool coneReaches(LightBound light, CellBounds cell) {
     vec3 low = vec3(min(cell.x.x * z.x, cell.x.x * z.y), min(cell.y.x * z.x, cell.y.x * z.y), near);
     vec3 high = vec3(max(cell.x.y * z.x, cell.x.y * z.y), max(cell.y.y * z.x, cell.y.y * z.y), far);
     vec3 centre = 0.5 * (low + high);
-    float radius = length(high - centre);
-    float slack = 4e-6 * (length(centre) + length(light.apex)) + 1e-5 * radius;
+    float radius = lengthOf(high - centre);
+    float slack = 4e-6 * (lengthOf(centre) + lengthOf(light.apex)) + 1e-5 * radius;
     if (!coneReachesSphere(light, centre, radius + slack)) return false;
     return coneReachesPlane(light, vec3(0.0, 0.0, near - slack), vec3(0.0, 0.0, -1.0)) &&
            coneReachesPlane(light, vec3(0.0, 0.0, far + slack), vec3(0.0, 0.0, 1.0));

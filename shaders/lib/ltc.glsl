@@ -50,8 +50,8 @@ float angleOf(float cosine, float sine) {
 // where the light is; the sum over a closed outline is its factor. Zero for no direction, or one.
 vec3 edgeFactor(vec3 from, vec3 to) {
     vec3 p = unitOrZero(from), q = unitOrZero(to);
-    vec3 c = cross(p, q);
-    return c * (angleRatio(dot(p, q), length(c)) * 0.5 * INVERSE_PI);
+    vec3 c = crossProduct(p, q);
+    return c * (angleRatio(dot(p, q), lengthOf(c)) * 0.5 * INVERSE_PI);
 }
 
 // An outline above the horizon, as it grows edge by edge. What is convex crosses the horizon twice or never;
@@ -85,8 +85,8 @@ vec3 parallelogramFactor(Ltc m, vec3 c, vec3 x, vec3 y) {
     addEdge(o, corners[1], corners[2]);
     addEdge(o, corners[2], corners[3]);
     addEdge(o, corners[3], corners[0]);
-    float c2 = dot(c, c), reach = length(x) + length(y);
-    vec3 afar = c * (4.0 * INVERSE_PI * abs(dot(c, cross(x, y))) / (c2 * c2));
+    float c2 = dot(c, c), reach = lengthOf(x) + lengthOf(y);
+    vec3 afar = c * (4.0 * INVERSE_PI * abs(dot(c, crossProduct(x, y))) / (c2 * c2));
     return c.z > reach && c2 > 16384.0 * reach * reach ? afar : closed(o);
 }
 
@@ -107,7 +107,7 @@ float nearerRoot(float x, float trace, float minors, float det) {
 }
 
 Cone coneOf(vec3 c, vec3 a, vec3 b) {
-    vec3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+    vec3 bc = crossProduct(b, c), ca = crossProduct(c, a), ab = crossProduct(a, b);
     float volume = abs(dot(c, ab));
     // Both c c^T - a a^T - b b^T and its adjoint, the same of the cross products, have z for their one
     // positive eigenvalue; in the first it is large where the cone is narrow, in the second where it is wide.
@@ -117,7 +117,7 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     float size = 1.0 / max(dot(p, p) + dot(q, q) + dot(r, r), 1e-36);
     float scale = sqrt(size);
     p *= scale, q *= scale, r *= scale;
-    vec3 pq = cross(p, q), rp = cross(r, p), qr = cross(q, r);
+    vec3 pq = crossProduct(p, q), rp = crossProduct(r, p), qr = crossProduct(q, r);
     // The largest root of its characteristic polynomial, the only positive one: by angles (Smith 1961,
     // "Eigenvalues of a Symmetric 3 x 3 Matrix"), and since these know only half the digits where two roots
     // are near one another, by Laguerre's method, which triples them with every step where all roots are
@@ -163,7 +163,7 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     vec2 turn = apart >= 0.0 ? vec2(large, small) : vec2(abs(small), uv >= 0.0 ? large : -large);
     Cone cone;
     cone.x = u * turn.x + v * turn.y;
-    cone.y = cross(z, cone.x);
+    cone.y = crossProduct(z, cone.x);
     cone.z = z;
     zz = max(zz, 1e-30);
     cone.half_x = sqrt(max(middle + spread, 1e-30) / zz);
@@ -186,7 +186,7 @@ vec3 arcFactor(Cone cone, vec2 from, vec2 to, bool beyond) {
     float gx = 1.0 + x2, gy = 1.0 + y2, between = max(x2 - y2, 0.0);
     // Integral of dt: the angle between the two ends as seen along z, stretched.
     vec2 stretch = sqrt(vec2(gy, gx));
-    vec2 p = normalize(from * stretch.yx), q = normalize(to * stretch.yx);
+    vec2 p = normalized(from * stretch.yx), q = normalized(to * stretch.yx);
     float angle = angleOf(dot(p, q), abs(p.x * q.y - p.y * q.x));
     angle = beyond ? 2.0 * PI - angle : angle;
     // Integral of cos t dt: the difference of two atanh of k sin t.
@@ -195,7 +195,7 @@ vec3 arcFactor(Cone cone, vec2 from, vec2 to, bool beyond) {
     // Integral of sin t dt: the difference of two atan of j cos t, as the angle of one vector.
     float j = sqrt(between / gy);
     vec2 w = vec2(1.0 + j * j * from.x * to.x, j * (to.x - from.x));
-    float w_length = max(length(w), 1e-37);
+    float w_length = max(lengthOf(w), 1e-37);
     float dy = (to.x - from.x) * angleRatio(w.x / w_length, abs(w.y) / w_length) / w_length;
     return vec3(-cone.half_y / gx * dx * atanhRatio(min(abs(k * dx), 1.0)), cone.half_x / gy * dy,
                 cone.half_x * cone.half_y / (stretch.x * stretch.y) * angle) *
@@ -215,7 +215,7 @@ struct Horizon {
 };
 Horizon horizonOf(Cone cone) {
     vec2 rise = vec2(cone.x.z * cone.half_x, cone.y.z * cone.half_y);
-    float steep = length(rise);
+    float steep = lengthOf(rise);
     float cosine = steep > 0.0 ? clamp(-cone.z.z / steep, -1.0, 1.0) : cone.z.z > 0.0 ? -1.0 : 1.0;
     return Horizon(steep > 0.0 ? rise / steep : vec2(1.0, 0.0),
                    vec2(cosine, sqrt(max(1.0 - cosine * cosine, 0.0))));

@@ -22,17 +22,16 @@ struct Tube {
 Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
     float along = -dot(centre, axis);
     vec3 from_axis = -centre - axis * along;
-    float distance = length(from_axis);
-    vec3 x = distance > 1e-6 * radius
-                 ? from_axis / distance
-                 : normalize(cross(axis, abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    float distance = lengthOf(from_axis);
+    vec3 other = abs(axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 x = distance > 1e-6 * radius ? from_axis / distance : normalized(crossProduct(axis, other));
     Tube t;
     t.centre = centre;
     t.half_axis = axis * half_length;
     t.top = centre + t.half_axis;
     t.bottom = centre - t.half_axis;
     t.towards = x * radius;
-    t.across = cross(axis, t.towards);
+    t.across = crossProduct(axis, t.towards);
     t.beside = distance > radius;
     float cosine = t.beside ? radius / distance : 1.0;
     t.tangent = vec2(cosine, sqrt(max(1.0 - cosine * cosine, 0.0)));
@@ -91,8 +90,8 @@ vec3 tubeFactor(Ltc m, Tube t) {
     }
     // From afar a point, as a parallelogram is: the side's middle plane, and an end.
     vec3 c = toCosine(m, t.centre), half_axis = toCosine(m, t.half_axis);
-    float c2 = dot(c, c), reach = length(half_axis) + length(x) + length(y);
-    float area = 4.0 * abs(dot(c, cross(half_axis, y))) + PI * abs(dot(c, cross(x, y)));
+    float c2 = dot(c, c), reach = lengthOf(half_axis) + lengthOf(x) + lengthOf(y);
+    float area = 4.0 * abs(dot(c, crossProduct(half_axis, y))) + PI * abs(dot(c, crossProduct(x, y)));
     vec3 afar = c * (area * INVERSE_PI / (c2 * c2));
     return c.z > reach && c2 > 16384.0 * reach * reach ? afar : closed(o);
 }

@@ -50,9 +50,10 @@ float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 // underflow. For a triangle seen edge-on or without area it is the direction to the viewer.
 vec3 triangleNormal(vec3 towards) {
     vec3 dx = dFdxFine(v_world), dy = dFdyFine(v_world);
-    precise vec3 n = cross(dx * (1.0 / max(largestOf(dx), 1e-37)), dy * (1.0 / max(largestOf(dy), 1e-37)));
-    precise vec3 facing = dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
-    precise vec3 unit = facing * inversesqrt(dot(facing, facing));
+    vec3 n = crossProduct(dx * (1.0 / max(largestOf(dx), 1e-37)),
+                          dy * (1.0 / max(largestOf(dy), 1e-37)));
+    vec3 facing = dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
+    vec3 unit = facing * inversesqrt(dot(facing, facing));
     return dot(unit, towards) < 0.0 ? -unit : unit;
 }
 
@@ -61,22 +62,22 @@ vec3 triangleNormal(vec3 towards) {
 // normal, replaces a normal that vanished, flattened by the node's scale or by interpolation; only variants
 // where that can happen check for it.
 vec3 shadingNormal(vec3 triangle) {
-    precise vec3 n = v_normal;
+    vec3 n = v_normal;
     if (on(feature_normal_texture)) {
         vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
         t.xy *= material.normal_scale;
-        vec3 bitangent = v_tangent.w * cross(v_normal, v_tangent.xyz);
+        vec3 bitangent = v_tangent.w * crossProduct(v_normal, v_tangent.xyz);
         n = t.x * v_tangent.xyz + t.y * bitangent + t.z * v_normal;
     }
     float length2 = dot(n, n);
     if (on(feature_vanishing_normals) && !(length2 > 0.0)) return triangle;
-    precise vec3 unit = n * inversesqrt(length2);
+    vec3 unit = n * inversesqrt(length2);
     return on(feature_double_sided) && !gl_FrontFacing ? -unit : unit;
 }
 
 Surface surfaceFromMaterial(vec4 base_color) {
     Material m = material;
-    precise Surface s;  // the same bits in every shader
+    Surface s;
     s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
     s.geometric_normal = vec3(0.0);
     if (needsGeometricNormal() || on(feature_vanishing_normals))

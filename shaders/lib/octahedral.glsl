@@ -4,6 +4,8 @@
 #ifndef OCTAHEDRAL_GLSL
 #define OCTAHEDRAL_GLSL
 
+#include "shaders/lib/arithmetic.glsl"
+
 vec2 octahedralWrap(vec2 p) {
     return (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
 }
@@ -25,7 +27,7 @@ vec3 decodeOctahedral(uint code, uint bits) {
     vec2 p = vec2(q) * (1.0 / top);
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0) n.xy = octahedralWrap(p);
-    return normalize(n);
+    return normalized(n);
 }
 
 #endif

@@ -8,26 +8,26 @@
 
 // View depth in metres from the reversed depth z in [0, 1].
 float viewDepth(float z) {
-    precise float d = (view.depth_numerator.x + view.depth_numerator.y * z) /
-                      (view.depth_denominator.x + view.depth_denominator.y * z);
+    float d = (view.depth_numerator.x + view.depth_numerator.y * z) /
+              (view.depth_denominator.x + view.depth_denominator.y * z);
     return d;
 }
 
 // World axes, camera as origin, m; `pixel` is the pixel's centre (gl_FragCoord.xy).
 vec3 positionFromDepth(vec2 pixel, float z) {
-    precise vec3 direction = view.direction_0;
-    precise vec3 origin = vec3(0.0);
+    vec3 direction = view.direction_0;
+    vec3 origin = vec3(0.0);
     if (on(feature_orthographic))
         origin = view.origin_0 + view.origin_x * pixel.x + view.origin_y * pixel.y;
     else
         direction = view.direction_0 + view.direction_x * pixel.x + view.direction_y * pixel.y;
-    precise vec3 position = origin + direction * viewDepth(z);
+    vec3 position = origin + direction * viewDepth(z);
     return position;
 }
 
 // Unit, from the surface to the viewer.
 vec3 viewVector(vec3 position) {
-    return on(feature_orthographic) ? view.backward : normalize(-position);
+    return on(feature_orthographic) ? view.backward : normalized(-position);
 }
 
 #endif

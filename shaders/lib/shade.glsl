@@ -30,7 +30,7 @@ struct Radiance {
 };
 
 vec3 lit(Radiance radiance) {
-    precise vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
+    vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
     return sum;
 }
 
@@ -86,14 +86,14 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, makeBrdf(s, v));
-    precise Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission);
+    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission);
     if (feature_light_batch == BATCH_LATER) {
         radiance.diffuse = partialDiffuse();
         radiance.specular = partialSpecular();
     }
     if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
         // The base's reflection of the draw's lights that are not shaded per pixel.
-        precise vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
+        vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
         radiance.diffuse = reflected;
     }
     if (on(feature_directional_lights) && feature_light_batch != BATCH_LATER) {

@@ -28,6 +28,6 @@ struct Surface {
 bool needsGeometricNormal() { return on(feature_captured); }
 
 // Specular colour at normal incidence.
-vec3 specularF0(Surface s) { return mix(s.dielectric_f0, s.albedo, s.metallic); }
+vec3 specularF0(Surface s) { return blend(s.dielectric_f0, s.albedo, s.metallic); }
 
 #endif

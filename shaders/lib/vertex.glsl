@@ -13,7 +13,7 @@ layout(location = 0) in vec3 position;
 layout(location = 5) in mat4 clip_from_object;
 
 vec4 clipFromVertex() {
-    precise vec4 clip = clip_from_object * vec4(position, 1.0);
+    vec4 clip = clip_from_object * vec4(position, 1.0);
     return clip;
 }
 

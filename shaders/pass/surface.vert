@@ -37,7 +37,7 @@ vec2 slotTexcoord(uint slot) {
 // A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's normal.
 vec3 unitOrZero(vec3 v) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
+    return largest > 0.0 ? normalized(v / largest) : vec3(0.0);
 }
 
 void main() {
@@ -48,7 +48,7 @@ void main() {
     v_texcoord = bounded(texcoords.xy);
 #endif
 #if INPUTS >= 2
-    precise vec3 world = world_from_object * vec4(position, 1.0);
+    vec3 world = world_from_object * vec4(position, 1.0);
     v_tangent = vec4(unitOrZero(mat3(world_from_object) * tangent.xyz), tangent.w * normal_from_object_z.w);
     v_world = world;
 #endif

@@ -2,20 +2,12 @@
 // Build tool: embed_spirv OUT.cpp LAYOUT.cpp FILE.spv...
 // Writes every module as an array that findSpirv() knows by its file's name without ".spv", and, from the
 // reflection of the modules, static_asserts that C++ lays out each struct of shared/contract as GLSL does.
-// SPIR-V is read as the specification's section 2.3 describes it: a header of five words, then
-// instructions whose first word is length << 16 | opcode.
-#include <cstdint>
+#include "shaders/tool/spirv_words.h"
+
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace {
-
-using Words = std::vector<std::uint32_t>;
 
 enum Op : std::uint32_t {
     op_name = 5,
@@ -25,15 +17,6 @@ enum Op : std::uint32_t {
     op_member_decorate = 72
 };
 enum Decoration : std::uint32_t { spec_id = 1, array_stride = 6, matrix_stride = 7, offset = 35 };
-
-Words readModule(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    Words words(static_cast<std::size_t>(std::filesystem::file_size(file)) / 4);
-    in.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
-    if (!in || words.size() < 5 || words[0] != 0x07230203)
-        throw std::runtime_error(file + ": not a SPIR-V module");
-    return words;
-}
 
 struct Member {
     std::string name;

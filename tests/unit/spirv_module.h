@@ -3,6 +3,7 @@
 // specification: a header of five words, then instructions whose first word is length << 16 | opcode.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -21,6 +22,15 @@ public:
         std::uint32_t set = 0, number = 0;
         Kind kind = Kind::other;
         auto operator<=>(const Binding&) const = default;
+    };
+
+    // What makes a number: an instruction of a function whose result is a float, a vector or a matrix.
+    struct Operation {
+        std::string function;  // that it stands in, without its parameters
+        std::uint32_t op = 0;
+        std::uint32_t extended = 0;  // of GLSL.std.450, where op is OpExtInst
+        std::uint32_t result = 0;
+        bool no_contraction = false;
     };
 
     explicit SpirvModule(std::span<const std::uint32_t> words) {
@@ -63,16 +73,41 @@ public:
         return result;
     }
 
+    // In the order of the module.
+    std::vector<Operation> operations() const {
+        std::vector<Operation> result;
+        std::string function;
+        for (const Instruction& in : all_) {
+            if (in.op == op_function) function = nameOf(in.words[1]);
+            const bool value = in.op == op_ext_inst || in.op > op_function_parameter;
+            if (!value || in.words.size() < 2 || !floats_.contains(in.words[0])) continue;
+            result.push_back({function, in.op, in.op == op_ext_inst ? in.words[3] : 0, in.words[1],
+                              no_contraction_.contains(in.words[1])});
+        }
+        return result;
+    }
+
+    // How many of its instructions have the opcode.
+    std::size_t count(std::uint32_t op) const {
+        return static_cast<std::size_t>(
+            std::count_if(all_.begin(), all_.end(), [&](const Instruction& in) { return in.op == op; }));
+    }
+
 private:
     enum Op : std::uint32_t {
+        op_name = 5,
         op_ext_inst = 12,
         op_entry_point = 15,
+        op_type_float = 22,
+        op_type_vector = 23,
+        op_type_matrix = 24,
         op_type_image = 25,
         op_type_sampled_image = 27,
         op_type_struct = 30,
         op_type_pointer = 32,
         op_spec_constant_op = 52,
         op_function = 54,
+        op_function_parameter = 55,
         op_function_end = 56,
         op_function_call = 57,
         op_variable = 59,
@@ -105,7 +140,12 @@ private:
 
     void declare(const Instruction& in) {
         const auto& w = in.words;
+        if (in.op == op_name) names_[w[0]] = reinterpret_cast<const char*>(&w[1]);
         if (in.op == op_entry_point) entry_ = w[1];
+        if (in.op == op_decorate && w[1] == 42) no_contraction_.insert(w[0]);
+        if (in.op == op_type_float ||
+            ((in.op == op_type_vector || in.op == op_type_matrix) && floats_.contains(w[1])))
+            floats_.insert(w[0]);
         if (in.op == op_decorate && w[1] == 1) spec_id_[w[0]] = w[2];
         if (in.op == op_decorate && w[1] == 33) binding_[w[0]] = w[2];
         if (in.op == op_decorate && w[1] == 34) set_[w[0]] = w[2];
@@ -124,6 +164,12 @@ private:
             variables_[w[1]] = w[0];
             if (w[2] == 6) privates_.insert(w[1]);
         }
+    }
+
+    std::string nameOf(std::uint32_t function) const {
+        const auto found = names_.find(function);
+        if (found == names_.end()) return "?";
+        return found->second.substr(0, found->second.find('('));
     }
 
     // The ids that an instruction reads, without its literal operands.
@@ -210,7 +256,8 @@ private:
     std::map<std::uint32_t, std::uint32_t> variables_;                 // global: their pointer types
     std::map<std::uint32_t, std::vector<std::uint32_t>> expressions_;  // OpSpecConstantOp: operands
     std::map<std::uint32_t, std::size_t> reads_;                       // by id, in functions; stores left out
-    std::set<std::uint32_t> privates_;
+    std::map<std::uint32_t, std::string> names_;                       // by id
+    std::set<std::uint32_t> privates_, floats_, no_contraction_;
 };
 
 }  // namespace diptych

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What GLSL's cross(), length(), normalize(), mix() and reflect() do. Those are one instruction each, which
+// every driver writes out in its own way and which NoContraction does not reach; here they are as lavapipe
+// has them, to the bit.
+#ifndef ARITHMETIC_GLSL
+#define ARITHMETIC_GLSL
+
+vec3 crossProduct(vec3 a, vec3 b) { return a.yzx * b.zxy - a.zxy * b.yzx; }
+
+float lengthOf(vec2 v) { return sqrt(dot(v, v)); }
+float lengthOf(vec3 v) { return sqrt(dot(v, v)); }
+
+vec2 normalized(vec2 v) { return v / lengthOf(v); }
+vec3 normalized(vec3 v) { return v / lengthOf(v); }
+
+// From a to b, exact at both ends.
+float blend(float a, float b, float t) { return a * (1.0 - t) + b * t; }
+vec3 blend(vec3 a, vec3 b, float t) { return a * (1.0 - t) + b * t; }
+
+// n: unit.
+vec3 reflection(vec3 v, vec3 n) { return v - n * (2.0 * dot(n, v)); }
+
+#endif
