@@ -3,6 +3,7 @@
 #ifndef CONTRACT_GLSL
 #define CONTRACT_GLSL
 
+#extension GL_EXT_demote_to_helper_invocation : require
 #extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/lib/arithmetic.glsl"

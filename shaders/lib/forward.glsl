@@ -10,7 +10,7 @@
 // bit.
 Surface forwardSurface() {
     vec4 base_color = baseColor();
-    if (isCutOut(base_color)) discard;
+    cutOut(base_color);
     Surface s = surfaceFromMaterial(base_color);
     if (on(feature_quantise_surface)) {
         Surface decoded = decodeGBuffer(encodeGBuffer(s), s.position);

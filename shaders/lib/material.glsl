@@ -38,9 +38,11 @@ vec4 baseColor() {
     return color;
 }
 
-// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading.
-bool isCutOut(vec4 base_color) {
-    return on(feature_alpha_mask) && base_color.a < material.alpha_cutoff;
+// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading. A
+// pixel in a hole goes on as a helper of its neighbours, whose mip levels and triangle normals are
+// differences to it; after `discard` they would be undefined.
+void cutOut(vec4 base_color) {
+    if (on(feature_alpha_mask) && base_color.a < material.alpha_cutoff) demote;
 }
 
 float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }

@@ -6,6 +6,4 @@
 // Depth of an alpha-masked material: holes write none.
 #include "shaders/lib/material.glsl"
 
-void main() {
-    if (isCutOut(baseColor())) discard;
-}
+void main() { cutOut(baseColor()); }

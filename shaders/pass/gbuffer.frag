@@ -25,7 +25,7 @@ uvec4 optionalTexel(GBufferTexel t, uint k) {
 
 void main() {
     vec4 base_color = baseColor();
-    if (isCutOut(base_color)) discard;
+    cutOut(base_color);
     GBufferTexel t = encodeGBuffer(surfaceFromMaterial(base_color));
     out_texel[0] = t.attachments[GBUFFER_ALBEDO];
     out_texel[1] = t.attachments[GBUFFER_NORMALS];

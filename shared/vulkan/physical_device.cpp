@@ -92,6 +92,7 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("dynamic rendering", f.v13.dynamicRendering == VK_TRUE);
     need("synchronization2", f.v13.synchronization2 == VK_TRUE);
     need("maintenance4", f.v13.maintenance4 == VK_TRUE);
+    need("demotion to helper invocations", f.v13.shaderDemoteToHelperInvocation == VK_TRUE);
     need("scalar block layout", f.v12.scalarBlockLayout == VK_TRUE);
     need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
     need("workgroups of 256 threads", l.maxComputeWorkGroupInvocations >= gpu::LIST_GROUP,
@@ -208,7 +209,8 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
     wanted.v13.synchronization2 = VK_TRUE;
-    wanted.v13.maintenance4 = VK_TRUE;  // a workgroup's size by a constant
+    wanted.v13.maintenance4 = VK_TRUE;                    // a workgroup's size by a constant
+    wanted.v13.shaderDemoteToHelperInvocation = VK_TRUE;  // holes of alpha masks
     wanted.v12.scalarBlockLayout = VK_TRUE;
     wanted.v10.features.fullDrawIndexUint32 = VK_TRUE;
     VkPhysicalDeviceFeatures there{};

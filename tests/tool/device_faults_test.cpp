@@ -63,6 +63,7 @@ TEST(DeviceFaults, AFeatureThatIsMissingIsNamedAndAnotherDeviceOffered) {
     const Folder folder;
     for (const auto& [feature, says] : {std::pair{"dynamicRendering", "dynamic rendering"},
                                         {"synchronization2", "synchronization2"},
+                                        {"shaderDemoteToHelperInvocation", "demotion to helper invocations"},
                                         {"scalarBlockLayout", "scalar block layout"},
                                         {"fullDrawIndexUint32", "32-bit indices"}}) {
         const Fault fault{"features", feature};

@@ -21,6 +21,7 @@
 #include <bit>
 #include <functional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -301,6 +302,32 @@ TEST(ShaderContract, ALaneThatIsFilledTwiceOrNotAtAllIsFound) {
     EXPECT_FALSE(eachLaneOnce(lanes));
     lanes.erase(lanes.begin() + 7);
     EXPECT_FALSE(eachLaneOnce(lanes));
+}
+
+// Derivatives, and the mip levels of samples, are differences to the neighbours in a quad of pixels, and
+// undefined where one of them has ended: holes of alpha masks are demoted to helpers instead.
+constexpr std::uint32_t opKill = 252, opTerminateInvocation = 4416, opDemote = 5380;
+std::size_t ends(std::span<const std::uint32_t> words) {
+    const SpirvModule module(words);
+    return module.count(opKill) + module.count(opTerminateInvocation);
+}
+
+TEST(ShaderContract, NoInvocationEndsBeforeItsNeighbours) {
+    std::size_t demoting = 0;
+    for (const std::string_view module : spirvModules()) {
+        EXPECT_EQ(ends(findSpirv(module)), 0u) << module;
+        demoting += SpirvModule(findSpirv(module)).count(opDemote);
+    }
+    EXPECT_GT(demoting, 40u);
+}
+
+TEST(ShaderContract, AnInvocationThatEndsIsFound) {
+    for (const std::uint32_t op : {opKill, opTerminateInvocation}) {
+        const auto module = findSpirv("gbuffer.frag.4");
+        std::vector<std::uint32_t> words(module.begin(), module.end());
+        std::ranges::replace(words, std::uint32_t{1 << 16 | opDemote}, std::uint32_t{1 << 16 | op});
+        EXPECT_EQ(ends(words), 1u);
+    }
 }
 
 // CONTRACT_LANE, beside each struct that shaders read as texels.

@@ -229,6 +229,7 @@ VKAPI_ATTR void VKAPI_CALL vkGetPhysicalDeviceFeatures2(VkPhysicalDevice device,
             auto* const features = reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(link);
             if (lacks("dynamicRendering")) features->dynamicRendering = VK_FALSE;
             if (lacks("synchronization2")) features->synchronization2 = VK_FALSE;
+            if (lacks("shaderDemoteToHelperInvocation")) features->shaderDemoteToHelperInvocation = VK_FALSE;
         }
         if (link->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES &&
             lacks("scalarBlockLayout"))
