@@ -4,7 +4,37 @@
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
 
+#include <memory>
+
 namespace diptych {
+
+namespace {
+
+// What draws that shade read the stored depth by; null where they shade with the fragment's own: without a
+// pre-pass there is none, and where both have the same bits fetching it would be in vain.
+std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const FrameInputs& inputs,
+                                                  const FrameImages& images) {
+    if (!inputs.prepass || !inputs.device.profile().fetches_depth) return nullptr;
+    return std::make_shared<const DescriptorSets>(gbufferSet(passes, inputs, images));
+}
+
+// Draws whose fragments are shaded.
+void addShadedDraws(Pass& pass, const PassList& passes, const FrameInputs& inputs, const FrameImages& images,
+                    const LightBatch& batch, const KeyOf& keyOf) {
+    const auto stored = storedDepth(passes, inputs, images);
+    if (stored) pass.samples(images.depth, inFragment);
+    pass.takes(shadingMs(passes, inputs, batch));
+    pass.record(recordDraws(
+        inputs,
+        [&](const DrawItem& item) {
+            PipelineKey key = keyOf(item);
+            key.variant.set(gpu::FEATURE_stored_depth, stored != nullptr);
+            return key;
+        },
+        batch, stored));
+}
+
+}  // namespace
 
 FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
@@ -21,14 +51,11 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
             pass.depth(images.depth, Load::clear);
         batch.read(pass);
         inputs.lists.read(passes, pass);
-        pass.record(recordDraws(
-            inputs,
-            [&](const DrawItem& item) {
-                PipelineKey key = keyOf(inputs, item, batch);
-                key.depth_write = !drawn;
-                return key;
-            },
-            batch));
+        addShadedDraws(pass, passes, inputs, images, batch, [&](const DrawItem& item) {
+            PipelineKey key = keyOf(inputs, item, batch);
+            key.depth_write = !drawn;
+            return key;
+        });
         drawn = true;
     };
     const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
@@ -48,12 +75,9 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
         const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
             pass.depthTest(frame.depth);
             inputs.lists.read(passes, pass);
-            pass.record(recordDraws(
-                inputs,
-                [&](const DrawItem& item) {
-                    return quantised(forwardBatchKey(inputs, item, batch), inputs, throughGBuffer);
-                },
-                batch));
+            addShadedDraws(pass, passes, inputs, frame, batch, [&](const DrawItem& item) {
+                return quantised(forwardBatchKey(inputs, item, batch), inputs, throughGBuffer);
+            });
         });
         for (const CaptureGroup& group : captureGroups(modes)) {
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
@@ -63,12 +87,9 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
                 image.through_gbuffer = throughGBuffer;
                 images.push_back(image);
             }
-            pass.record(recordDraws(
-                inputs,
-                [&](const DrawItem& item) {
-                    return quantised(forwardCaptureKey(inputs, item, group, last), inputs, throughGBuffer);
-                },
-                last));
+            addShadedDraws(pass, passes, inputs, frame, last, [&](const DrawItem& item) {
+                return quantised(forwardCaptureKey(inputs, item, group, last), inputs, throughGBuffer);
+            });
         }
     }
     return images;

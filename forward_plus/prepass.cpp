@@ -75,8 +75,8 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
         queries.end(commands, 0);
     });
     // The full-screen triangle passes the depth test where something was drawn, as in deferred lighting.
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = "full_screen.vert",
-                                                                 .fragment = "",
+    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::full_screen_vert,
+                                                                 .fragment = Shader::none,
                                                                  .variant = {},
                                                                  .input = NO_VERTICES,
                                                                  .colors = {},
@@ -115,13 +115,10 @@ std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings&
     inputs.prepass = settings.prepass != Switch::off;
     // Tiles are bounded by depth, so they need a pre-pass.
     if (settings.prepass != Switch::automatic || settings.assign == Assignment::tiled) return {};
-    const gpu::LightGrid& grid = inputs.lists.grid();
-    const std::uint64_t atPixel =
-        inputs.lists.any() ? std::uint64_t{grid.capacity} * grid.width / grid.lists : inputs.lights.local();
     const PrepassChoice choice =
         choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
                                       static_cast<std::uint32_t>(settings.size.height)),
-                      static_cast<double>(atPixel + inputs.lights.directional), inputs.device.profile());
+                      lightsAtPixel(inputs), inputs.device.profile());
     inputs.prepass = choice.on;
     return {choice.because};
 }

@@ -35,6 +35,7 @@ Json jsonOf(const BenchRow& row) {
               {"max", row.time.max},
               {"runs", row.time.runs},
               {"all", row.ms}}},
+            {"host_ms", {{"record", row.time.record}, {"object_lists", row.time.object_lists}}},
             {"passes", passes},
             {"assign_ms", assignMs(row)},
             {"assign_share", assignShare(row)},

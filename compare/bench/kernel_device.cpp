@@ -33,7 +33,7 @@ public:
         : workload_(workload),
           lightsLayout_(makeSetLayout(device, lightTypes)),
           layouts_(device, lightsLayout_),
-          pipelines_(device, layouts_.pipeline, choosePipelineParts),
+          pipelines_(device, layouts_.pipeline, pipelinePartsFor(device.profile())),
           lights_(filled(device, "lights", workload.lights)),
           indices_(filled(device, "lists", workload.indices)),
           uploader_(device),
@@ -51,7 +51,7 @@ public:
             .set(gpu::FEATURE_light_lists, gpu::LISTS_CLUSTERED)
             .set(gpu::FEATURE_list_width, 4);
         target_ = passes_.image("lit", litFormat);
-        const VkPipeline pipeline = pipelines_.get({.vertex = "full_screen.vert",
+        const VkPipeline pipeline = pipelines_.get({.vertex = Shader::full_screen_vert,
                                                     .fragment = kernel.shader,
                                                     .variant = variant,
                                                     .input = NO_VERTICES,
@@ -98,7 +98,7 @@ private:
         static_assert(gpu::SET_FRAME == 0 && gpu::SET_MATERIAL == 1);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.pipeline, 0, sets.size(),
                                 sets.data(), 0, nullptr);
-        const VkDescriptorSet sums = nothing_.set();
+        const VkDescriptorSet sums = nothing_.partialSums();
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts_.pipeline,
                                 gpu::SET_PARTIAL_SUMS, 1, &sums, 0, nullptr);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
@@ -118,7 +118,7 @@ private:
     Pipelines pipelines_;
     GpuBuffer lights_, indices_;
     Uploader uploader_;
-    NoPartialSums nothing_;
+    Placeholders nothing_;
     GpuBuffer unread_;
     OwnedBufferView lightsView_, indicesView_;
     DescriptorSets frameSets_, lightSets_;
@@ -131,10 +131,10 @@ private:
 
 const std::vector<DeviceKernel>& deviceKernels() {
     static const std::vector<DeviceKernel> kernels{
-        {"texel buffer, as the paths read it", "bench_texels.frag", false, {}},
-        {"uniform buffer, uniform base", "bench_uniform_base.frag", true, 2.4},
-        {"uniform buffer, divergent base", "bench_uniform.frag", false, 2.8},
-        {"storage buffer, divergent base", "bench_storage.frag", false, 3.3}};
+        {"texel buffer, as the paths read it", Shader::bench_texels_frag, false, {}},
+        {"uniform buffer, uniform base", Shader::bench_uniform_base_frag, true, 2.4},
+        {"uniform buffer, divergent base", Shader::bench_uniform_frag, false, 2.8},
+        {"storage buffer, divergent base", Shader::bench_storage_frag, false, 3.3}};
     return kernels;
 }
 

@@ -5,6 +5,7 @@
 
 #include "compare/bench/workload.h"
 #include "compare/run/progress.h"
+#include "shared/vulkan/spirv.h"
 
 #include <memory>
 #include <optional>
@@ -40,7 +41,7 @@ KernelReport measureKernels(Device& device, int runs, const Stage& progress);
 // A kernel of shaders/pass/bench_*.frag.
 struct DeviceKernel {
     const char* name;
-    const char* shader;          // its file
+    Shader shader;
     bool subgroups;              // it needs ballots in fragment shaders
     std::optional<double> goal;  // KernelRow::goal
 };

@@ -2,6 +2,7 @@
 #include "compare/bench/bench.h"
 #include "compare/page/text.h"
 #include "compare/render/frame_facts.h"
+#include "compare/render/renderer.h"
 
 #include <fmt/format.h>
 
@@ -46,16 +47,6 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     if (!predicted || *predicted <= bench.options.max_ms) return {};
     return fmt::format("would take {} ms by what {} and {} lights took; --max-ms {:.6g}", msText(*predicted),
                        measured[measured.size() - 2].first, measured.back().first, bench.options.max_ms);
-}
-
-std::vector<PassTime> medians(const std::vector<std::vector<PassTime>>& frames) {
-    std::vector<PassTime> passes = frames.front();
-    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
-        std::vector<double> ms;
-        for (const std::vector<PassTime>& frame : frames) ms.push_back(frame[pass].ms);
-        passes[pass].ms = timeOf(std::move(ms)).median;
-    }
-    return passes;
 }
 
 }  // namespace
@@ -123,22 +114,20 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
                                          fmt::format("its first frame took {} ms; --max-ms {:.6g}",
                                                      msText(ms), bench.options.max_ms)));
     }
-    std::vector<std::vector<double>> ms(frames.size());
-    for (int run = 0; run < bench.runs; ++run)
-        for (const std::size_t i : timed) {
-            step(i, "frames");
-            ms[i].push_back(frames.draw(i));
-        }
-    std::vector<std::vector<std::vector<PassTime>>> passes(frames.size());
-    for (int run = 0; run < profiled; ++run)
-        for (const std::size_t i : timed) {
-            step(i, "passes");
-            passes[i].push_back(frames.profile(i));
-        }
-    for (const std::size_t i : timed) {
+    std::vector<TimedFrame> times = timeInTurns(frames, timed, bench.runs, profiled, step);
+    for (std::size_t k = 0; k < timed.size(); ++k) {
+        const std::size_t i = timed[k];
         const Frame& frame = frames.described(i);
-        BenchRow row{tried[i], group.scene,        group.lights, cameraTitle(frame), timeOf(ms[i]),
-                     ms[i],    medians(passes[i]), frame.bytes,  frame.counters,     frame.notes};
+        BenchRow row{tried[i],
+                     group.scene,
+                     group.lights,
+                     cameraTitle(frame),
+                     times[k].time,
+                     std::move(times[k].ms),
+                     std::move(times[k].passes),
+                     frame.bytes,
+                     frame.counters,
+                     frame.notes};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
         row.counters.overflowed_lists = frames.overflowedLists(i);
         bench.rows.push_back(std::move(row));

@@ -18,7 +18,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ranges>
+#include <map>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -196,23 +196,43 @@ private:
         std::fflush(stdout);
     }
 
-    // The other half of the frames, the last row first: a device that slows down does so for all alike.
+    // The other half of the frames, the last rows first and those of the paths in turn: a device that slows
+    // down does so for all alike.
     void timeAgain(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
                    const Stage& stage) {
+        constexpr std::size_t atOnce = 6;  // rows whose images there are
         RenderOptions render = renderOptions(options_);
         render.runs = options_.runs - firstVisit(options_);
         if (render.runs == 0) return;
+        std::map<Path, std::vector<TradeoffRow*>> waiting;
         double all = 0, done = 0;
-        for (const TradeoffRow& row : tradeoff_.rows) all += weightOf(row.settings);
-        for (TradeoffRow& row : tradeoff_.rows | std::views::reverse) {
-            const double from = done / all;
-            done += weightOf(row.settings);
+        for (TradeoffRow& row : tradeoff_.rows) {
             if (row.cameras.front().visits.size() > 1) continue;
+            waiting[row.settings.path].push_back(&row);
+            all += weightOf(row.settings);
+        }
+        while (!waiting.empty()) {
+            std::vector<TradeoffRow*> rows;
+            const double from = done / all;
+            while (rows.size() < atOnce && !waiting.empty()) {
+                for (auto& [path, left] : waiting) {
+                    rows.push_back(left.back());
+                    left.pop_back();
+                }
+                std::erase_if(waiting, [](const auto& path) { return path.second.empty(); });
+            }
+            double before = 0;
+            for (const TradeoffRow* row : rows) {
+                done += weightOf(row->settings);
+                before += row->drawing_ms;
+            }
             render.progress = stage.part(from, done / all);
-            const double before = row.drawing_ms;
-            tradeoff::timeAgain(renderer, row, references, render);
-            tradeoff_.cost.drawing += row.drawing_ms - before;
-            state.renew(row);
+            tradeoff::timeAgain(renderer, rows, references, render);
+            for (const TradeoffRow* row : rows) {
+                tradeoff_.cost.drawing += row->drawing_ms;
+                state.renew(*row);
+            }
+            tradeoff_.cost.drawing -= before;
         }
     }
 

@@ -64,6 +64,7 @@ Json jsonOf(const Frame& frame) {
             {"size", {frame.settings.size.width, frame.settings.size.height}},
             {"settings", isUnknown ? Json(nullptr) : Json::parse(toJson(frame.settings))},
             {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
+            {"host_ms", {{"record", time.record}, {"object_lists", time.object_lists}}},
             {"made_in_ms", frame.made_in_ms},
             {"uncertainty", frame.relative_uncertainty},
             {"passes", passes},

@@ -55,7 +55,7 @@ ListKernel kernelOf(LightKernel kernel, const Device& device) {
 PipelineSet::PipelineSet(Device& device)
     : material(Materials::makeLayout(device)),
       layouts(device, material),
-      pipelines(device, layouts.pipeline, choosePipelineParts) {}
+      pipelines(device, layouts.pipeline, pipelinePartsFor(device.profile())) {}
 
 SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<PipelineSet> shared)
     : uploader(d),
@@ -86,7 +86,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .lights = lights,
           .draw_buffer = buffers.draws(),
           .frame_set = buffers.set(),
-          .no_partial_sums = buffers.noPartialSums(),
+          .placeholders = buffers.placeholders(),
           .lists = buffers.lists(),
           .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
           .gbuffer = gbuffer,

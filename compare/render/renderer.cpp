@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -25,6 +26,7 @@ namespace diptych {
 namespace {
 
 constexpr double captureFrames = 3;  // a capture of all channels; measured, lavapipe
+constexpr int mostProfiled = 3;      // frames whose passes are timed one by one
 
 class FrameMaker {
 public:
@@ -40,7 +42,7 @@ public:
     Frame make() {
         const auto start = std::chrono::steady_clock::now();
         frame_ = describedFrame(prepared_, shared_, scene_, settings_);
-        drawTimed();
+        drawLit();
         lit_ = readLit(prepared_);
         frame_.counters.overflowed_lists = prepared_.view.buffers.lists().overflowed();
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
@@ -64,23 +66,11 @@ private:
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
-    // Draws with the pipelines without debug code: one frame to warm up (drivers compile at the first draw),
-    // then the timed ones.
-    void drawTimed() {
-        PassList& passes = prepared_.passes;
+    // Draws with the pipelines without debug code, which are those that are timed.
+    void drawLit() {
         announce("draw");
-        step("first frame");
-        passes.run();
-        std::vector<double> ms;
-        for (int i = 0; i < options_.runs; ++i) {
-            step(fmt::format("frame {} of {}", i + 1, options_.runs));
-            ms.push_back(passes.run());
-        }
-        frame_.time = timeOf(std::move(ms));
-        step("time of each pass");
-        if (options_.runs > 0)
-            for (const PassMs& pass : passes.profile(0, passes.size()))
-                frame_.passes.push_back({pass.name, pass.ms});
+        step("draw");
+        prepared_.passes.run();
         frame_.bytes = bytesOf(prepared_, shared_);
     }
 
@@ -159,7 +149,8 @@ private:
 }  // namespace
 
 double framesIn(const RenderOptions& options) {
-    return 2 + options.runs + (options.twice ? 2 + 2 * captureFrames : captureFrames);
+    const double timed = options.runs > 0 ? 1 + options.runs + std::min(options.runs, mostProfiled) : 0;
+    return timed + 1 + (options.twice ? 2 + 2 * captureFrames : captureFrames);
 }
 
 struct Renderer::State {
@@ -167,12 +158,6 @@ struct Renderer::State {
     std::unique_ptr<SceneViews> own_views;  // where none were given
     SceneViews& views;
     SharedResources shared;
-};
-
-struct PreparedFrames::State {
-    SharedResources& shared;
-    std::vector<std::unique_ptr<PreparedFrame>> frames;
-    std::vector<Frame> described;
 };
 
 std::shared_ptr<PipelineSet> makePipelineSet(Device& device) {
@@ -193,7 +178,16 @@ Renderer::~Renderer() = default;
 Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
     checkSize(state_->device, settings.size);
     if (settings.path == Path::reference) return drawReference(settings, options);
-    return FrameMaker(state_->device, state_->shared, state_->views, settings, options).make();
+    RenderOptions drawing = options;
+    drawing.runs = 0;
+    const double timing = 1 - framesIn(drawing) / framesIn(options);
+    RenderOptions timed = options;
+    timed.progress = options.progress.part(0, timing);
+    drawing.progress = options.progress.part(timing, 1);
+    const std::vector<TimedFrame> times = time(std::span(&settings, 1), timed);
+    Frame frame = FrameMaker(state_->device, state_->shared, state_->views, settings, drawing).make();
+    addTimes(times.front(), frame);
+    return frame;
 }
 
 // Draws the reference; in mode surface from surfaces that forward+ captures.
@@ -216,48 +210,35 @@ std::size_t Renderer::pipelines() const {
 }
 
 PreparedFrames Renderer::prepare(std::span<const Settings> settings) {
-    auto state = std::make_unique<PreparedFrames::State>(PreparedFrames::State{state_->shared, {}, {}});
-    SceneViews& views = state_->views;
-    for (const Settings& s : settings) {
-        checkSize(state_->device, s.size);
-        state->frames.push_back(
-            std::make_unique<PreparedFrame>(state_->device, state_->shared, views.at(viewRequest(s)), s));
-        const PreparedFrame& prepared = *state->frames.back();
-        state->described.push_back(describedFrame(prepared, state_->shared, views.scene(), s));
-        state->described.back().bytes = diptych::bytesOf(prepared, state_->shared);
+    return PreparedFrames(state_->device, state_->shared, state_->views, settings);
+}
+
+std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const RenderOptions& options) {
+    std::vector<TimedFrame> times(settings.size());
+    std::vector<Settings> drawn;
+    std::vector<std::size_t> places;  // of `drawn` in `settings`
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        if (settings[i].path == Path::reference || options.runs == 0) continue;
+        drawn.push_back(settings[i]);
+        places.push_back(i);
     }
-    return PreparedFrames(std::move(state));
-}
-
-PreparedFrames::PreparedFrames(std::unique_ptr<State> state) : state_(std::move(state)) {}
-PreparedFrames::PreparedFrames(PreparedFrames&&) noexcept = default;
-PreparedFrames::~PreparedFrames() = default;
-
-std::size_t PreparedFrames::size() const {
-    return state_->frames.size();
-}
-
-double PreparedFrames::draw(std::size_t i) {
-    return state_->frames.at(i)->passes.run();
-}
-
-std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
-    PassList& passes = state_->frames.at(i)->passes;
-    std::vector<PassTime> times;
-    for (const PassMs& pass : passes.profile(0, passes.size())) times.push_back({pass.name, pass.ms});
+    const int profiled = std::min(options.runs, mostProfiled);
+    const double steps = static_cast<double>(drawn.size()) * (1 + options.runs + profiled);
+    double done = 0;
+    const auto step = [&](std::size_t i, const char* what) {
+        options.progress.at(done++ / steps, fmt::format("{}: {}", nameOf(drawn[i].path), what));
+    };
+    if (drawn.empty()) return times;
+    PreparedFrames frames = prepare(drawn);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        step(i, "first frame");
+        frames.draw(i);
+    }
+    std::vector<std::size_t> all(drawn.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::vector<TimedFrame> timed = timeInTurns(frames, all, options.runs, profiled, step);
+    for (std::size_t i = 0; i < drawn.size(); ++i) times[places[i]] = std::move(timed[i]);
     return times;
-}
-
-Image PreparedFrames::lit(std::size_t i) {
-    return readLit(*state_->frames.at(i));
-}
-
-std::uint64_t PreparedFrames::overflowedLists(std::size_t i) const {
-    return state_->frames.at(i)->view.buffers.lists().overflowed();
-}
-
-const Frame& PreparedFrames::described(std::size_t i) const {
-    return state_->described.at(i);
 }
 
 std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
@@ -265,13 +246,19 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
     for (const Settings& s : settings) checkSize(device, s.size);
     options.progress.at(0, "upload");
     Renderer renderer(device, views);
-    RenderOptions each = options;
+    RenderOptions each = options, timed = options;
+    each.runs = 0;
+    const double timing = 1 - framesIn(each) / framesIn(options);
+    timed.progress = options.progress.part(0, timing);
+    const std::vector<TimedFrame> times = renderer.time(settings, timed);
     std::vector<Frame> frames;
     const auto count = static_cast<double>(settings.size());
     for (std::size_t i = 0; i < settings.size(); ++i) {
+        const auto place = [&](double done) { return timing + (1 - timing) * done / count; };
         const auto done = static_cast<double>(i);
-        each.progress = options.progress.part(done / count, (done + 1) / count);
+        each.progress = options.progress.part(place(done), place(done + 1));
         frames.push_back(renderer.draw(settings[i], each));
+        addTimes(times[i], frames.back());
     }
     return frames;
 }

@@ -2,7 +2,9 @@
 // From a scene and Settings to Frames, on one device.
 #pragma once
 
+#include "compare/render/prepared_frames.h"
 #include "compare/render/render_options.h"
+#include "compare/render/timing.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
 
@@ -13,33 +15,6 @@
 namespace diptych {
 
 class Device;
-
-// Frames of one scene that can be drawn repeatedly and in any order. Switching between them uploads nothing
-// and makes no pipeline; only what each frame makes itself (light lists) is made again. The Renderer and the
-// scene must outlive it.
-class PreparedFrames {
-public:
-    PreparedFrames(PreparedFrames&&) noexcept;
-    ~PreparedFrames();
-
-    std::size_t size() const;
-    // One whole frame, ms, as FrameTime has it. The first one of each may take longer: drivers compile then.
-    double draw(std::size_t i);
-    // Each pass timed by itself, over another frame.
-    std::vector<PassTime> profile(std::size_t i);
-    // lit of the frame drawn last, W x H x 3.
-    Image lit(std::size_t i);
-    // The number of light lists of that frame that overflowed.
-    std::uint64_t overflowedLists(std::size_t i) const;
-    // The Frame as far as it is known without drawing: Settings, camera, lights, bytes, notes.
-    const Frame& described(std::size_t i) const;
-
-private:
-    friend class Renderer;
-    struct State;
-    explicit PreparedFrames(std::unique_ptr<State> state);
-    std::unique_ptr<State> state_;
-};
 
 // Pipelines for any number of Renderers on one device, whatever their scenes: each is compiled once. The
 // device outlives it.
@@ -63,6 +38,8 @@ public:
 
     // Of the two paths; all their images at once. Throws std::runtime_error as draw() does.
     PreparedFrames prepare(std::span<const Settings> settings);
+    // Times frames of the two paths, all at once and in turn; `options`: runs, progress.
+    std::vector<TimedFrame> time(std::span<const Settings> settings, const RenderOptions& options);
     // How many pipelines there are by now, of all Renderers that share them.
     std::size_t pipelines() const;
 

@@ -21,6 +21,11 @@ std::string bar(double value, double top, char which) {
                        top > 0 ? 100 * value / top : 0);
 }
 
+std::string hostRow(const char* what, double ms) {
+    return fmt::format("<tr><td colspan=\"2\" class=\"soft\">{}</td><td class=\"n soft\">{:.2f}</td></tr>",
+                       what, ms);
+}
+
 std::string times(const Frame& a, const Frame& b) {
     double top = 0;
     for (const Frame* frame : {&a, &b}) {
@@ -41,10 +46,14 @@ std::string times(const Frame& a, const Frame& b) {
         out += fmt::format(
             "<tr><td colspan=\"3\" class=\"soft wide\">median of {} runs, {:.2f} to {:.2f}</td></tr>",
             time.runs, time.min, time.max);
+        out += hostRow("recording its commands, host", time.record);
+        if (time.object_lists > 0) out += hostRow("choosing each object's lights, host", time.object_lists);
     }
     return out +
-           "</table></div><p class=\"soft\">Whole frames are timed unsplit; passes come from a separate, "
-           "profiled run and need not add up.</p></div>\n";
+           "</table></div><p class=\"soft\">Whole frames are timed unsplit, both paths' in turn; passes are "
+           "the "
+           "medians of separate, profiled runs and need not add up. What the host does comes on "
+           "top.</p></div>\n";
 }
 
 std::string costs(const Frame& a, const Frame& b) {

@@ -45,6 +45,8 @@ std::string frameLine(const Frame& frame) {
     if (frame.time.runs > 0)
         line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {} runs)", frame.time.median, frame.time.min,
                             frame.time.max, frame.time.runs);
+    if (frame.time.object_lists > 0)
+        line += fmt::format(", {:.3g} ms on the host for each object's lights", frame.time.object_lists);
     return line + fmt::format(", {} bytes a pixel of {}\n", frame.bytes.gbuffer_per_pixel,
                               frame.settings.path == Path::deferred ? "G-buffer and depth" : "depth");
 }

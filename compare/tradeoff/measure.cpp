@@ -139,19 +139,22 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
     return measured;
 }
 
-void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& references,
+void timeAgain(Renderer& renderer, std::span<TradeoffRow* const> rows, const ReferenceFrames& references,
                const RenderOptions& options) {
     RenderOptions timing = options;
-    timing.channels.clear();
-    timing.requested.clear();
-    for (std::size_t i = 0; i < references.frames.size(); ++i) {
-        const double from = static_cast<double>(i), all = static_cast<double>(references.frames.size());
+    for (std::size_t camera = 0; camera < references.frames.size(); ++camera) {
+        const double from = static_cast<double>(camera), all = static_cast<double>(references.frames.size());
         timing.progress = options.progress.part(from / all, (from + 1) / all);
-        Settings seen = row.settings;
-        seen.camera = references.frames[i].settings.camera;
-        const Frame frame = renderer.draw(seen, timing);
-        row.drawing_ms += frame.made_in_ms;
-        row.cameras[i].visits.push_back(frame.time);
+        std::vector<Settings> seen;
+        for (const TradeoffRow* row : rows) {
+            seen.push_back(row->settings);
+            seen.back().camera = references.frames[camera].settings.camera;
+        }
+        const std::vector<TimedFrame> times = renderer.time(seen, timing);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            rows[i]->drawing_ms += times[i].made_in_ms;
+            rows[i]->cameras[camera].visits.push_back(times[i].time);
+        }
     }
 }
 

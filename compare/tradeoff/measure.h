@@ -6,6 +6,7 @@
 #include "compare/render/renderer.h"
 #include "compare/tradeoff/row.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,8 @@ struct MeasuredRow {
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,
                        const RenderOptions& options);
 
-// Times `options.runs` more frames of the row from every camera: one more visit.
-void timeAgain(Renderer& renderer, TradeoffRow& row, const ReferenceFrames& references,
+// Times `options.runs` more frames of the rows from every camera, the rows in turn: one more visit of each.
+void timeAgain(Renderer& renderer, std::span<TradeoffRow* const> rows, const ReferenceFrames& references,
                const RenderOptions& options);
 
 // The picture of lit as the page shows it, at most as wide as a card.

@@ -5,6 +5,13 @@
 
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
+#include "shaders/lib/position.glsl"
+#include "shaders/lib/stored_depth.glsl"
+
+// The depth that the pixel is shaded with, reversed.
+float shadedDepth() {
+    return on(feature_stored_depth) ? depthAt(ivec2(gl_FragCoord.xy)) : gl_FragCoord.z;
+}
 
 // With quantise_surface it is what the deferred path would read back, which reproduces its picture bit for
 // bit.
@@ -12,6 +19,7 @@ Surface forwardSurface() {
     vec4 base_color = baseColor();
     cutOut(base_color);
     Surface s = surfaceFromMaterial(base_color);
+    if (on(feature_stored_depth)) s.position = positionFromDepth(gl_FragCoord.xy, shadedDepth());
     if (on(feature_quantise_surface)) {
         Surface decoded = decodeGBuffer(encodeGBuffer(s), s.position);
         decoded.object_irradiance = s.object_irradiance;

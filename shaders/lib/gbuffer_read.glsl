@@ -5,6 +5,7 @@
 
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/position.glsl"
+#include "shaders/lib/stored_depth.glsl"
 
 layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform usampler2D gbuffer_albedo;
 layout(set = SET_GBUFFER, binding = GBUFFER_NORMALS) uniform usampler2D gbuffer_normals;
@@ -13,9 +14,6 @@ layout(set = SET_GBUFFER, binding = GBUFFER_EMISSION) uniform usampler2D gbuffer
 layout(set = SET_GBUFFER, binding = GBUFFER_SPECULAR) uniform usampler2D gbuffer_specular;
 layout(set = SET_GBUFFER, binding = GBUFFER_IDS) uniform usampler2D gbuffer_ids;
 layout(set = SET_GBUFFER, binding = GBUFFER_LIGHTMAP) uniform usampler2D gbuffer_lightmap;
-layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2D gbuffer_depth;
-
-float depthAt(ivec2 p) { return texelFetch(gbuffer_depth, p, 0).r; }
 
 Surface surfaceFromGBuffer(ivec2 p, float z) {
     GBufferTexel t;

@@ -17,6 +17,7 @@
 #include "shaders/lib/partial_sums.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/lights.glsl"
+#include "shaders/lib/loop.glsl"
 #include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/surface.glsl"
@@ -55,13 +56,11 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
                 radiance);
 }
 
-// Adds the packets [x, y) of one kind of light. On lavapipe a loop with its test at the top runs one body too
-// many; a loop with its test only at the bottom goes on adding to pixels that are done while others of the
-// same eight are not, because values are masked only where control flow merges. So the loop has both exits.
+// Adds the packets [x, y) of one kind of light.
 #define ADD_PACKETS(add, packets)                  \
     {                                             \
         uvec2 range = packets;                    \
-        while (range.x < range.y) {               \
+        EACH(range) {                             \
             uvec4 i = lightsOfPacket(range.x);     \
             add(shading, i.x, radiance);          \
             if (feature_list_width == 4) {        \
@@ -69,7 +68,7 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
                 add(shading, i.z, radiance);      \
                 add(shading, i.w, radiance);      \
             }                                     \
-            if (++range.x >= range.y) break;      \
+            NEXT(range);                          \
         }                                         \
     }
 
@@ -98,9 +97,9 @@ Radiance shade(Surface s, PixelLights lights) {
     }
     if (on(feature_directional_lights) && feature_light_batch != BATCH_LATER) {
         uvec2 range = directionalPackets();
-        while (range.x < range.y) {
+        EACH(range) {
             addIncident(shading, fromDirectionalLight(directionalAt(range.x)), radiance);
-            if (++range.x >= range.y) break;
+            NEXT(range);
         }
     }
     if (on(feature_point_lights))

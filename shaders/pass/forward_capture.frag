@@ -8,6 +8,6 @@
 
 void main() {
     Surface s = forwardSurface();
-    PixelLights lights = lightsAt(gl_FragCoord.xy, gl_FragCoord.z);
-    capture(s, lights, shade(s, lights), gl_FragCoord.z);
+    PixelLights lights = lightsAt(gl_FragCoord.xy, shadedDepth());
+    capture(s, lights, shade(s, lights), shadedDepth());
 }

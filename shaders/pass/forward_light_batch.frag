@@ -10,7 +10,7 @@ layout(location = 0) out vec4 out_diffuse;
 layout(location = 1) out vec4 out_specular;
 
 void main() {
-    Radiance radiance = shade(forwardSurface(), lightsAt(gl_FragCoord.xy, gl_FragCoord.z));
+    Radiance radiance = shade(forwardSurface(), lightsAt(gl_FragCoord.xy, shadedDepth()));
     out_diffuse = vec4(radiance.diffuse, 1.0);
     out_specular = vec4(radiance.specular, 1.0);
 }

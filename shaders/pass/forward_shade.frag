@@ -8,4 +8,4 @@
 
 layout(location = 0) out vec4 out_lit;
 
-void main() { out_lit = vec4(lit(shade(forwardSurface(), lightsAt(gl_FragCoord.xy, gl_FragCoord.z))), 1.0); }
+void main() { out_lit = vec4(lit(shade(forwardSurface(), lightsAt(gl_FragCoord.xy, shadedDepth()))), 1.0); }

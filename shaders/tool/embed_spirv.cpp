@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Build tool: embed_spirv OUT.cpp LAYOUT.cpp FILE.spv...
-// Writes every module as an array that findSpirv() knows by its file's name without ".spv", and, from the
-// reflection of the modules, static_asserts that C++ lays out each struct of shared/contract as GLSL does.
+// Writes every module as a row of shaderModules() (shared/vulkan/spirv.h), and, from the reflection of the
+// modules, static_asserts that C++ lays out each struct of shared/contract as GLSL does.
 #include "shaders/tool/spirv_words.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
+#include <sstream>
+#include <tuple>
 
 namespace {
 
@@ -73,6 +76,51 @@ int writeLayoutChecks(std::ofstream& out, const Reflection& r) {
     return structs;
 }
 
+// A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area][.inputsN].
+struct Module {
+    std::string name, shader;
+    unsigned number = 0;
+    bool area_lights = false;
+    int inputs = 3;
+    Words words;
+
+    std::string symbol() const {
+        std::string symbol = name;
+        std::ranges::replace(symbol, '.', '_');
+        return symbol;
+    }
+    auto order() const { return std::tie(shader, number, area_lights, inputs); }
+};
+
+Module moduleOf(const std::filesystem::path& file) {
+    Module module;
+    module.name = file.stem().string();
+    module.words = readModule(file.string());
+    std::istringstream parts(module.name);
+    std::string stage, part;
+    std::getline(parts, module.shader, '.');
+    std::getline(parts, stage, '.');
+    module.shader += "_" + stage;
+    while (std::getline(parts, part, '.')) {
+        if (part == "area")
+            module.area_lights = true;
+        else if (part.starts_with("inputs"))
+            module.inputs = std::stoi(part.substr(std::string("inputs").size()));
+        else
+            module.number = static_cast<unsigned>(std::stoul(part));
+    }
+    return module;
+}
+
+void writeTable(std::ofstream& out, const std::vector<Module>& modules) {
+    out << "}  // namespace\n\nnamespace diptych {\n\nstd::span<const ShaderModule> shaderModules() {\n"
+           "    static constexpr ShaderModule modules[] = {\n";
+    for (const Module& m : modules)
+        out << "        {\"" << m.name << "\", Shader::" << m.shader << ", " << m.number << ", "
+            << (m.area_lights ? "true" : "false") << ", " << m.inputs << ", " << m.symbol() << "},\n";
+    out << "    };\n    return modules;\n}\n\n}  // namespace diptych\n";
+}
+
 void run(int argc, char** argv) {
     if (argc < 4) throw std::runtime_error("usage: embed_spirv OUT.cpp LAYOUT.cpp FILE.spv...");
     std::ofstream out(argv[1]), layout(argv[2]);
@@ -83,26 +131,17 @@ void run(int argc, char** argv) {
                                "material", "object_lights", "view"})
         layout << "#include \"shared/contract/" << header << ".h\"\n";
     layout << "\nnamespace diptych::gpu {\n";
-    std::string table, names;
+    std::vector<Module> modules;
     int structs = 0;
     for (int i = 3; i < argc; ++i) {
-        const std::string name =
-            std::filesystem::path(argv[i]).stem().string();  // "surface.vert", "gbuffer.frag.3"
-        std::string symbol = name;
-        for (char& c : symbol)
-            if (c == '.') c = '_';
-        const Words words = readModule(argv[i]);
-        if (name == "layout.comp") structs += writeLayoutChecks(layout, reflect(words));
-        writeModule(out, symbol, words);
-        table += "    if (name == \"" + name + "\") return " + symbol + ";\n";
-        names += "        \"" + name + "\",\n";
+        modules.push_back(moduleOf(argv[i]));
+        if (modules.back().name == "layout.comp")
+            structs += writeLayoutChecks(layout, reflect(modules.back().words));
     }
     if (structs == 0) throw std::runtime_error("layout.comp: no struct to check");
-    out << "}  // namespace\n\nnamespace diptych {\n\nstd::span<const std::uint32_t> "
-           "findSpirv(std::string_view name) {\n"
-        << table << "    return {};\n}\n\nstd::span<const std::string_view> spirvModules() {\n"
-        << "    static constexpr std::string_view names[] = {\n"
-        << names << "    };\n    return names;\n}\n\n}  // namespace diptych\n";
+    std::ranges::sort(modules, [](const Module& a, const Module& b) { return a.order() < b.order(); });
+    for (const Module& module : modules) writeModule(out, module.symbol(), module.words);
+    writeTable(out, modules);
     layout << "}  // namespace diptych::gpu\n";
     out.close();
     layout.close();

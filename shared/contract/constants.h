@@ -28,10 +28,6 @@ CONTRACT_CONST(float, DEFAULT_DIELECTRIC_F0, 0.04f);
 // fraction left to choose a texel by, and infinite ones give texels that are not numbers.
 CONTRACT_CONST(float, MAX_TEXCOORD, 1e9f);
 
-// Mesa lavapipe ends all loops of one shader invocation, silently, after 65,535 iterations together. One draw
-// therefore walks at most so many packets of lights; the other iterations are left for its other loops.
-CONTRACT_CONST(uint, MAX_PACKETS_PER_DRAW, 65000);
-
 CONTRACT_END
 
 #endif

@@ -72,7 +72,9 @@
     /* VIEW_*: where a fragment shader has the view from */                                                 \
     X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* for channels, which may need more than shading does */                                               \
-    X(42, captured,                   pass,    3, PASSES_SURFACE)
+    X(42, captured,                   pass,    3, PASSES_SURFACE)                                           \
+    /* a depth pre-pass has stored the depth, which the draw reads */                                       \
+    X(43, stored_depth,               pass,    0, PASS_FORWARD)
 // clang-format on
 
 CONTRACT_BEGIN

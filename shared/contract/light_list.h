@@ -12,7 +12,7 @@ CONTRACT_CONST(uint, LISTS_NONE, 0);       // every light at every pixel
 CONTRACT_CONST(uint, LISTS_CLUSTERED, 1);  // a cell is a froxel: a tile of pixels x a slice of view depth
 CONTRACT_CONST(uint, LISTS_TILED, 2);      // a cell is a tile with the depths that it covers
 
-// Values of FEATURE_light_batch. Lists of more packets than MAX_PACKETS_PER_DRAW are walked in batches by
+// Values of FEATURE_light_batch. Lists of more packets than a device's draw may walk are walked in batches by
 // several draws. Each continues from the float32 sums of the one before it, so the sums have the same bits as
 // one loop's.
 CONTRACT_CONST(uint, BATCH_WHOLE, 0);  // the whole list

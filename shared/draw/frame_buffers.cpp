@@ -15,7 +15,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                            std::optional<std::uint32_t> objectPixelLights)
     : lists_(device, uploader, layouts.lists, choice, view, lights),
       objects_(device, uploader, draws, lights, objectPixelLights),
-      no_partial_sums_(device, uploader, layouts),
+      placeholders_(device, uploader, layouts),
       sets_(device, layouts.frame, frameBindings(), 1) {
     gpu::View gpuView = view.gpuView();
     gpuView.directional_light_count = lights.directional;

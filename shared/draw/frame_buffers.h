@@ -21,7 +21,7 @@ public:
                  std::optional<std::uint32_t> objectPixelLights = {});
     VkDescriptorSet set() const { return sets_[0]; }
     VkBuffer draws() const { return draws_.handle(); }
-    VkDescriptorSet noPartialSums() const { return no_partial_sums_.set(); }
+    const Placeholders& placeholders() const { return placeholders_; }
     LightLists& lists() { return lists_; }
     const ObjectLightBuffers& objects() const { return objects_; }
     std::uint64_t bytes() const {
@@ -35,7 +35,7 @@ private:
     LtcImage ltc_;
     LightLists lists_;
     ObjectLightBuffers objects_;
-    NoPartialSums no_partial_sums_;
+    Placeholders placeholders_;
     DescriptorSets sets_;
 };
 

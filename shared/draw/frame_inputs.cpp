@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/frame_inputs.h"
 
+#include "shared/contract/gbuffer.h"
+
 namespace diptych {
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
@@ -22,6 +24,28 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;
+}
+
+DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images) {
+    DescriptorSets sets(inputs.device, inputs.layouts.gbuffer, gbufferBindings(), 1);
+    for (std::uint32_t i = 0; i < images.gbuffer.size(); ++i) {
+        // A missing attachment is never read; albedo, of the same kind, keeps its binding valid, and in
+        // forward+, whose shaders declare none of them, any image does.
+        const ImageRef albedo = images.gbuffer[gpu::GBUFFER_ALBEDO];
+        const ImageRef image = images.gbuffer[i].valid() ? images.gbuffer[i] : albedo;
+        sets.image(0, i, image.valid() ? passes.view(image) : inputs.placeholders.texel(),
+                   inputs.layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
+    sets.image(0, gpu::BINDING_DEPTH, passes.view(images.depth), inputs.layouts.nearest,
+               VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    return sets;
+}
+
+double lightsAtPixel(const FrameInputs& inputs) {
+    const gpu::LightGrid& grid = inputs.lists.grid();
+    const std::uint64_t local =
+        inputs.lists.any() ? std::uint64_t{grid.capacity} * grid.width / grid.lists : inputs.lights.local();
+    return static_cast<double>(local + inputs.lights.directional);
 }
 
 }  // namespace diptych

@@ -22,8 +22,7 @@ struct FrameInputs {
     const GpuLights& lights;
     VkBuffer draw_buffer;       // Draw[draws.draws]
     VkDescriptorSet frame_set;  // SET_FRAME
-    VkDescriptorSet
-        no_partial_sums;  // SET_PARTIAL_SUMS of draws that continue none: shaders declare it anyway
+    const Placeholders& placeholders;
     LightLists& lists;
     Variant variant;  // of the scene and the view: light kinds, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
@@ -36,6 +35,12 @@ struct FrameImages {
     ImageRef depth;                                            // D32F, reversed
     std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid where there is none
 };
+
+// SET_GBUFFER of what `images` has. Made when they have memory, once a pass is prepared at the latest.
+DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images);
+
+// Of local lights those that a pixel evaluates, about, and the directional ones.
+double lightsAtPixel(const FrameInputs& inputs);
 
 constexpr VkFormat litFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;

@@ -50,15 +50,17 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material)
     lists = ListLayouts(device, frame);
 }
 
-NoPartialSums::NoPartialSums(Device& device, Uploader& uploader, const Layouts& layouts)
+Placeholders::Placeholders(Device& device, Uploader& uploader, const Layouts& layouts)
     : image_(device, {"black texel", VK_FORMAT_R32G32B32A32_SFLOAT, 1, 1, 1,
                       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}),
-      sets_(device, layouts.partial_sums, partialSumTypes, 1) {
+      partial_sums_(device, layouts.partial_sums, partialSumTypes, 1),
+      gbuffer_(device, layouts.gbuffer, gbufferTypes, 1) {
     constexpr std::array<float, 4> black{};
     uploader.level(image_, 0, std::as_bytes(std::span(black)));
     uploader.flush();
-    for (gpu::uint i = 0; i < partialSumTypes.size(); ++i)
-        sets_.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    for (DescriptorSets* const sets : {&partial_sums_, &gbuffer_})
+        for (gpu::uint i = 0; i < sets->bindings(); ++i)
+            sets->image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 }  // namespace diptych

@@ -29,17 +29,18 @@ std::span<const VkDescriptorType> frameBindings();
 std::span<const VkDescriptorType> gbufferBindings();
 std::span<const VkDescriptorType> partialSumBindings();
 
-// SET_PARTIAL_SUMS of draws that continue no sums, and a black texel for any other image that a shader
-// declares and does not read: lavapipe and the validation layers follow every descriptor.
-class NoPartialSums {
+// Sets that shaders declare and do not read, of black texels: lavapipe and the validation layers follow every
+// descriptor.
+class Placeholders {
 public:
-    NoPartialSums(Device& device, Uploader& uploader, const Layouts& layouts);
-    VkDescriptorSet set() const { return sets_[0]; }
+    Placeholders(Device& device, Uploader& uploader, const Layouts& layouts);
+    VkDescriptorSet partialSums() const { return partial_sums_[0]; }  // of draws that continue no sums
+    VkDescriptorSet gbuffer() const { return gbuffer_[0]; }           // of draws that read no stored depth
     VkImageView texel() const { return image_.view(); }
 
 private:
     GpuImage image_;
-    DescriptorSets sets_;
+    DescriptorSets partial_sums_, gbuffer_;
 };
 
 }  // namespace diptych

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/light_batches.h"
 
-#include "shared/contract/constants.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -13,8 +11,22 @@ void LightBatch::read(Pass& pass) const {
         for (const ImageRef image : images) pass.samples(image, inFragment);
 }
 
+double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
+    const DeviceCosts& costs = inputs.device.profile().costs;
+    const GpuLights& all = inputs.lights;
+    // An area light costs as much as so many points (shared/light/README.md, "Area lights").
+    const double points = all.point + all.spot + 5.0 * all.rect + 11.0 * all.disc + 37.0 * all.tube,
+                 each = points / std::max(1.0, static_cast<double>(all.local()));
+    double lights = lightsAtPixel(inputs);
+    if (batch.kind != gpu::BATCH_WHOLE)
+        lights = std::min(lights, static_cast<double>(batch.end - batch.first) *
+                                      std::max(1u, inputs.variant.get(gpu::FEATURE_list_width)));
+    const double pixels = static_cast<double>(passes.width()) * passes.height();
+    return pixels * (costs.surface + costs.light * lights * std::max(1.0, each)) * 1e-6;
+}
+
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add) {
-    const gpu::uint packets = inputs.longest_list, most = gpu::MAX_PACKETS_PER_DRAW;
+    const gpu::uint packets = inputs.longest_list, most = inputs.device.profile().packets_per_draw;
     if (packets <= most) return {};
     LightBatch batch{gpu::BATCH_FIRST, 0, most};
     while (batch.first + most < packets) {

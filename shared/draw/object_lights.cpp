@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include <chrono>
 #include <vector>
 
 namespace diptych {
@@ -32,9 +33,12 @@ ObjectLightBuffers::ObjectLightBuffers(Device& device, Uploader& uploader, const
                                        const GpuLights& lights, std::optional<std::uint32_t> pixels) {
     ObjectLightLists lists;
     if (pixels) {
+        const auto start = std::chrono::steady_clock::now();
         std::vector<ObjectPlace> places(draws.draws.size());
         for (const DrawItem& item : draws.items) places[item.draw] = placeOf(item, draws.draws[item.draw]);
         lists = objectLightLists(lights, places, *pixels);
+        chosen_in_ms_ =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
     features_ = lists.features;
     longest_ = lists.longest;

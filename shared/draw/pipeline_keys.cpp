@@ -4,8 +4,6 @@
 #include "shared/contract/object_lights.h"
 #include "shared/draw/pipeline_parts.h"
 
-#include <fmt/format.h>
-
 namespace diptych {
 
 PipelineKey depthKey(const DrawItem& item) {
@@ -14,12 +12,12 @@ PipelineKey depthKey(const DrawItem& item) {
     key.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     key.depth_write = true;
     if (item.variant.get(gpu::FEATURE_alpha_mask) == 0) {
-        key.vertex = "depth.vert";
+        key.vertex = Shader::depth_vert;
         key.input = VERTEX_POSITIONS;
         return key;
     }
-    key.vertex = "surface.vert";
-    key.fragment = "depth_mask.frag";
+    key.vertex = Shader::surface_vert;
+    key.fragment = Shader::depth_mask_frag;
     key.input = VERTEX_ALL;
     key.variant = item.variant.only(featuresReadBy(gpu::PASS_DEPTH));
     return key;
@@ -27,8 +25,8 @@ PipelineKey depthKey(const DrawItem& item) {
 
 PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch) {
     constexpr FeatureMask read = featuresReadBy(gpu::PASS_FORWARD);
-    PipelineKey key{.vertex = "surface.vert",
-                    .fragment = "forward_shade.frag",
+    PipelineKey key{.vertex = Shader::surface_vert,
+                    .fragment = Shader::forward_shade_frag,
                     .variant = item.variant.only(read & featuresSetBy(FeatureSource::item)),
                     .input = VERTEX_ALL,
                     .colors = {litFormat},
@@ -47,7 +45,7 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
 
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch) {
     PipelineKey key = forwardKey(inputs, item, batch);
-    key.fragment = "forward_light_batch.frag";
+    key.fragment = Shader::forward_light_batch_frag;
     key.colors = {litFormat, litFormat};
     return key;
 }
@@ -55,7 +53,7 @@ PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, con
 PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, const CaptureGroup& group,
                               const LightBatch& batch) {
     PipelineKey key = forwardKey(inputs, item, batch);
-    key.fragment = fmt::format("forward_capture.frag.{}", group.modes.size());
+    key.fragment = Shader::forward_capture_frag;
     key.colors = group.formats;
     group.specialise(key.variant);
     key.variant.set(gpu::FEATURE_captured);

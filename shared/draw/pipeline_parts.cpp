@@ -3,43 +3,46 @@
 
 #include "shared/contract/geometry.h"
 #include "shared/contract/object_lights.h"
-#include "shared/vulkan/spirv.h"
-
-#include <fmt/format.h>
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace diptych {
 
 namespace {
 
-// The least set of inputs (shaders/lib/inputs.glsl) that has what a variant reads. Of the lights of an object
-// only those that are shaded at vertices need one.
-int inputsOf(const Variant& variant) {
+// The least set of inputs (shaders/lib/inputs.glsl) that has what a variant reads, of the last `sets` ones.
+// Of the lights of an object only those that are shaded at vertices need one.
+int inputsOf(const Variant& variant, int sets) {
     if ((variant.get(gpu::FEATURE_object_lights) & gpu::OBJECT_LIGHTS_VERTEX) != 0) return 3;
-    for (int inputs = 3; inputs > 0; --inputs)
+    const int least = 4 - sets;
+    for (int inputs = 3; inputs > least; --inputs)
         if (variant.any(featuresNeedingInputs(inputs))) return inputs;
-    return 0;
+    return least;
 }
 
 // Some shaders exist as several modules, because a device pays for code and inputs that a variant does not
-// use: with and without the code of area lights, and with fewer inputs.
-std::string moduleOf(const std::string& shader, const Variant& variant) {
-    const auto orElse = [](std::string better, std::string plain) {
-        return findSpirv(better).empty() ? plain : better;
+// use: of those that draw to as many attachments the one with the code of area lights or without it, as the
+// variant needs (a shader that lights nothing has none with it), and with the fewest inputs that suffice.
+const ShaderModule* moduleOf(Shader shader, std::size_t attachments, const Variant& variant, int inputs) {
+    const ShaderModule* best = &plainModule(shader, static_cast<std::uint32_t>(attachments));
+    const bool areaLights = variant.get(gpu::FEATURE_area_lights) != 0;
+    const auto unfit = [&](const ShaderModule& module) {
+        return std::pair(module.area_lights != areaLights, module.inputs);
     };
-    std::string module = shader;
-    if (variant.get(gpu::FEATURE_area_lights) != 0) module = orElse(module + ".area", module);
-    return orElse(fmt::format("{}.inputs{}", module, inputsOf(variant)), module);
+    for (const ShaderModule& module : shaderModules(shader))
+        if (module.number == best->number && module.inputs >= inputs && unfit(module) < unfit(*best))
+            best = &module;
+    return best;
 }
 
-}  // namespace
-
-PipelineParts choosePipelineParts(const PipelineKey& key) {
+PipelineParts partsOf(const PipelineKey& key, int inputSets) {
     PipelineParts parts;
-    parts.vertex = moduleOf(key.vertex, key.variant);
-    if (!key.fragment.empty()) parts.fragment = moduleOf(key.fragment, key.variant);
+    const int variantInputs = inputsOf(key.variant, inputSets);
+    parts.vertex = moduleOf(key.vertex, 0, key.variant, variantInputs);
+    if (key.fragment != Shader::none)
+        parts.fragment = moduleOf(key.fragment, key.colors.size(), key.variant, variantInputs);
     if (key.input == NO_VERTICES) return parts;
     using Attributes = gpu::VertexAttributes;
     using Draw = gpu::Draw;
@@ -77,11 +80,17 @@ PipelineParts choosePipelineParts(const PipelineKey& key) {
                              Attribute{2, {14, perDraw, float3, world + 2 * column3}},
                              Attribute{2, {15, perDraw, float3, world + 3 * column3}}};
     static_assert(all.size() <= 16);  // what every device has
-    const int inputs = key.input == VERTEX_POSITIONS ? -1 : inputsOf(key.variant);
+    const int inputs = key.input == VERTEX_POSITIONS ? -1 : variantInputs;
     parts.bindings.assign(bindings.begin(), bindings.end());
     for (const Attribute& attribute : all)
         if (attribute.inputs <= inputs) parts.attributes.push_back(attribute.description);
     return parts;
+}
+
+}  // namespace
+
+ChooseParts pipelinePartsFor(const DeviceProfile& device) {
+    return [sets = device.input_sets](const PipelineKey& key) { return partsOf(key, sets); };
 }
 
 }  // namespace diptych

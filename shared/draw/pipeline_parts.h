@@ -13,8 +13,8 @@ enum VertexFormat : std::uint32_t {
     VERTEX_ALL = 2,        // what the variant reads
 };
 
-// For Pipelines: modules by the variant's features, vertices and draws as shared/contract/geometry.h has
-// them.
-PipelineParts choosePipelineParts(const PipelineKey& key);
+// For Pipelines: modules by the variant's features and what the device pays for, vertices and draws as
+// shared/contract/geometry.h has them.
+ChooseParts pipelinePartsFor(const DeviceProfile& device);
 
 }  // namespace diptych

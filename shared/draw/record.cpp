@@ -4,6 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/geometry.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -16,10 +17,13 @@ void bind(VkCommandBuffer commands, const FrameInputs& inputs, gpu::uint set, Vk
                             &descriptors, 0, nullptr);
 }
 
-// SET_FRAME and SET_PARTIAL_SUMS.
-void bindFrame(VkCommandBuffer commands, const FrameInputs& inputs, const LightBatch& batch) {
+// All sets but SET_MATERIAL.
+void bindFrame(VkCommandBuffer commands, const FrameInputs& inputs, const LightBatch& batch,
+               const DescriptorSets* gbuffer) {
+    const Placeholders& none = inputs.placeholders;
     bind(commands, inputs, gpu::SET_FRAME, inputs.frame_set);
-    bind(commands, inputs, gpu::SET_PARTIAL_SUMS, batch.sums ? (*batch.sums)[0] : inputs.no_partial_sums);
+    bind(commands, inputs, gpu::SET_GBUFFER, gbuffer != nullptr ? (*gbuffer)[0] : none.gbuffer());
+    bind(commands, inputs, gpu::SET_PARTIAL_SUMS, batch.sums ? (*batch.sums)[0] : none.partialSums());
 }
 
 void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawConstants& constants) {
@@ -29,12 +33,14 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
 }  // namespace
 
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
-                                                 const LightBatch& batch) {
+                                                 const LightBatch& batch,
+                                                 std::shared_ptr<const DescriptorSets> gbuffer) {
     std::vector<PipelineKey> keys;
     for (const DrawItem& item : inputs.draws.items) keys.push_back(keyOf(item));
     std::vector<VkPipeline> pipelines = inputs.pipelines.get(keys);
-    return [&inputs, batch, pipelines = std::move(pipelines)](VkCommandBuffer commands) {
-        bindFrame(commands, inputs, batch);
+    return [&inputs, batch, gbuffer = std::move(gbuffer),
+            pipelines = std::move(pipelines)](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, batch, gbuffer.get());
         inputs.geometry.bind(commands, inputs.draw_buffer);
         const DrawItem* last = nullptr;
         VkPipeline lastPipeline = VK_NULL_HANDLE;
@@ -65,12 +71,14 @@ void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline) {
     vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
-                      VkDescriptorSet gbuffer, const LightBatch& batch) {
-    bindFrame(commands, inputs, batch);
-    bind(commands, inputs, gpu::SET_GBUFFER, gbuffer);
-    push(commands, inputs, {0, 0, batch.first, batch.end});
-    recordTriangle(commands, pipeline);
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+                                                      DescriptorSets gbuffer, const LightBatch& batch) {
+    return [&inputs, pipeline, batch,
+            sets = std::make_shared<const DescriptorSets>(std::move(gbuffer))](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, batch, sets.get());
+        push(commands, inputs, {0, 0, batch.first, batch.end});
+        recordTriangle(commands, pipeline);
+    };
 }
 
 }  // namespace diptych

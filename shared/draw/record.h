@@ -5,19 +5,22 @@
 #include "shared/draw/light_batches.h"
 
 #include <functional>
+#include <memory>
 
 namespace diptych {
 
 // What records the draws of every item, in the list's order, each with the pipeline of its key. Pipelines
-// that do not exist yet are made at once, on all cores. `inputs` must outlive what is returned.
+// that do not exist yet are made at once, on all cores. `gbuffer`: SET_GBUFFER of shaders that read stored
+// depth. `inputs` must outlive what is returned.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
-                                                 const LightBatch& batch = {});
+                                                 const LightBatch& batch = {},
+                                                 std::shared_ptr<const DescriptorSets> gbuffer = {});
 
 // One triangle that covers the screen, with the descriptor sets that are bound.
 void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
-// The same with the sets of deferred lighting: frame, G-buffer, partial sums.
-void recordFullScreen(VkCommandBuffer commands, const FrameInputs& inputs, VkPipeline pipeline,
-                      VkDescriptorSet gbuffer, const LightBatch& batch);
+// What records it with the sets of deferred lighting: frame, G-buffer, partial sums.
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+                                                      DescriptorSets gbuffer, const LightBatch& batch);
 
 }  // namespace diptych

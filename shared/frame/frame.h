@@ -18,6 +18,9 @@ namespace diptych {
 struct FrameTime {
     double median = 0, min = 0, max = 0;
     int runs = 0;
+    // What the host does for each frame and `median` does not hold, ms: recording its commands (the median),
+    // and choosing the lights of every object (--assign per_object; once, when the frame was prepared).
+    double record = 0, object_lists = 0;
 };
 
 struct PassTime {

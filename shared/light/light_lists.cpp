@@ -137,9 +137,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     if (!any()) return;
     Variant own = variant.only(featuresReadBy(gpu::PASS_LISTS));
     specialise(own);
-    const auto kernel = [&](const std::string& name) {
-        return pipelines.compute(name, own, layouts_.pipeline());
-    };
+    const auto kernel = [&](Shader shader) { return pipelines.compute(shader, own, layouts_.pipeline()); };
     const auto bind = [this, frame_set](VkCommandBuffer commands) {
         const std::array sets{frame_set, sets_[0]};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0, sets.size(),
@@ -164,7 +162,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
     if (tiled) {
-        const VkPipeline bounds = kernel("light_depths.comp.0");
+        const VkPipeline bounds = kernel(Shader::light_depths_comp);
         passes.compute("assign depth bounds")
             .samples(depth, inCompute)
             .uses(depths, write)
@@ -181,7 +179,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         vkCmdFillBuffer(commands, overflow_.handle(), 0, VK_WHOLE_SIZE, 0);
         if (scatters) vkCmdFillBuffer(commands, masks_.handle(), 0, VK_WHOLE_SIZE, 0);
     });
-    const auto step = [&](const std::string& shader, glm::uvec3 size) -> Pass& {
+    const auto step = [&](Shader shader, glm::uvec3 size) -> Pass& {
         const VkPipeline pipeline = kernel(shader);
         return passes.compute(name).record([=](VkCommandBuffer commands) {
             bind(commands);
@@ -191,20 +189,20 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     // In rows, as no device need run more than 65,535 workgroups along an axis.
     constexpr gpu::uint row = 32768;
     const gpu::uint scattered = workgroups(grid_.local_lights * gpu::SCATTER_THREADS);
-    Pass& mark = scatters
-                     ? step("light_scatter.comp", {std::min(scattered, row), (scattered + row - 1) / row, 1})
-                     : step("light_gather.comp", {grid_.tiles.x, grid_.tiles.y, grid_.slices});
+    Pass& mark = scatters ? step(Shader::light_scatter_comp,
+                                 {std::min(scattered, row), (scattered + row - 1) / row, 1})
+                          : step(Shader::light_gather_comp, {grid_.tiles.x, grid_.tiles.y, grid_.slices});
     mark.uses(masks, write);
     if (scatters) mark.uses(masks, read);  // atomically
     if (tiled) mark.uses(depths, read);
-    step("light_count.comp", {workgroups(grid_.list_stride / 4), 1, 1})
+    step(Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
         .uses(masks, access::texelRead(inCompute))
         .uses(used, write)
         .uses(counts, write)
         .uses(counts, read)
         .uses(begins, write);
-    step("light_scan.comp", {1, 1, 1}).uses(begins, read).uses(begins, write);
-    step("light_fill.comp", {workgroups(grid_.lists), grid_.segments, 1})
+    step(Shader::light_scan_comp, {1, 1, 1}).uses(begins, read).uses(begins, write);
+    step(Shader::light_fill_comp, {workgroups(grid_.lists), grid_.segments, 1})
         .uses(masks, read)
         .uses(used, read)
         .uses(counts, read)

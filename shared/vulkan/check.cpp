@@ -47,7 +47,8 @@ namespace {
 const char* helpFor(VkResult result) {
     switch (result) {
         case VK_ERROR_DEVICE_LOST:
-            return "; run it again, or choose another device with --device";
+            return "; run it again with a smaller --size or fewer --lights, or choose another device with "
+                   "--device";
         case VK_ERROR_OUT_OF_HOST_MEMORY:
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
         case VK_ERROR_MEMORY_MAP_FAILED:
@@ -59,7 +60,7 @@ const char* helpFor(VkResult result) {
 
 }  // namespace
 
-void checkResult(VkResult result, const char* what) {
+void checkResult(VkResult result, std::string_view what) {
     if (result < 0)
         throw std::runtime_error(fmt::format("Vulkan: {}: {}{}", what, nameOf(result), helpFor(result)));
 }

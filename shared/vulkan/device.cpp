@@ -2,6 +2,7 @@
 #include "shared/vulkan/device.h"
 
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/commands.h"
 #include "shared/vulkan/physical_device.h"
 
 #include <fmt/format.h>
@@ -164,6 +165,7 @@ struct Device::State {
     std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
     std::unique_ptr<VkDevice, DeviceDeleter> device;
     std::unique_ptr<Memory> memory;
+    std::uint32_t family = 0;
     VkQueue queue = VK_NULL_HANDLE;
     OwnedCommandPool pool;
     VkCommandBuffer commands = VK_NULL_HANDLE;
@@ -192,30 +194,15 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, nullptr);
     std::vector<VkQueueFamilyProperties> queues(families);
     vkGetPhysicalDeviceQueueFamilyProperties(s.physical, &families, queues.data());
+    s.family = family;
     s.timestamp_bits = queues.at(family).timestampValidBits;
-    s.profile = profileOf(s.info, s.timestamp_bits);
+    s.profile = profileOf(s.info, s.timestamp_bits, options.choices);
     s.device.reset(createDevice(s.physical, family));
-    s.memory = std::make_unique<Memory>(s.physical, s.device.get());
+    s.memory = std::make_unique<Memory>(s.physical, s.device.get(), knowsMemoryBudget(s.physical));
     vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
-    const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                           .pNext = nullptr,
-                                           .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-                                           .queueFamilyIndex = family};
-    VkCommandPool pool = VK_NULL_HANDLE;
-    checkResult(vkCreateCommandPool(s.device.get(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
-    s.pool = OwnedCommandPool(s.device.get(), pool);
-    const VkCommandBufferAllocateInfo bufferInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                 .pNext = nullptr,
-                                                 .commandPool = pool,
-                                                 .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                 .commandBufferCount = 1};
-    checkResult(vkAllocateCommandBuffers(s.device.get(), &bufferInfo, &s.commands),
-                "vkAllocateCommandBuffers");
-    const VkFenceCreateInfo fenceInfo{
-        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
-    VkFence fence = VK_NULL_HANDLE;
-    checkResult(vkCreateFence(s.device.get(), &fenceInfo, nullptr, &fence), "vkCreateFence");
-    s.fence = OwnedFence(s.device.get(), fence);
+    s.pool = makeCommandPool(s.device.get(), family);
+    s.commands = allocateCommands(s.device.get(), s.pool);
+    s.fence = makeFence(s.device.get());
     if (options.validate) {
         const auto load = [&](const char* name) { return vkGetDeviceProcAddr(s.device.get(), name); };
         s.begin_label =
@@ -256,35 +243,25 @@ Memory& Device::memory() {
     return *state_->memory;
 }
 
-double Device::submit(const std::function<void(VkCommandBuffer)>& record) {
+VkQueue Device::queue() const {
+    return state_->queue;
+}
+std::uint32_t Device::queueFamily() const {
+    return state_->family;
+}
+
+double Device::submit(const std::function<void(VkCommandBuffer)>& record, const std::string& what) {
     State& s = *state_;
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .pNext = nullptr,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
-                                         .pInheritanceInfo = nullptr};
-    checkResult(vkBeginCommandBuffer(s.commands, &begin), "vkBeginCommandBuffer");
-    record(s.commands);
-    checkResult(vkEndCommandBuffer(s.commands), "vkEndCommandBuffer");
-    const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                             .pNext = nullptr,
-                                             .commandBuffer = s.commands,
-                                             .deviceMask = 0};
-    const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                               .pNext = nullptr,
-                               .flags = 0,
-                               .waitSemaphoreInfoCount = 0,
-                               .pWaitSemaphoreInfos = nullptr,
-                               .commandBufferInfoCount = 1,
-                               .pCommandBufferInfos = &commands,
-                               .signalSemaphoreInfoCount = 0,
-                               .pSignalSemaphoreInfos = nullptr};
+    recordCommands(s.commands, record);
     const auto start = std::chrono::steady_clock::now();
-    checkResult(vkQueueSubmit2(s.queue, 1, &submit, s.fence), "vkQueueSubmit2");
+    VkResult result = submitCommands(s.queue, s.commands, s.fence);
     const VkFence fence = s.fence;
-    const VkResult waited = vkWaitForFences(s.device.get(), 1, &fence, VK_TRUE, UINT64_MAX);
-    // What may still run must not outlive what it works on, which the exception takes down.
-    if (waited != VK_SUCCESS) vkDeviceWaitIdle(s.device.get());
-    checkResult(waited, "vkWaitForFences");
+    if (result == VK_SUCCESS) {
+        result = vkWaitForFences(s.device.get(), 1, &fence, VK_TRUE, UINT64_MAX);
+        // What may still run must not outlive what it works on, which the exception takes down.
+        if (result != VK_SUCCESS) vkDeviceWaitIdle(s.device.get());
+    }
+    checkResult(result, what.empty() ? "work on the device" : "running " + what);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     checkResult(vkResetFences(s.device.get(), 1, &fence), "vkResetFences");
     return elapsed.count();

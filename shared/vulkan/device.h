@@ -19,6 +19,7 @@ namespace diptych {
 struct DeviceOptions {
     std::string choice;     // "" a real GPU first; an index of listDevices(); part of a name
     bool validate = false;  // Khronos validation with synchronization validation
+    ProfileChoices choices = ProfileChoices::of_device;
 };
 
 // How a device rounds a float to a render target's format when a fragment shader writes it, measured by
@@ -53,8 +54,12 @@ public:
     const DeviceProfile& profile() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 
+    VkQueue queue() const;
+    std::uint32_t queueFamily() const;
+
     // Records, submits, and waits until the device is done. Returns the wall clock from submit to fence, ms.
-    double submit(const std::function<void(VkCommandBuffer)>& record);
+    // Throws std::runtime_error that says `what` was running where the device is lost.
+    double submit(const std::function<void(VkCommandBuffer)>& record, const std::string& what = {});
 
     // Brackets what follows with a name for debuggers; nothing without --validate.
     void beginLabel(VkCommandBuffer commands, const std::string& name);

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/device_profile.h"
 
+#include <limits>
+
 namespace diptych {
 
-DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits) {
+DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, ProfileChoices choices) {
     const bool software = info.type == "cpu";
+    const bool asSoftware = software && choices == ProfileChoices::of_device;
     // Measured on lavapipe with two cores. A GPU is assumed to take about a hundredth of each.
     constexpr DeviceCosts lavapipe{65, 1, 20, 10, 3}, gpu{0.6, 0.01, 0.2, 0.1, 0.03};
     return {.software = software,
             .bit_exact = software,
             .time_stamps = !software && timestampBits > 0,
-            .gathers_uniforms = software,
-            .wide_groups = !software,
-            .costs = software ? lavapipe : gpu};
+            .gathers_uniforms = asSoftware,
+            .wide_groups = !asSoftware,
+            .input_sets = asSoftware ? 4 : 1,
+            .packets_per_draw = asSoftware ? 65'000u : 1u << 20,
+            .fetches_depth = !asSoftware,
+            .warm_up_ms = asSoftware ? 0.0 : 300.0,
+            .longest_submit_ms = asSoftware ? std::numeric_limits<double>::infinity() : 100,
+            .costs = asSoftware ? lavapipe : gpu};
 }
 
 }  // namespace diptych

@@ -18,6 +18,13 @@ struct DeviceCosts {
     double light = 0;     // each light at it
 };
 
+// Which device's choices a profile has. What is true of the device stays: whether it is software, agrees bit
+// for bit, or has time stamps.
+enum class ProfileChoices {
+    of_device,
+    gpu,  // a GPU's, on any device, so that tests may draw with them where there is none
+};
+
 struct DeviceProfile {
     // A CPU draws: what a frame takes is this machine's CPU time.
     bool software = false;
@@ -31,10 +38,26 @@ struct DeviceProfile {
     // Workgroups run as wide as they are written. Otherwise a kernel of a thread a light beats one of a
     // workgroup a cell.
     bool wide_groups = false;
+    // Sets of inputs between vertex and fragment shaders that pipelines are made with
+    // (shaders/lib/inputs.glsl): 4, where every input costs, or 1, the set of all inputs, so that fewer
+    // modules are loaded.
+    int input_sets = 1;
+    // Light packets that one draw may walk at a pixel; longer lists are walked by several draws. Mesa
+    // lavapipe ends all loops of one shader invocation, silently, after 65,535 iterations together, of which
+    // some are left for other loops.
+    std::uint32_t packets_per_draw = 1;
+    // With a depth pre-pass, forward+ reads the depth that was stored, as deferred lighting does. Elsewhere
+    // that of the fragment has the same bits, which Vulkan does not promise.
+    bool fetches_depth = true;
+    // How long a device must have worked before its clocks are up and times mean something.
+    double warm_up_ms = 0;
+    // A submit that takes longer may be taken for a hang. Infinite: there is no such limit.
+    double longest_submit_ms = 0;
     DeviceCosts costs;
 };
 
 // `timestampBits`: how many bits of a time stamp the queue writes.
-DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits);
+DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits,
+                        ProfileChoices choices = ProfileChoices::of_device);
 
 }  // namespace diptych

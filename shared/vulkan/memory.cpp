@@ -70,74 +70,126 @@ void Allocation::swap(Allocation& other) noexcept {
     std::swap(mapped_, other.mapped_);
 }
 
-Memory::Memory(VkPhysicalDevice physical, VkDevice device) : device_(device) {
-    vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
-}
-
-Memory::~Memory() = default;
-
-std::uint32_t Memory::memoryType(std::uint32_t allowed, MemoryUse use) const {
+std::vector<std::uint32_t> memoryTypes(const VkPhysicalDeviceMemoryProperties& properties,
+                                       std::uint32_t allowed, MemoryUse use) {
     constexpr VkMemoryPropertyFlags visible =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
                                     cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    const VkMemoryPropertyFlags wanted = use == MemoryUse::device   ? local
-                                         : use == MemoryUse::upload ? visible
-                                                                    : visible | cached;
-    for (const VkMemoryPropertyFlags flags : {wanted, wanted & ~cached})
-        for (std::uint32_t type = 0; type < properties_.memoryTypeCount; ++type)
-            if ((allowed >> type & 1) != 0 && (properties_.memoryTypes[type].propertyFlags & flags) == flags)
-                return type;
-    throw std::runtime_error(
-        "Vulkan: the device has no memory type for a resource; choose another with --device");
+    const VkMemoryPropertyFlags must = use == MemoryUse::device ? 0 : visible,
+                                wanted = use == MemoryUse::device     ? local
+                                         : use == MemoryUse::readback ? visible | cached
+                                                                      : visible;
+    std::vector<std::uint32_t> types;
+    for (const VkMemoryPropertyFlags flags : {wanted, must})
+        for (std::uint32_t type = 0; type < properties.memoryTypeCount; ++type)
+            if ((allowed >> type & 1) != 0 && (properties.memoryTypes[type].propertyFlags & flags) == flags &&
+                std::ranges::find(types, type) == types.end())
+                types.push_back(type);
+    return types;
 }
 
-Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool image) {
-    const std::uint32_t type = memoryType(needs.memoryTypeBits, use);
-    Allocation result;
-    for (std::size_t i = 0; i <= blocks_.size(); ++i) {
-        if (i == blocks_.size()) {
-            auto block = std::make_unique<Block>();
-            block->size = std::max(blockSize, needs.size);
-            block->type = type;
-            block->image = image;
-            const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                            .pNext = nullptr,
-                                            .allocationSize = block->size,
-                                            .memoryTypeIndex = type};
-            VkDeviceMemory memory = VK_NULL_HANDLE;
-            if (vkAllocateMemory(device_, &info, nullptr, &memory) != VK_SUCCESS)
-                throw std::runtime_error(fmt::format(
-                    "Vulkan: the device has no {:.1f} MiB more ({:.1f} MiB in use); try a smaller --size",
-                    static_cast<double>(block->size) / 1048576.0,
-                    static_cast<double>(allocated()) / 1048576.0));
-            block->memory = OwnedMemory(device_, memory);
-            block->free[0] = block->size;
-            if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0)
-                checkResult(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &block->mapped), "vkMapMemory");
-            blocks_.push_back(std::move(block));
+Memory::Memory(VkPhysicalDevice physical, VkDevice device, bool budget) : device_(device) {
+    vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
+    calls_.allocate = [device](const VkMemoryAllocateInfo& info, VkDeviceMemory* memory) {
+        return vkAllocateMemory(device, &info, nullptr, memory);
+    };
+    calls_.left = [physical, budget] {
+        std::vector<VkDeviceSize> left;
+        if (!budget) return left;
+        VkPhysicalDeviceMemoryBudgetPropertiesEXT budgets{};
+        budgets.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT;
+        VkPhysicalDeviceMemoryProperties2 all{};
+        all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2;
+        all.pNext = &budgets;
+        vkGetPhysicalDeviceMemoryProperties2(physical, &all);
+        for (std::uint32_t heap = 0; heap < all.memoryProperties.memoryHeapCount; ++heap)
+            left.push_back(budgets.heapBudget[heap] -
+                           std::min(budgets.heapUsage[heap], budgets.heapBudget[heap]));
+        return left;
+    };
+}
+
+Memory::Memory(VkDevice device, const VkPhysicalDeviceMemoryProperties& properties, MemoryCalls calls)
+    : device_(device), properties_(properties), calls_(std::move(calls)) {}
+
+Memory::~Memory() = default;
+
+Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool image,
+                            const std::string& what) {
+    const std::vector<std::uint32_t> types = memoryTypes(properties_, needs.memoryTypeBits, use);
+    if (types.empty())
+        throw std::runtime_error(
+            fmt::format("Vulkan: the device has no memory type for {}; choose another with --device", what));
+    for (const std::uint32_t type : types)
+        for (std::size_t i = 0; i < blocks_.size(); ++i)
+            if (blocks_[i] && blocks_[i]->type == type && blocks_[i]->image == image)
+                if (Allocation found = take(i, needs); found.size() > 0) return found;
+    const std::vector<VkDeviceSize> left = calls_.left();
+    const auto hasRoom = [&](std::uint32_t type) {
+        return heapOf(type) >= left.size() || left[heapOf(type)] >= needs.size;
+    };
+    // What a heap says to have left is an estimate: one that says too little is asked, too, after all others.
+    for (const bool room : {true, false})
+        for (const std::uint32_t type : types) {
+            if (hasRoom(type) != room) continue;
+            if (const auto block = addBlock(type, needs.size, image)) return take(*block, needs);
         }
-        Block* block = blocks_[i].get();
-        if (block == nullptr || block->type != type || block->image != image) continue;
-        if (const auto offset = block->take(needs.size, needs.alignment)) {
-            result.owner_ = this;
-            result.block_ = i;
-            result.memory_ = block->memory;
-            result.offset_ = *offset;
-            result.size_ = needs.size;
-            if (block->mapped != nullptr) result.mapped_ = static_cast<char*>(block->mapped) + *offset;
-            return result;
+    std::string budget;
+    if (!left.empty())
+        budget = fmt::format(", {:.1f} MiB left in its heap",
+                             static_cast<double>(left.at(heapOf(types.front()))) / 1048576.0);
+    throw std::runtime_error(fmt::format(
+        "Vulkan: no memory for {}, {:.1f} MiB: {:.1f} MiB in use{}; try a smaller --size", what,
+        static_cast<double>(needs.size) / 1048576.0, static_cast<double>(allocated()) / 1048576.0, budget));
+}
+
+// The block has exactly the size that is asked for where a whole one finds no room.
+std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize size, bool image) {
+    for (VkDeviceSize bytes = std::max(blockSize, size);; bytes = size) {
+        const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                        .pNext = nullptr,
+                                        .allocationSize = bytes,
+                                        .memoryTypeIndex = type};
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        if (calls_.allocate(info, &memory) != VK_SUCCESS) {
+            if (bytes == size) return std::nullopt;
+            continue;
         }
+        auto block = std::make_unique<Block>();
+        block->memory = OwnedMemory(device_, memory);
+        block->size = bytes;
+        block->type = type;
+        block->image = image;
+        block->free[0] = bytes;
+        if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0)
+            checkResult(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &block->mapped), "vkMapMemory");
+        blocks_.push_back(std::move(block));
+        return blocks_.size() - 1;
     }
-    throw std::logic_error("a new memory block cannot hold what it was made for");
+}
+
+// Empty where the block has no room.
+Allocation Memory::take(std::size_t index, const VkMemoryRequirements& needs) {
+    Block& block = *blocks_[index];
+    Allocation result;
+    const auto offset = block.take(needs.size, needs.alignment);
+    if (!offset) return result;
+    result.owner_ = this;
+    result.block_ = index;
+    result.memory_ = block.memory;
+    result.offset_ = *offset;
+    result.size_ = needs.size;
+    if (block.mapped != nullptr) result.mapped_ = static_cast<char*>(block.mapped) + *offset;
+    return result;
 }
 
 void Memory::release(std::size_t index, VkDeviceSize offset, VkDeviceSize size) {
     Block& block = *blocks_[index];
     block.give(offset, size);
-    // A large block is of little use to other allocations, so it is freed. The indices of the others must not
-    // change.
-    if (block.size > blockSize && block.free.size() == 1 && block.free.begin()->second == block.size)
+    // A block of another size is of little use to other allocations, so it is freed. The indices of the
+    // others must not change.
+    if (block.size != blockSize && block.free.size() == 1 && block.free.begin()->second == block.size)
         blocks_[index].reset();
 }
 

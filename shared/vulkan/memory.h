@@ -5,8 +5,11 @@
 #include "shared/vulkan/owned.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -42,15 +45,31 @@ private:
 
 enum class MemoryUse { device, upload, readback };
 
+// The memory types out of `allowed` (a bit each) that a use may have, best first: of the device, its own and
+// then any; to be read back, cached and then any that the host sees.
+std::vector<std::uint32_t> memoryTypes(const VkPhysicalDeviceMemoryProperties& properties,
+                                       std::uint32_t allowed, MemoryUse use);
+
+// How memory is asked for; tests have their own.
+struct MemoryCalls {
+    std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocate;
+    // Bytes that are left in each heap, from VK_EXT_memory_budget; empty: the device does not say.
+    std::function<std::vector<VkDeviceSize>()> left;
+};
+
 class Memory {
 public:
-    Memory(VkPhysicalDevice physical, VkDevice device);
+    // `budget`: the device has VK_EXT_memory_budget.
+    Memory(VkPhysicalDevice physical, VkDevice device, bool budget);
+    Memory(VkDevice device, const VkPhysicalDeviceMemoryProperties& properties, MemoryCalls calls);
     ~Memory();
 
-    // First fit in a block of the first memory type that suits; images and buffers live in blocks of
-    // their own kind, so that bufferImageGranularity never matters. Throws std::runtime_error with the
-    // size where the device has no more.
-    Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool image);
+    // First fit in a block of a memory type that suits, the best that has room: heaps that say that they have
+    // none are asked last. Images and buffers live in blocks of their own kind, so that
+    // bufferImageGranularity never matters. Throws std::runtime_error that says what was too large, by the
+    // name `what`, where all are full.
+    Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool image,
+                        const std::string& what);
 
     VkDeviceSize allocated() const;  // bytes of all blocks
     std::size_t blocks() const;
@@ -58,11 +77,15 @@ public:
 private:
     friend class Allocation;
     struct Block;
+    Allocation take(std::size_t block, const VkMemoryRequirements& needs);
     void release(std::size_t block, VkDeviceSize offset, VkDeviceSize size);
-    std::uint32_t memoryType(std::uint32_t allowed, MemoryUse use) const;
+    // A new block's index; nothing where the type's heap is full.
+    std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize size, bool image);
+    std::uint32_t heapOf(std::uint32_t type) const { return properties_.memoryTypes[type].heapIndex; }
 
     VkDevice device_;
     VkPhysicalDeviceMemoryProperties properties_{};
+    MemoryCalls calls_;
     std::vector<std::unique_ptr<Block>> blocks_;
 };
 

@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/pass_list.h"
 
-#include "shared/vulkan/check.h"
+#include "shared/vulkan/pass_resource.h"
+#include "shared/vulkan/transients.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <map>
-#include <optional>
 #include <stdexcept>
-#include <tuple>
 
 namespace diptych {
-
-struct PassList::Resource {
-    // Exactly one of the two.
-    std::optional<GpuImage> image;
-    const GpuBuffer* buffer = nullptr;
-    Life life = Life::kept;
-    std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, OwnedImageView> views;
-    // Of a transient, once it has memory: its first and last pass, and whose the memory is before.
-    std::size_t first = 0, last = 0;
-    std::optional<std::size_t> before;
-};
 
 namespace {
 
@@ -40,10 +26,6 @@ VkImageUsageFlags usageOf(const ImageDeclaration& declared) {
     return usage;
 }
 
-Part wholeOf(const GpuImage& image) {
-    return {0, image.info().levels, 0, image.info().layers};
-}
-
 Part partOf(const Slice& slice) {
     return {slice.level, 1, slice.layer, 1};
 }
@@ -56,56 +38,6 @@ std::uint64_t bytesOf(const GpuImageInfo& info) {
 }
 
 }  // namespace
-
-// ---- declaring ---------------------------------------------------------------------------------------
-
-Pass& Pass::color(ImageRef image, Load load, VkClearColorValue clear, Slice slice, ImageRef resolved) {
-    colors_.push_back({image, load, {.color = clear}, slice, resolved});
-    return *this;
-}
-
-Pass& Pass::depth(ImageRef image, Load load, float clear, Slice slice) {
-    depth_ = {image, load, {.depthStencil = {clear, 0}}, slice, {}};
-    depth_writes_ = true;
-    return *this;
-}
-
-Pass& Pass::depthTest(ImageRef image, Slice slice) {
-    depth_ = {image, Load::keep, {}, slice, {}};
-    depth_writes_ = false;
-    return *this;
-}
-
-// The layout, which depends on the format, is filled in when the pass's uses are listed.
-Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages) {
-    images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, {}, true});
-    return *this;
-}
-
-Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages, const Part& part) {
-    images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, part});
-    return *this;
-}
-
-Pass& Pass::uses(ImageRef image, const Access& access, const Part& part, bool discards) {
-    images_.push_back({image, access, part, false, discards});
-    return *this;
-}
-
-Pass& Pass::uses(BufferRef buffer, const Access& access) {
-    buffers_.emplace_back(buffer, access);
-    return *this;
-}
-
-Pass& Pass::prepare(std::function<void()> make) {
-    prepare_ = std::move(make);
-    return *this;
-}
-
-Pass& Pass::record(std::function<void(VkCommandBuffer)> commands) {
-    record_ = std::move(commands);
-    return *this;
-}
 
 PassList::PassList(Device& device, std::uint32_t width, std::uint32_t height)
     : device_(device), width_(width), height_(height) {}
@@ -152,6 +84,19 @@ VkImageView PassList::view(ImageRef image) const {
     return found.image->view();
 }
 
+VkImageView PassList::view(ImageRef image, const Part& part) {
+    Resource& found = resource(image);
+    if (part == wholeOf(*found.image)) return view(image);
+    OwnedImageView& made = found.views[{part.level, part.levels, part.layer, part.layers}];
+    if (made == VK_NULL_HANDLE)
+        made = found.image->makeView(part.level, part.levels, part.layer, part.layers);
+    return made;
+}
+
+VkImage PassList::handle(ImageRef image) const {
+    return resource(image).image->handle();
+}
+
 VkFormat PassList::format(ImageRef image) const {
     return resource(image).image->info().format;
 }
@@ -175,8 +120,6 @@ Pass& PassList::copy(const std::string& name) {
     return pass;
 }
 
-// ---- what a pass uses, and memory --------------------------------------------------------------------
-
 std::vector<Use> PassList::usesOf(const Pass& pass) const {
     std::vector<Use> uses;
     for (const Pass::ImageUse& use : pass.images_) {
@@ -197,16 +140,13 @@ std::vector<Use> PassList::usesOf(const Pass& pass) const {
         uses.push_back({pass.depth_.image.index, partOf(pass.depth_.slice),
                         pass.depth_writes_ ? access::depthAttachment : access::depthTest,
                         pass.depth_writes_ && pass.depth_.load == Load::clear});
+    if (pass.depth_.resolved.valid())
+        uses.push_back({pass.depth_.resolved.index, {}, access::resolvedDepth, true});
     return uses;
 }
 
-// Transients that have no memory yet: in the order of their sizes each goes into the first block where no
-// other lives while it does (first fit, decreasing), or into a new one.
+// Transients that have no memory yet get some.
 void PassList::allocate() {
-    struct Block {
-        VkMemoryRequirements needs;
-        std::vector<std::size_t> images;  // by the time of their lives, which do not overlap
-    };
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < resources_.size(); ++i)
         if (resources_[i]->image && !resources_[i]->image->bound()) waiting.push_back(i);
@@ -218,41 +158,28 @@ void PassList::allocate() {
             used.first = std::min(used.first, p);
             used.last = std::max(used.last, p);
         }
-    std::map<std::size_t, VkMemoryRequirements> needs;
-    for (const std::size_t i : waiting) needs[i] = resources_[i]->image->requirements();
-    std::ranges::stable_sort(waiting,
-                             [&](std::size_t a, std::size_t b) { return needs[a].size > needs[b].size; });
-    std::vector<Block> blocks;
+    std::vector<Transient> transients;
     std::uint64_t alone = 0, together = 0;
     for (const std::size_t i : waiting) {
-        const auto apart = [&](std::size_t other) {
-            return resources_[other]->last < resources_[i]->first ||
-                   resources_[i]->last < resources_[other]->first;
-        };
-        const auto block = std::ranges::find_if(blocks, [&](const Block& b) {
-            return (b.needs.memoryTypeBits & needs[i].memoryTypeBits) != 0 &&
-                   std::ranges::all_of(b.images, apart);
-        });
-        alone += bytesOf(resources_[i]->image->info());
-        if (block == blocks.end()) {
-            blocks.push_back({needs[i], {i}});
-            together += bytesOf(resources_[i]->image->info());
-            continue;
-        }
-        block->needs.memoryTypeBits &= needs[i].memoryTypeBits;
-        block->needs.alignment = std::max(block->needs.alignment, needs[i].alignment);
-        block->images.push_back(i);
+        const Resource& r = *resources_[i];
+        transients.push_back({r.image->requirements(), r.first, r.last});
+        alone += bytesOf(r.image->info());
     }
-    for (Block& block : blocks) {
-        blocks_.push_back(device_.memory().allocate(block.needs, MemoryUse::device, true));
-        std::ranges::sort(block.images, {}, [&](std::size_t i) { return resources_[i]->first; });
-        for (std::size_t k = 0; k < block.images.size(); ++k) {
-            Resource& here = *resources_[block.images[k]];
+    for (const SharedBlock& block : shareMemory(transients)) {
+        blocks_.push_back(device_.memory().allocate(
+            block.needs, MemoryUse::device, true,
+            "the image " + resources_[waiting[block.members.front()]]->image->info().name));
+        std::uint64_t largest = 0;
+        for (std::size_t k = 0; k < block.members.size(); ++k) {
+            const auto at = [&](std::size_t member) { return waiting[block.members[member]]; };
+            Resource& here = *resources_[at(k)];
             here.image->bind(blocks_.back().memory(), blocks_.back().offset());
+            largest = std::max(largest, bytesOf(here.image->info()));
             // The first of a run comes after the last of the run before.
-            if (block.images.size() > 1)
-                here.before = block.images[(k + block.images.size() - 1) % block.images.size()];
+            const std::size_t count = block.members.size();
+            if (count > 1) here.before = at((k + count - 1) % count);
         }
+        together += largest;
     }
     shared_bytes_ += alone - together;
 }
@@ -270,266 +197,6 @@ void PassList::prepare(std::size_t first, std::size_t last) {
         prepared_[i] = true;
     }
     recorded_.clear();
-}
-
-// ---- running -----------------------------------------------------------------------------------------
-
-VkImageView PassList::attachmentView(ImageRef image, const Slice& slice) {
-    Resource& found = resource(image);
-    const GpuImageInfo& info = found.image->info();
-    if (info.levels == 1 && info.layers == 1) return view(image);
-    OwnedImageView& made = found.views[{slice.level, 1, slice.layer, 1}];
-    if (made == VK_NULL_HANDLE) made = found.image->makeView(slice.level, 1, slice.layer, 1);
-    return made;
-}
-
-void PassList::barriersBefore(const Pass& pass, const std::vector<Use>& uses, VkCommandBuffer commands) {
-    std::vector<VkImageMemoryBarrier2> images;
-    std::vector<VkBufferMemoryBarrier2> buffers;
-    for (const Barrier& barrier : tracker_.before(pass.name_, uses)) {
-        recorded_.push_back(
-            {pass.name_, tracker_.name(barrier.resource), barrier.part, barrier.from, barrier.to});
-        const Resource& found = *resources_[barrier.resource];
-        if (found.image)
-            images.push_back(
-                {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                 .pNext = nullptr,
-                 .srcStageMask = barrier.from.stages,
-                 .srcAccessMask = barrier.from.access,
-                 .dstStageMask = barrier.to.stages,
-                 .dstAccessMask = barrier.to.access,
-                 .oldLayout = barrier.from.layout,
-                 .newLayout = barrier.to.layout,
-                 .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                 .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                 .image = found.image->handle(),
-                 .subresourceRange = {found.image->aspect(), barrier.part.level, barrier.part.levels,
-                                      barrier.part.layer, barrier.part.layers}});
-        else
-            buffers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
-                               .pNext = nullptr,
-                               .srcStageMask = barrier.from.stages,
-                               .srcAccessMask = barrier.from.access,
-                               .dstStageMask = barrier.to.stages,
-                               .dstAccessMask = barrier.to.access,
-                               .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                               .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                               .buffer = found.buffer->handle(),
-                               .offset = 0,
-                               .size = VK_WHOLE_SIZE});
-    }
-    if (images.empty() && buffers.empty()) return;
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .pNext = nullptr,
-                                .dependencyFlags = 0,
-                                .memoryBarrierCount = 0,
-                                .pMemoryBarriers = nullptr,
-                                .bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size()),
-                                .pBufferMemoryBarriers = buffers.data(),
-                                .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
-                                .pImageMemoryBarriers = images.data()};
-    vkCmdPipelineBarrier2(commands, &info);
-}
-
-// Transients that are used by this pass first wait for whoever had their memory before.
-void PassList::beginLives(BarrierTracker& tracker, std::size_t pass) const {
-    for (std::size_t i = 0; i < resources_.size(); ++i)
-        if (resources_[i]->before && resources_[i]->first == pass) tracker.alias(i, *resources_[i]->before);
-}
-
-void PassList::runPass(std::size_t index, VkCommandBuffer commands) {
-    const Pass& pass = *passes_[index];
-    beginLives(tracker_, index);
-    barriersBefore(pass, usesOf(pass), commands);
-    device_.beginLabel(commands, pass.name_);
-    if (pass.kind_ == Pass::Kind::draw)
-        renderPass(pass, commands);
-    else if (pass.record_)
-        pass.record_(commands);
-    device_.endLabel(commands);
-}
-
-void PassList::renderPass(const Pass& pass, VkCommandBuffer commands) {
-    VkExtent2D extent{width_, height_};
-    const auto attach = [&](const Pass::Attachment& a, VkImageLayout layout, bool store) {
-        const GpuImageInfo& image = resource(a.image).image->info();
-        extent = {std::max(1u, image.width >> a.slice.level), std::max(1u, image.height >> a.slice.level)};
-        VkRenderingAttachmentInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-        info.imageView = attachmentView(a.image, a.slice);
-        info.imageLayout = layout;
-        info.loadOp = a.load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-        info.storeOp = store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
-        info.clearValue = a.clear;
-        if (a.resolved.valid()) {
-            info.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
-            info.resolveImageView = view(a.resolved);
-            info.resolveImageLayout = layout;
-        }
-        return info;
-    };
-    std::vector<VkRenderingAttachmentInfo> colors;
-    for (const auto& color : pass.colors_)
-        colors.push_back(attach(color, access::colorAttachment.layout, true));
-    VkRenderingAttachmentInfo depth{};
-    if (pass.depth_.image.valid())
-        depth = attach(pass.depth_,
-                       pass.depth_writes_ ? access::depthAttachment.layout : access::depthTest.layout,
-                       pass.depth_writes_);
-    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .pNext = nullptr,
-                               .flags = 0,
-                               .renderArea = {{0, 0}, extent},
-                               .layerCount = 1,
-                               .viewMask = 0,
-                               .colorAttachmentCount = static_cast<std::uint32_t>(colors.size()),
-                               .pColorAttachments = colors.data(),
-                               .pDepthAttachment = pass.depth_.image.valid() ? &depth : nullptr,
-                               .pStencilAttachment = nullptr};
-    vkCmdBeginRendering(commands, &info);
-    // Depth is reversed and 0 says that nothing was drawn: what lies exactly on the far plane gets the least
-    // depth above it. Everything else is unchanged, being far larger.
-    constexpr float leastDepth = 1e-37f;
-    const VkViewport viewport{
-        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), leastDepth, 1};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &info.renderArea);
-    if (pass.record_) pass.record_(commands);
-    vkCmdEndRendering(commands);
-}
-
-std::vector<PassList::Span> PassList::spans(std::size_t first, std::size_t last) const {
-    std::vector<Span> all;
-    for (std::size_t i = first; i < last; ++i)
-        if (!all.empty() && passes_[i]->name_ == passes_[all.back().first]->name_)
-            all.back().last = i + 1;
-        else
-            all.push_back({i, i + 1});
-    return all;
-}
-
-// Milliseconds of each span, from time stamps around it; the device must have true ones.
-std::vector<double> PassList::runWithTimestamps(const std::vector<Span>& spans) {
-    const auto count = static_cast<std::uint32_t>(spans.size() + 1);
-    const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                     .pNext = nullptr,
-                                     .flags = 0,
-                                     .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                     .queryCount = count,
-                                     .pipelineStatistics = 0};
-    VkQueryPool handle = VK_NULL_HANDLE;
-    checkResult(vkCreateQueryPool(device_.handle(), &info, nullptr, &handle), "vkCreateQueryPool");
-    const OwnedQueryPool pool(device_.handle(), handle);
-    device_.submit([&](VkCommandBuffer commands) {
-        vkCmdResetQueryPool(commands, pool, 0, count);
-        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 0);
-        for (std::uint32_t s = 0; s + 1 < count; ++s) {
-            for (std::size_t i = spans[s].first; i < spans[s].last; ++i) runPass(i, commands);
-            vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, s + 1);
-        }
-    });
-    std::vector<std::uint64_t> ticks(count);
-    checkResult(
-        vkGetQueryPoolResults(device_.handle(), pool, 0, count, count * sizeof(std::uint64_t), ticks.data(),
-                              sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-        "vkGetQueryPoolResults");
-    std::vector<double> ms;
-    for (std::size_t i = 0; i + 1 < count; ++i)
-        ms.push_back(static_cast<double>(device_.ticksBetween(ticks[i], ticks[i + 1])) *
-                     static_cast<double>(device_.limits().timestampPeriod) * 1e-6);
-    return ms;
-}
-
-double PassList::run(std::size_t first, std::size_t last) {
-    prepare(first, last);
-    if (device_.profile().time_stamps) {
-        double total = 0;
-        for (const double ms : runWithTimestamps(spans(first, last))) total += ms;
-        return total;
-    }
-    return device_.submit([&](VkCommandBuffer commands) {
-        for (std::size_t i = first; i < last; ++i) runPass(i, commands);
-    });
-}
-
-std::vector<PassMs> PassList::profile(std::size_t first, std::size_t last) {
-    prepare(first, last);
-    const std::vector<Span> all = spans(first, last);
-    std::vector<PassMs> times;
-    if (device_.profile().time_stamps) {
-        const std::vector<double> ms = runWithTimestamps(all);
-        for (std::size_t s = 0; s < all.size(); ++s) times.push_back({passes_[all[s].first]->name_, ms[s]});
-    } else {
-        for (const Span& span : all)
-            times.push_back({passes_[span.first]->name_, device_.submit([&](VkCommandBuffer commands) {
-                                 for (std::size_t i = span.first; i < span.last; ++i) runPass(i, commands);
-                             })});
-    }
-    return times;
-}
-
-// ---- reading back ------------------------------------------------------------------------------------
-
-std::vector<std::vector<float>> PassList::readBack(std::span<const ReadBack> requests) {
-    constexpr std::size_t stagingBytes = std::size_t{256} << 20;
-    const std::size_t largest = std::size_t{width_} * height_ * 16;
-    const std::size_t atOnce = std::max<std::size_t>(1, stagingBytes / largest);
-    std::vector<std::vector<float>> results(requests.size());
-    for (std::size_t i = 0; i < requests.size(); i += atOnce) {
-        const std::size_t count = std::min(atOnce, requests.size() - i);
-        copyToHost(requests.subspan(i, count), std::span(results).subspan(i, count));
-    }
-    return results;
-}
-
-void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results) {
-    const std::size_t texels = std::size_t{width_} * height_;
-    const auto floatsPerTexel = [&](ImageRef image) { return bytesPerTexel(format(image)) / 4; };
-    std::vector<GpuBuffer> buffers;
-    for (const ReadBack& request : requests)
-        buffers.emplace_back(device_, "read back", texels * floatsPerTexel(request.image) * 4,
-                             VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-    Pass pass;
-    pass.name_ = "read back";
-    std::vector<Use> uses;
-    for (const ReadBack& request : requests) {
-        const Resource& found = resource(request.image);
-        if (found.life == Life::transient)
-            throw std::logic_error("PassList: " + found.image->info().name +
-                                   " is a transient and cannot be read back");
-        uses.push_back({request.image.index, wholeOf(*found.image), access::copiedFromImage});
-    }
-    device_.submit([&](VkCommandBuffer commands) {
-        barriersBefore(pass, uses, commands);
-        for (std::size_t i = 0; i < requests.size(); ++i) {
-            const GpuImage& image = *resource(requests[i].image).image;
-            const VkBufferImageCopy copy{.bufferOffset = 0,
-                                         .bufferRowLength = 0,
-                                         .bufferImageHeight = 0,
-                                         .imageSubresource = {image.aspect(), 0, 0, 1},
-                                         .imageOffset = {},
-                                         .imageExtent = {width_, height_, 1}};
-            vkCmdCopyImageToBuffer(commands, image.handle(), access::copiedFromImage.layout,
-                                   buffers[i].handle(), 1, &copy);
-        }
-        memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-    });
-    tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t image) {
-        const auto kept = static_cast<std::size_t>(requests[image].components);
-        const std::size_t stored = floatsPerTexel(requests[image].image);
-        if (kept > stored)
-            throw std::logic_error("PassList: an image has fewer components than are read back");
-        const auto* from = static_cast<const float*>(buffers[image].mapped());
-        std::vector<float>& out = results[image];
-        if (kept == stored) {
-            out.assign(from, from + texels * kept);
-            return;
-        }
-        out.resize(texels * kept);
-        float* to = out.data();
-        for (std::size_t i = 0; i < texels; ++i, from += stored, to += kept) std::copy_n(from, kept, to);
-    });
 }
 
 std::vector<DeclaredUse> PassList::declarations() const {

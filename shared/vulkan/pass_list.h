@@ -3,10 +3,11 @@
 // use of an image or a buffer) gives its barriers, its labels, its times and the memory the frame takes.
 #pragma once
 
-#include "shared/vulkan/barriers.h"
+#include "shared/vulkan/frames_in_flight.h"
+#include "shared/vulkan/pass.h"
 #include "shared/vulkan/resources.h"
 
-#include <functional>
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <span>
@@ -15,86 +16,7 @@
 
 namespace diptych {
 
-struct ImageRef {
-    std::size_t index = ~std::size_t{0};
-    bool valid() const { return index != ~std::size_t{0}; }
-};
-struct BufferRef {
-    std::size_t index = ~std::size_t{0};
-    bool valid() const { return index != ~std::size_t{0}; }
-};
-
-enum class Load { clear, keep };  // keep: an attachment's contents from an earlier pass
-
-// How long an image's contents are needed. A transient has them from its first pass in a run to its last:
-// images whose lives do not overlap share memory, and nothing may be read back.
-enum class Life { kept, transient };
-
-struct ImageDeclaration {
-    std::string name;
-    VkFormat format = VK_FORMAT_UNDEFINED;
-    VkExtent2D extent{};  // 0 x 0: the list's
-    std::uint32_t layers = 1, levels = 1;
-    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    VkImageUsageFlags usage = 0;  // beside attachment, sampled and, of kept images, copied from
-    Life life = Life::kept;
-};
-
-// One level of one layer, to draw to.
-struct Slice {
-    std::uint32_t level = 0, layer = 0;
-};
-
-// One pass, declared by chaining. A draw is recorded between begin and end of rendering, with viewport and
-// scissor set to the extent of its attachments; a compute or copy pass outside of rendering.
-class Pass {
-public:
-    // In the order of the shader's locations. `resolved`: an image of one sample that gets the mean of the
-    // samples.
-    Pass& color(ImageRef image, Load load, VkClearColorValue clear = {}, Slice slice = {},
-                ImageRef resolved = {});
-    Pass& depth(ImageRef image, Load load, float clear = 0.0f, Slice slice = {});  // read and written
-    Pass& depthTest(ImageRef image, Slice slice = {});                             // read by the test only
-    // Read by texture instructions of these shaders: all levels and layers, or one part.
-    Pass& samples(ImageRef image, VkPipelineStageFlags2 stages);
-    Pass& samples(ImageRef image, VkPipelineStageFlags2 stages, const Part& part);
-    // Any other use of access.h. `discards`: everything that the part held is overwritten.
-    Pass& uses(ImageRef image, const Access& access, const Part& part, bool discards = false);
-    Pass& uses(BufferRef buffer, const Access& access);
-
-    // Called once before the pass is recorded for the first time, when all images have memory: makes what
-    // holds views.
-    Pass& prepare(std::function<void()> make);
-    // Called every time the list runs.
-    Pass& record(std::function<void(VkCommandBuffer)> commands);
-
-private:
-    friend class PassList;
-    enum class Kind { draw, compute, copy };
-    struct Attachment {
-        ImageRef image;
-        Load load = Load::clear;
-        VkClearValue clear{};
-        Slice slice{};
-        ImageRef resolved{};
-    };
-    struct ImageUse {
-        ImageRef image;
-        Access access;
-        Part part;
-        bool whole = false;  // all levels and layers
-        bool discards = false;
-    };
-    std::string name_;
-    Kind kind_ = Kind::draw;
-    std::vector<Attachment> colors_;
-    Attachment depth_;
-    bool depth_writes_ = false;
-    std::vector<ImageUse> images_;
-    std::vector<std::pair<BufferRef, Access>> buffers_;
-    std::function<void()> prepare_;
-    std::function<void(VkCommandBuffer)> record_;
-};
+struct PassResource;
 
 struct PassMs {
     std::string name;
@@ -132,9 +54,12 @@ public:
     // again, the same buffer is the same resource.
     BufferRef buffer(const std::string& name, const GpuBuffer& buffer);
 
-    // All levels and layers; one of them to be drawn to. A transient has views from Pass::prepare() on.
+    // All levels and layers; and a part of them, as shaders that write it bind it. A transient has views from
+    // Pass::prepare() on.
     VkImageView view(ImageRef image) const;
+    VkImageView view(ImageRef image, const Part& part);
     VkFormat format(ImageRef image) const;
+    VkImage handle(ImageRef image) const;
 
     Pass& draw(const std::string& name);
     Pass& compute(const std::string& name);
@@ -143,8 +68,9 @@ public:
     // How many passes there are so far: where those that come next begin.
     std::size_t size() const { return passes_.size(); }
 
-    // Runs passes [first, last) in one submit. Returns milliseconds: time stamps on a GPU; on a CPU device,
+    // Runs passes [first, last), and waits. Returns milliseconds: time stamps on a GPU; on a CPU device,
     // whose time stamps are wrong, the clock from submit to fence. Kept images hold what earlier runs left.
+    // In one submit, but for what Pass::takes() longer than the device may be kept busy for.
     double run(std::size_t first, std::size_t last);
     double run() { return run(0, size()); }
 
@@ -152,11 +78,19 @@ public:
     // (between time stamps on a GPU).
     std::vector<PassMs> profile(std::size_t first, std::size_t last);
 
-    // Images as the last run left them, row 0 on top: the first `components` float32 of every texel, side by
-    // side. Copied in one submit, as far as staging memory of 256 MiB allows, and unpacked on all cores.
+    // How long the host took to record the commands of the last run() or profile(), ms. Not part of its time.
+    double recordMs() const { return record_ms_; }
+
+    // The whole list as one submit that is not waited for; nothing is timed.
+    void enqueue(FramesInFlight& frames);
+
+    // Images as the last run left them, row 0 on top: the first `components` float32 of every texel of one
+    // level and layer, side by side. Copied in one submit, as far as staging memory of 256 MiB allows, and
+    // unpacked on all cores.
     struct ReadBack {
         ImageRef image;
         int components = 1;
+        Slice slice{};
     };
     std::vector<std::vector<float>> readBack(std::span<const ReadBack> requests);
 
@@ -179,20 +113,30 @@ public:
     std::uint32_t height() const { return height_; }
 
 private:
-    struct Resource;
+    using Resource = PassResource;
     struct Span {  // passes [first, last) of one name
         std::size_t first, last;
     };
+    // A pass or a band of its rows, as part of a span.
+    struct Piece {
+        std::size_t pass, span;
+        std::uint32_t band = 0, bands = 1;
+        double ms = 0;
+    };
     Resource& resource(ImageRef image) const;
     std::vector<Use> usesOf(const Pass& pass) const;
+    VkExtent2D extentOf(const Pass& pass) const;
     VkImageView attachmentView(ImageRef image, const Slice& slice);
-    void barriersBefore(const Pass& pass, const std::vector<Use>& uses, VkCommandBuffer commands);
+    void barriersBefore(const std::string& pass, const std::vector<Use>& uses, VkCommandBuffer commands);
     void beginLives(BarrierTracker& tracker, std::size_t pass) const;
-    void runPass(std::size_t index, VkCommandBuffer commands);
-    void renderPass(const Pass& pass, VkCommandBuffer commands);
     void prepare(std::size_t first, std::size_t last);
     std::vector<Span> spans(std::size_t first, std::size_t last) const;
-    std::vector<double> runWithTimestamps(const std::vector<Span>& spans);
+    std::vector<Piece> pieces(const std::vector<Span>& spans) const;
+    std::string describe(const std::vector<Piece>& pieces) const;
+    void runPiece(const Piece& piece, VkCommandBuffer commands);
+    void renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer commands);
+    std::vector<double> runSpans(const std::vector<Span>& spans);
+    void submit(const std::vector<Piece>& pieces, std::vector<double>& ms);
     void copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results);
 
     Device& device_;
@@ -203,6 +147,7 @@ private:
     std::vector<bool> prepared_;      // by pass
     std::vector<Allocation> blocks_;  // memory of transients
     std::uint64_t shared_bytes_ = 0;
+    double record_ms_ = 0;
     std::vector<RecordedBarrier> recorded_;
 };
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "shared/vulkan/physical_device.h"
 
+#include "shared/contract/bindings.h"
 #include "shared/contract/features.h"
+#include "shared/contract/gbuffer.h"
 #include "shared/contract/light_list.h"
+#include "shared/contract/material.h"
+#include "shared/vulkan/binding_table.h"
 #include "shared/vulkan/check.h"
 
 #include <fmt/format.h>
@@ -11,6 +15,8 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <initializer_list>
+#include <span>
 #include <stdexcept>
 
 namespace diptych {
@@ -73,6 +79,25 @@ bool reducesSubgroups(VkPhysicalDevice device) {
            (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0;
 }
 
+// How many descriptors of some kinds one shader stage sees: set layouts name every binding for every stage,
+// and a pipeline has the sets of drawing or those of the kernels that make light lists.
+constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kinds) {
+    constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
+    constexpr auto sums = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
+    constexpr auto gbuffer = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)});
+    constexpr auto lists = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
+    const auto count = [&](std::span<const VkDescriptorType> types) {
+        std::uint32_t found = 0;
+        for (const VkDescriptorType type : types) found += std::ranges::find(kinds, type) != kinds.end();
+        return found;
+    };
+    // A material's textures and the depth beside the G-buffer stand in no table.
+    const bool images = std::ranges::find(kinds, binding_kind::image) != kinds.end();
+    const std::uint32_t drawing =
+        count(frame) + count(gbuffer) + count(sums) + (images ? gpu::SLOT_COUNT + 1 : 0);
+    return std::max(drawing, count(frame) + count(lists));
+}
+
 std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
     Features f;
     if (properties.apiVersion >= VK_API_VERSION_1_3)
@@ -97,19 +122,25 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
     need("workgroups of 256 threads", l.maxComputeWorkGroupInvocations >= gpu::LIST_GROUP,
          fmt::format("{} at most", l.maxComputeWorkGroupInvocations));
-    // Set layouts name every binding for every stage: SET_FRAME's 4 storage buffers and SET_LISTS' 10; the
-    // samplers of a material (8), the G-buffer and depth (8), partial sums of lights (2) and the table of
-    // area lights.
-    need("storage buffers a shader", l.maxPerStageDescriptorStorageBuffers >= 14,
-         fmt::format("{}, 14 needed", l.maxPerStageDescriptorStorageBuffers));
-    need("samplers a shader", l.maxPerStageDescriptorSamplers >= 19,
-         fmt::format("{}, 19 needed", l.maxPerStageDescriptorSamplers));
+    const auto needDescriptors = [&](const char* what, std::uint32_t there,
+                                     std::initializer_list<VkDescriptorType> kinds) {
+        const std::uint32_t needed = descriptors(kinds);
+        need(what, there >= needed, fmt::format("{}, {} needed", there, needed));
+    };
+    using namespace binding_kind;
+    needDescriptors("storage buffers a shader", l.maxPerStageDescriptorStorageBuffers, {storage_buffer});
+    needDescriptors("samplers a shader", l.maxPerStageDescriptorSamplers, {image});
+    // A texel buffer counts as a sampled image.
+    needDescriptors("sampled images a shader", l.maxPerStageDescriptorSampledImages, {image, texel_buffer});
     need("subgroup arithmetic in compute shaders", reducesSubgroups(device));
     need("colour attachments", l.maxColorAttachments >= gpu::CAPTURE_ATTACHMENTS,
          fmt::format("{}, {} needed", l.maxColorAttachments, gpu::CAPTURE_ATTACHMENTS));
     note("picture size", true, fmt::format("up to {} x {}", l.maxImageDimension2D, l.maxImageDimension2D));
     note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
     note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));
+    note("memory budgets", knowsMemoryBudget(device),
+         "what its heaps have left is asked before memory is taken");
+    note("depth clamping", f.v10.features.depthClamp == VK_TRUE);
     note("4 samples a pixel",
          (l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0);
     note(
@@ -205,6 +236,16 @@ std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string
     throw std::runtime_error(fmt::format("--device {}: no such device; there are {}", choice, listOf(infos)));
 }
 
+bool knowsMemoryBudget(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    return std::ranges::any_of(extensions, [](const VkExtensionProperties& extension) {
+        return std::string_view(extension.extensionName) == VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
+    });
+}
+
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
@@ -216,6 +257,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     VkPhysicalDeviceFeatures there{};
     vkGetPhysicalDeviceFeatures(physical, &there);
     wanted.v10.features.occlusionQueryPrecise = there.occlusionQueryPrecise;
+    wanted.v10.features.depthClamp = there.depthClamp;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .pNext = nullptr,
@@ -223,6 +265,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
                                         .queueFamilyIndex = family,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
+    const char* const budget = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &wanted.v10,
                                   .flags = 0,
@@ -230,8 +273,8 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
                                   .pQueueCreateInfos = &queue,
                                   .enabledLayerCount = 0,
                                   .ppEnabledLayerNames = nullptr,
-                                  .enabledExtensionCount = 0,
-                                  .ppEnabledExtensionNames = nullptr,
+                                  .enabledExtensionCount = knowsMemoryBudget(physical) ? 1u : 0u,
+                                  .ppEnabledExtensionNames = &budget,
                                   .pEnabledFeatures = nullptr};
     VkDevice device = VK_NULL_HANDLE;
     checkResult(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");

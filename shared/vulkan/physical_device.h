@@ -23,7 +23,9 @@ std::optional<std::uint32_t> graphicsFamily(VkPhysicalDevice device);
 // cpu. Throws std::runtime_error naming --device and what there is, or the feature that is missing.
 std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
 
-// With exactly the features that we use.
+bool knowsMemoryBudget(VkPhysicalDevice device);  // VK_EXT_memory_budget
+
+// With exactly the features that we use, and what the device has of those that are of help.
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family);
 
 }  // namespace diptych

@@ -2,12 +2,8 @@
 #include "shared/vulkan/pipelines.h"
 
 #include "shared/vulkan/check.h"
-#include "shared/vulkan/spirv.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
-
-#include <stdexcept>
 
 namespace diptych {
 
@@ -23,25 +19,42 @@ struct Specialization {
     VkSpecializationInfo info;
 };
 
+VkPipelineColorBlendAttachmentState blendState(Blend blend) {
+    VkPipelineColorBlendAttachmentState state{};
+    state.colorWriteMask = 0xf;
+    state.blendEnable = blend != Blend::none;
+    state.srcColorBlendFactor = blend == Blend::multiply ? VK_BLEND_FACTOR_ZERO : VK_BLEND_FACTOR_ONE;
+    state.dstColorBlendFactor = blend == Blend::add    ? VK_BLEND_FACTOR_ONE
+                                : blend == Blend::over ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA
+                                                       : VK_BLEND_FACTOR_SRC_COLOR;
+    state.srcAlphaBlendFactor = state.srcColorBlendFactor;
+    state.dstAlphaBlendFactor =
+        blend == Blend::multiply ? VK_BLEND_FACTOR_SRC_ALPHA : state.dstColorBlendFactor;
+    return state;
+}
+
 }  // namespace
 
-OwnedShaderModule makeShaderModule(Device& device, const std::string& name) {
-    const auto words = findSpirv(name);
-    if (words.empty()) throw std::logic_error("no shader " + name + " in shaders/pass");
+PipelineParts plainParts(const PipelineKey& key) {
+    const auto number = static_cast<std::uint32_t>(key.colors.size());
+    return {&plainModule(key.vertex),
+            key.fragment == Shader::none ? nullptr : &plainModule(key.fragment, number),
+            {},
+            {}};
+}
+
+VkShaderModule Pipelines::load(const ShaderModule& module) {
+    const auto [entry, isNew] = modules_.try_emplace(&module);
+    if (!isNew) return entry->second;
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .pNext = nullptr,
                                         .flags = 0,
-                                        .codeSize = words.size_bytes(),
-                                        .pCode = words.data()};
-    VkShaderModule module = VK_NULL_HANDLE;
-    checkResult(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
-    return {device.handle(), module};
-}
-
-VkShaderModule Pipelines::module(const std::string& name) {
-    const auto found = modules_.find(name);
-    if (found != modules_.end()) return found->second;
-    return modules_.emplace(name, makeShaderModule(device_, name)).first->second;
+                                        .codeSize = module.words.size_bytes(),
+                                        .pCode = module.words.data()};
+    VkShaderModule handle = VK_NULL_HANDLE;
+    checkResult(vkCreateShaderModule(device_.handle(), &info, nullptr, &handle), "vkCreateShaderModule");
+    entry->second = OwnedShaderModule(device_.handle(), handle);
+    return handle;
 }
 
 std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
@@ -54,11 +67,9 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     for (const PipelineKey& key : keys) {
         const auto [entry, isNew] = pipelines_.try_emplace(key);
         if (!isNew) continue;
-        missing.push_back({&entry->first,
-                           choose_ ? choose_(key) : PipelineParts{key.vertex, key.fragment, {}, {}},
-                           &entry->second});
-        module(missing.back().parts.vertex);
-        if (!key.fragment.empty()) module(missing.back().parts.fragment);
+        missing.push_back({&entry->first, choose_(key), &entry->second});
+        load(*missing.back().parts.vertex);
+        if (missing.back().parts.fragment != nullptr) load(*missing.back().parts.fragment);
     }
     tbb::parallel_for(std::size_t{0}, missing.size(),
                       [&](std::size_t i) { *missing[i].pipeline = make(*missing[i].key, missing[i].parts); });
@@ -67,15 +78,15 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     return pipelines;
 }
 
-VkPipeline Pipelines::compute(const std::string& shader, const Variant& variant, VkPipelineLayout layout) {
-    const auto [entry, isNew] = compute_.try_emplace({shader, variant});
+VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
+    const auto [entry, isNew] = compute_.try_emplace({&module, variant});
     if (!isNew) return entry->second;
     const Specialization specialization(variant);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module(shader);
+    info.stage.module = load(module);
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = &specialization.info;
     info.layout = layout;
@@ -89,17 +100,17 @@ VkPipeline Pipelines::compute(const std::string& shader, const Variant& variant,
 OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts) const {
     const Specialization specialization(key.variant);
     std::vector<VkPipelineShaderStageCreateInfo> stages;
-    const auto addStage = [&](VkShaderStageFlagBits stage, const std::string& name) {
+    const auto addStage = [&](VkShaderStageFlagBits stage, const ShaderModule* module) {
         stages.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                           .pNext = nullptr,
                           .flags = 0,
                           .stage = stage,
-                          .module = modules_.at(name),
+                          .module = modules_.at(module),
                           .pName = "main",
                           .pSpecializationInfo = &specialization.info});
     };
     addStage(VK_SHADER_STAGE_VERTEX_BIT, parts.vertex);
-    if (!parts.fragment.empty()) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, parts.fragment);
+    if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, parts.fragment);
 
     const VkPipelineVertexInputStateCreateInfo input{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
@@ -125,18 +136,22 @@ OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts
         .pScissors = nullptr};
     VkPipelineRasterizationStateCreateInfo raster{};
     raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.depthClampEnable = key.depth_clamp;
+    raster.depthBiasEnable = key.depth_bias != DepthBias{};
+    raster.depthBiasConstantFactor = key.depth_bias.constant;
+    raster.depthBiasSlopeFactor = key.depth_bias.slope;
     raster.lineWidth = 1.0f;
     VkPipelineMultisampleStateCreateInfo samples{};
     samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    samples.rasterizationSamples = key.samples;
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = key.depth_compare != VK_COMPARE_OP_ALWAYS || key.depth_write;
     depth.depthWriteEnable = key.depth_write;
     depth.depthCompareOp = key.depth_compare;
-    VkPipelineColorBlendAttachmentState opaque{};
-    opaque.colorWriteMask = 0xf;
-    const std::vector<VkPipelineColorBlendAttachmentState> blends(key.colors.size(), opaque);
+    std::vector<VkPipelineColorBlendAttachmentState> blends;
+    for (std::size_t i = 0; i < key.colors.size(); ++i)
+        blends.push_back(blendState(key.blends.empty() ? Blend::none : key.blends.at(i)));
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(blends.size());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/vulkan/device.h"
+#include "shared/vulkan/spirv.h"
 #include "shared/vulkan/variant.h"
 
 #include <compare>
@@ -10,60 +11,87 @@
 #include <functional>
 #include <map>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace diptych {
 
+// How a colour s with coverage or opacity s.a joins what the attachment holds, d; alpha follows the same
+// rule.
+enum class Blend : std::uint8_t {
+    none,      // s
+    add,       // s + d
+    over,      // s + (1 - s.a) d: s is premultiplied
+    multiply,  // s d
+};
+
+// Added to the depth of every fragment: `constant` units of the depth format's least step at that depth, and
+// `slope` times the largest change of depth from pixel to pixel. Depth is reversed: negative is farther away.
+struct DepthBias {
+    float constant = 0, slope = 0;
+    auto operator<=>(const DepthBias&) const = default;
+};
+
 struct PipelineKey {
-    std::string vertex, fragment;  // files of shaders/pass; no fragment shader: ""
-    Variant variant;
+    Shader vertex = Shader::none, fragment = Shader::none;  // no fragment shader: none
+    Variant variant{};
     std::uint32_t input = 0;  // a vertex format of whoever chooses the parts; 0: none
-    std::vector<VkFormat> colors;
+    std::vector<VkFormat> colors{};
+    std::vector<Blend> blends{};  // of each colour; empty: none of any
     VkFormat depth = VK_FORMAT_UNDEFINED;
     VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;  // always and no write: no depth test
     bool depth_write = false;
+    bool depth_clamp = false;  // what lies before or behind the depth range is drawn at its end, not cut off
+    DepthBias depth_bias{};
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     auto operator<=>(const PipelineKey&) const = default;
 };
 
-// What a key leaves to whoever knows the shaders and the vertices: the embedded modules that serve its
-// shaders in its variant, and where vertices come from.
+// What a key leaves to whoever knows the shaders and the vertices: the modules that serve its shaders in its
+// variant, and where vertices come from.
 struct PipelineParts {
-    std::string vertex, fragment;
+    const ShaderModule* vertex = nullptr;
+    const ShaderModule* fragment = nullptr;  // nullptr: no fragment shader
     std::vector<VkVertexInputBindingDescription> bindings;
     std::vector<VkVertexInputAttributeDescription> attributes;
 };
 using ChooseParts = std::function<PipelineParts(const PipelineKey&)>;
 
+// The plain modules, and no vertices. Throws std::logic_error where a shader draws to no such number of
+// attachments.
+PipelineParts plainParts(const PipelineKey& key);
+
 // Triangles; viewport, scissor, cull mode and front face are dynamic.
 class Pipelines {
 public:
-    // `layout` must outlive the pipelines. Without `choose` shaders are their modules, and there are no
+    // `layout` must outlive the pipelines. Without `choose` shaders are their plain modules, and there are no
     // vertices.
-    Pipelines(Device& device, VkPipelineLayout layout, ChooseParts choose = {})
+    Pipelines(Device& device, VkPipelineLayout layout, ChooseParts choose = plainParts)
         : device_(device), layout_(layout), choose_(std::move(choose)) {}
 
     VkPipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
     std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // new ones are made on all cores
-    // A compute shader of shaders/pass, with a layout of its own.
-    VkPipeline compute(const std::string& shader, const Variant& variant, VkPipelineLayout layout);
+    // A compute shader, with a layout of its own; `number`: of its module.
+    VkPipeline compute(Shader shader, const Variant& variant, VkPipelineLayout layout,
+                       std::uint32_t number = 0) {
+        return compute(plainModule(shader, number), variant, layout);
+    }
+    // `module` must outlive the pipelines.
+    VkPipeline compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout);
     VkPipelineLayout layout() const { return layout_; }
     std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:
-    VkShaderModule module(const std::string& name);
+    VkShaderModule load(const ShaderModule& module);
     OwnedPipeline make(const PipelineKey& key,
                        const PipelineParts& parts) const;  // its modules must be loaded
 
     Device& device_;
     VkPipelineLayout layout_;
     ChooseParts choose_;
-    std::map<std::string, OwnedShaderModule> modules_;
+    std::map<const ShaderModule*, OwnedShaderModule> modules_;
     std::map<PipelineKey, OwnedPipeline> pipelines_;
-    std::map<std::pair<std::string, Variant>, OwnedPipeline> compute_;
+    std::map<std::pair<const ShaderModule*, Variant>, OwnedPipeline> compute_;
 };
-
-OwnedShaderModule makeShaderModule(Device& device, const std::string& name);
 
 }  // namespace diptych

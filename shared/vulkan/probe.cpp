@@ -24,14 +24,16 @@ OwnedPipelineLayout emptyLayout(Device& device) {
 }
 
 // The first 32 bits of every texel after a full-screen draw of `fragment`.
-std::vector<std::uint32_t> drawProbe(Device& device, const char* fragment, VkFormat format,
-                                     std::uint32_t width) {
+std::vector<std::uint32_t> drawProbe(Device& device, Shader fragment, VkFormat format, std::uint32_t width) {
     const OwnedPipelineLayout layout = emptyLayout(device);
     Pipelines pipelines(device, layout);
     PassList passes(device, width, 1);
     const ImageRef target = passes.image("probe", format);
-    const VkPipeline pipeline = pipelines.get(
-        {.vertex = "full_screen.vert", .fragment = fragment, .variant = {}, .input = 0, .colors = {format}});
+    const VkPipeline pipeline = pipelines.get({.vertex = Shader::full_screen_vert,
+                                               .fragment = fragment,
+                                               .variant = {},
+                                               .input = 0,
+                                               .colors = {format}});
     passes.draw("probe").color(target, Load::clear).record([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
@@ -86,11 +88,11 @@ const std::array<Target, 5>& targets() {
 std::vector<TargetRounding> Device::probeRounding() {
     constexpr std::uint32_t samples = 4096;
     const std::vector<std::uint32_t> exact =
-        drawProbe(*this, "probe_rounding.frag", VK_FORMAT_R32G32B32A32_SFLOAT, samples);
+        drawProbe(*this, Shader::probe_rounding_frag, VK_FORMAT_R32G32B32A32_SFLOAT, samples);
     std::vector<TargetRounding> result;
     for (const Target& target : targets()) {
         const std::vector<std::uint32_t> bits =
-            drawProbe(*this, "probe_rounding.frag", target.format, samples);
+            drawProbe(*this, Shader::probe_rounding_frag, target.format, samples);
         double largest = 0, above = 0;
         for (std::uint32_t i = 0; i < samples; ++i) {
             const auto value = static_cast<double>(std::bit_cast<float>(exact[i]));
@@ -107,7 +109,7 @@ std::vector<TargetRounding> Device::probeRounding() {
 
 std::uint32_t Device::probeLoopLimit() {
     return static_cast<std::uint32_t>(
-        std::bit_cast<float>(drawProbe(*this, "probe_loop.frag", VK_FORMAT_R32_SFLOAT, 1).front()));
+        std::bit_cast<float>(drawProbe(*this, Shader::probe_loop_frag, VK_FORMAT_R32_SFLOAT, 1).front()));
 }
 
 std::vector<DeviceFact> Device::probe() {

@@ -68,7 +68,7 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
     buffer_ = OwnedBuffer(device.handle(), buffer);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    memory_ = device.memory().allocate(needs, use, false);
+    memory_ = device.memory().allocate(needs, use, false, "the buffer " + name);
     checkResult(vkBindBufferMemory(device.handle(), buffer, memory_.memory(), memory_.offset()),
                 "vkBindBufferMemory");
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
@@ -96,7 +96,9 @@ GpuImage::GpuImage(Device& device, const GpuImageInfo& info, Memory memory)
     image_ = OwnedImage(device_, image);
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), info.name);
     if (memory == Memory::none) return;
-    memory_ = device.memory().allocate(requirements(), MemoryUse::device, true);
+    memory_ =
+        device.memory().allocate(requirements(), MemoryUse::device, true,
+                                 fmt::format("the image {} of {}x{}", info.name, info.width, info.height));
     bind(memory_.memory(), memory_.offset());
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+// The shaders of shaders/pass as the build embeds them, each as one or several SPIR-V modules.
 #pragma once
+
+#include "shader_names.h"  // made from the files of shaders/pass: enum class Shader
 
 #include <cstdint>
 #include <span>
@@ -7,11 +10,22 @@
 
 namespace diptych {
 
-// The embedded module of an entry point by its file's name in shaders/pass, e.g. "depth.vert"; empty where
-// there is none.
-std::span<const std::uint32_t> findSpirv(std::string_view name);
+// What cannot be specialised in SPIR-V is compiled several times: shaders/README.md.
+struct ShaderModule {
+    std::string_view name;  // the file's, and which it is: "gbuffer.frag.3.inputs0"
+    Shader shader;          // its file
+    std::uint32_t number;   // of attachments that it draws to, or of MULTISAMPLED; 0 where there is one alone
+    bool area_lights;       // with the code of area lights, of shaders that have it
+    int inputs;             // the set of inputs between its stage and the other, 3 being all
+    std::span<const std::uint32_t> words;
+};
 
-// The names of all embedded modules: "depth.vert", "gbuffer.frag.3.inputs0", ...
-std::span<const std::string_view> spirvModules();
+// By shader, number, area_lights and inputs.
+std::span<const ShaderModule> shaderModules();
+std::span<const ShaderModule> shaderModules(Shader shader);
+
+// The module with all inputs and without area lights that has this number, or of a shader without numbers the
+// one that there is. Throws std::logic_error for a number that a shader with numbers does not have.
+const ShaderModule& plainModule(Shader shader, std::uint32_t number = 0);
 
 }  // namespace diptych

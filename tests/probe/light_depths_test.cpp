@@ -69,7 +69,7 @@ struct DepthImage {
         image = OwnedImage(probeDevice().handle(), handle);
         VkMemoryRequirements needs;
         vkGetImageMemoryRequirements(probeDevice().handle(), handle, &needs);
-        memory = probeDevice().memory().allocate(needs, MemoryUse::device, true);
+        memory = probeDevice().memory().allocate(needs, MemoryUse::device, true, "depth");
         checkResult(vkBindImageMemory(probeDevice().handle(), handle, memory.memory(), memory.offset()),
                     "vkBindImageMemory");
         view = viewOf(handle);
@@ -251,8 +251,8 @@ Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
     const OwnedSampler sampler = makeNearestSampler(probeDevice());
     set.image(0, gpu::BINDING_LISTS_DEPTH, image.view, sampler, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     Pipelines kernels(probeDevice(), VK_NULL_HANDLE);
-    const VkPipeline kernel = kernels.compute(
-        picture.samples > 1 ? "light_depths.comp.1" : "light_depths.comp.0", {}, frame.lists().pipeline());
+    const VkPipeline kernel =
+        kernels.compute(Shader::light_depths_comp, {}, frame.lists().pipeline(), picture.samples > 1 ? 1 : 0);
     probeDevice().submit([&](VkCommandBuffer commands) {
         samples.record(commands, image);
         const std::array sets{frame.set(), set[0]};

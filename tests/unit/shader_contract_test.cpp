@@ -38,9 +38,9 @@ struct Module {
 const std::vector<Module>& modules() {
     static const std::vector<Module> all = [] {
         std::vector<Module> read;
-        for (const std::string_view name : spirvModules()) {
-            const SpirvModule module(findSpirv(name));
-            read.push_back({name, module.usedConstants(), module.bindings()});
+        for (const ShaderModule& embedded : shaderModules()) {
+            const SpirvModule module(embedded.words);
+            read.push_back({embedded.name, module.usedConstants(), module.bindings()});
         }
         return read;
     }();
@@ -72,11 +72,28 @@ const ModuleKind* kindOf(std::string_view module) {
 }
 
 TEST(ShaderContract, EveryModuleBelongsToAPassOrToNone) {
-    ASSERT_GT(spirvModules().size(), 80u);
-    for (const std::string_view module : spirvModules()) {
-        EXPECT_NE(kindOf(module), nullptr) << module;
-        EXPECT_FALSE(findSpirv(module).empty()) << module;
+    ASSERT_GT(shaderModules().size(), 80u);
+    for (const ShaderModule& module : shaderModules()) {
+        EXPECT_NE(kindOf(module.name), nullptr) << module.name;
+        EXPECT_FALSE(module.words.empty()) << module.name;
     }
+}
+
+// The table that the build makes: each shader has its modules in one run, and a plain one of every number.
+TEST(ShaderContract, ModulesAreFoundByShaderAndNumber) {
+    std::size_t found = 0;
+    for (const ShaderModule& module : shaderModules()) {
+        EXPECT_EQ(plainModule(module.shader, module.number).number, module.number) << module.name;
+        EXPECT_TRUE(module.name.starts_with(plainModule(module.shader, module.number).name)) << module.name;
+        const auto ofShader = shaderModules(module.shader);
+        found += &module == &ofShader.front() ? ofShader.size() : 0;
+    }
+    EXPECT_EQ(found, shaderModules().size());
+    EXPECT_EQ(plainModule(Shader::gbuffer_frag, 4).name, "gbuffer.frag.4");
+    EXPECT_EQ(plainModule(Shader::surface_vert, 4).name, "surface.vert");
+    EXPECT_EQ(plainModule(Shader::light_depths_comp, 1).name, "light_depths.comp.1");
+    EXPECT_TRUE(shaderModules(Shader::none).empty());
+    EXPECT_THROW(plainModule(Shader::gbuffer_frag, 9), std::logic_error);
 }
 
 struct PassName {
@@ -314,16 +331,16 @@ std::size_t ends(std::span<const std::uint32_t> words) {
 
 TEST(ShaderContract, NoInvocationEndsBeforeItsNeighbours) {
     std::size_t demoting = 0;
-    for (const std::string_view module : spirvModules()) {
-        EXPECT_EQ(ends(findSpirv(module)), 0u) << module;
-        demoting += SpirvModule(findSpirv(module)).count(opDemote);
+    for (const ShaderModule& module : shaderModules()) {
+        EXPECT_EQ(ends(module.words), 0u) << module.name;
+        demoting += SpirvModule(module.words).count(opDemote);
     }
     EXPECT_GT(demoting, 40u);
 }
 
 TEST(ShaderContract, AnInvocationThatEndsIsFound) {
     for (const std::uint32_t op : {opKill, opTerminateInvocation}) {
-        const auto module = findSpirv("gbuffer.frag.4");
+        const auto module = plainModule(Shader::gbuffer_frag, 4).words;
         std::vector<std::uint32_t> words(module.begin(), module.end());
         std::ranges::replace(words, std::uint32_t{1 << 16 | opDemote}, std::uint32_t{1 << 16 | op});
         EXPECT_EQ(ends(words), 1u);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/prepared_frames.h"
+
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+
+namespace diptych {
+
+struct PreparedFrames::State {
+    Device& device;
+    std::vector<std::unique_ptr<PreparedFrame>> frames;
+    std::vector<Frame> described;
+};
+
+PreparedFrames::PreparedFrames(Device& device, SharedResources& shared, SceneViews& views,
+                               std::span<const Settings> settings)
+    : state_(new State{device, {}, {}}) {
+    for (const Settings& s : settings) {
+        checkSize(device, s.size);
+        state_->frames.push_back(
+            std::make_unique<PreparedFrame>(device, shared, views.at(viewRequest(s)), s));
+        const PreparedFrame& prepared = *state_->frames.back();
+        state_->described.push_back(describedFrame(prepared, shared, views.scene(), s));
+        state_->described.back().bytes = diptych::bytesOf(prepared, shared);
+    }
+}
+
+PreparedFrames::PreparedFrames(PreparedFrames&&) noexcept = default;
+PreparedFrames::~PreparedFrames() = default;
+
+std::size_t PreparedFrames::size() const {
+    return state_->frames.size();
+}
+
+double PreparedFrames::draw(std::size_t i) {
+    return state_->frames.at(i)->passes.run();
+}
+
+double PreparedFrames::recordMs(std::size_t i) const {
+    return state_->frames.at(i)->passes.recordMs();
+}
+
+double PreparedFrames::objectListsMs(std::size_t i) const {
+    return state_->frames.at(i)->view.buffers.objects().chosenInMs();
+}
+
+void PreparedFrames::warmUp(std::span<const std::size_t> which) {
+    double worked = 0;
+    while (!which.empty() && worked < state_->device.profile().warm_up_ms)
+        for (const std::size_t i : which) worked += draw(i);
+}
+
+std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
+    PassList& passes = state_->frames.at(i)->passes;
+    std::vector<PassTime> times;
+    for (const PassMs& pass : passes.profile(0, passes.size())) times.push_back({pass.name, pass.ms});
+    return times;
+}
+
+Image PreparedFrames::lit(std::size_t i) {
+    return readLit(*state_->frames.at(i));
+}
+
+std::uint64_t PreparedFrames::overflowedLists(std::size_t i) const {
+    return state_->frames.at(i)->view.buffers.lists().overflowed();
+}
+
+const Frame& PreparedFrames::described(std::size_t i) const {
+    return state_->described.at(i);
+}
+
+}  // namespace diptych

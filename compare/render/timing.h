@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Times of frames that are drawn in turn: what slows the machine down for a while slows all of them.
+#pragma once
+
+#include "compare/render/prepared_frames.h"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+struct TimedFrame {
+    std::vector<double> ms;        // of each frame, in the order they were drawn
+    FrameTime time;                // of these
+    std::vector<PassTime> passes;  // medians over the profiled frames
+    double made_in_ms = 0;         // wall clock of all that
+};
+
+// Each frame's first draw, in which drivers compile, must be over. Draws frames `which` of `frames` until a
+// GPU has left its idle clocks (DeviceProfile::warm_up_ms), then in `runs` rounds of one frame each, then in
+// `profiled` rounds in which each pass is timed by itself. In the order of `which`. `step`, if any, is called
+// before each frame of a round with its number in `frames` and "frame" or "passes".
+std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
+                                    int profiled,
+                                    const std::function<void(std::size_t, const char*)>& step = {});
+
+// Where a frame keeps them.
+void addTimes(const TimedFrame& timed, Frame& frame);
+
+}  // namespace diptych

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/pass.h"
+
+namespace diptych {
+
+Pass& Pass::color(ImageRef image, Load load, VkClearColorValue clear, Slice slice, ImageRef resolved) {
+    colors_.push_back({image, load, {.color = clear}, slice, resolved});
+    return *this;
+}
+
+Pass& Pass::depth(ImageRef image, Load load, float clear, Slice slice, ImageRef resolved) {
+    depth_ = {image, load, {.depthStencil = {clear, 0}}, slice, resolved};
+    depth_writes_ = true;
+    return *this;
+}
+
+Pass& Pass::depthTest(ImageRef image, Slice slice) {
+    depth_ = {image, Load::keep, {}, slice, {}};
+    depth_writes_ = false;
+    return *this;
+}
+
+// The layout, which depends on the format, is filled in when the pass's uses are listed.
+Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages) {
+    images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, {}, true});
+    return *this;
+}
+
+Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages, const Part& part) {
+    images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, part});
+    return *this;
+}
+
+Pass& Pass::uses(ImageRef image, const Access& access, const Part& part, bool discards) {
+    images_.push_back({image, access, part, false, discards});
+    return *this;
+}
+
+Pass& Pass::uses(BufferRef buffer, const Access& access) {
+    buffers_.emplace_back(buffer, access);
+    return *this;
+}
+
+Pass& Pass::prepare(std::function<void()> make) {
+    prepare_ = std::move(make);
+    return *this;
+}
+
+Pass& Pass::takes(double ms) {
+    ms_ = ms;
+    return *this;
+}
+
+Pass& Pass::record(std::function<void(VkCommandBuffer)> commands) {
+    record_ = std::move(commands);
+    return *this;
+}
+
+}  // namespace diptych

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// Running a pass list: barriers, draws in bands, submits, times.
+#include "shared/vulkan/check.h"
+#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/pass_resource.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace diptych {
+
+namespace {
+
+// The scopes of a barrier of an image or a buffer.
+template <class VulkanBarrier>
+VulkanBarrier scopesOf(VkStructureType type, const Barrier& barrier) {
+    VulkanBarrier scopes{};
+    scopes.sType = type;
+    scopes.srcStageMask = barrier.from.stages;
+    scopes.srcAccessMask = barrier.from.access;
+    scopes.dstStageMask = barrier.to.stages;
+    scopes.dstAccessMask = barrier.to.access;
+    scopes.srcQueueFamilyIndex = scopes.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    return scopes;
+}
+
+double msSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+OwnedQueryPool makeTimestamps(VkDevice device, std::uint32_t count) {
+    const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                     .pNext = nullptr,
+                                     .flags = 0,
+                                     .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                     .queryCount = count,
+                                     .pipelineStatistics = 0};
+    VkQueryPool pool = VK_NULL_HANDLE;
+    checkResult(vkCreateQueryPool(device, &info, nullptr, &pool), "vkCreateQueryPool");
+    return {device, pool};
+}
+
+}  // namespace
+
+VkImageView PassList::attachmentView(ImageRef image, const Slice& slice) {
+    return view(image, {slice.level, 1, slice.layer, 1});
+}
+
+void PassList::barriersBefore(const std::string& pass, const std::vector<Use>& uses,
+                              VkCommandBuffer commands) {
+    std::vector<VkImageMemoryBarrier2> images;
+    std::vector<VkBufferMemoryBarrier2> buffers;
+    for (const Barrier& barrier : tracker_.before(pass, uses)) {
+        recorded_.push_back({pass, tracker_.name(barrier.resource), barrier.part, barrier.from, barrier.to});
+        const Resource& found = *resources_[barrier.resource];
+        if (found.image) {
+            auto of = scopesOf<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, barrier);
+            of.oldLayout = barrier.from.layout;
+            of.newLayout = barrier.to.layout;
+            of.image = found.image->handle();
+            of.subresourceRange = {found.image->aspect(), barrier.part.level, barrier.part.levels,
+                                   barrier.part.layer, barrier.part.layers};
+            images.push_back(of);
+        } else {
+            auto of = scopesOf<VkBufferMemoryBarrier2>(VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, barrier);
+            of.buffer = found.buffer->handle();
+            of.size = VK_WHOLE_SIZE;
+            buffers.push_back(of);
+        }
+    }
+    if (images.empty() && buffers.empty()) return;
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .pNext = nullptr,
+                                .dependencyFlags = 0,
+                                .memoryBarrierCount = 0,
+                                .pMemoryBarriers = nullptr,
+                                .bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size()),
+                                .pBufferMemoryBarriers = buffers.data(),
+                                .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
+                                .pImageMemoryBarriers = images.data()};
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+// Transients that are used by this pass first wait for whoever had their memory before.
+void PassList::beginLives(BarrierTracker& tracker, std::size_t pass) const {
+    for (std::size_t i = 0; i < resources_.size(); ++i)
+        if (resources_[i]->before && resources_[i]->first == pass) tracker.alias(i, *resources_[i]->before);
+}
+
+void PassList::runPiece(const Piece& piece, VkCommandBuffer commands) {
+    const Pass& pass = *passes_[piece.pass];
+    if (piece.band == 0) {
+        beginLives(tracker_, piece.pass);
+        barriersBefore(pass.name_, usesOf(pass), commands);
+    } else {
+        // What the bands before it have drawn stays.
+        std::vector<Use> uses = usesOf(pass);
+        for (Use& use : uses) use.discards = false;
+        barriersBefore(pass.name_, uses, commands);
+    }
+    device_.beginLabel(commands, pass.name_);
+    if (pass.kind_ == Pass::Kind::draw)
+        renderPass(pass, piece, commands);
+    else if (pass.record_)
+        pass.record_(commands);
+    device_.endLabel(commands);
+}
+
+VkExtent2D PassList::extentOf(const Pass& pass) const {
+    const Pass::Attachment* const any = !pass.colors_.empty()       ? &pass.colors_.front()
+                                        : pass.depth_.image.valid() ? &pass.depth_
+                                                                    : nullptr;
+    if (any == nullptr) return {width_, height_};
+    return diptych::extentOf(resource(any->image).image->info(), any->slice);
+}
+
+void PassList::renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer commands) {
+    const VkExtent2D extent = extentOf(pass);
+    const auto attach = [&](const Pass::Attachment& a, VkImageLayout layout, bool store) {
+        VkRenderingAttachmentInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+        info.imageView = attachmentView(a.image, a.slice);
+        info.imageLayout = layout;
+        info.loadOp = a.load == Load::clear && piece.band == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR
+                                                               : VK_ATTACHMENT_LOAD_OP_LOAD;
+        info.storeOp = store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
+        info.clearValue = a.clear;
+        if (a.resolved.valid() && piece.band + 1 == piece.bands) {
+            info.resolveMode =
+                &a == &pass.depth_ ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT : VK_RESOLVE_MODE_AVERAGE_BIT;
+            info.resolveImageView = view(a.resolved);
+            info.resolveImageLayout = layout;
+        }
+        return info;
+    };
+    std::vector<VkRenderingAttachmentInfo> colors;
+    for (const auto& color : pass.colors_)
+        colors.push_back(attach(color, access::colorAttachment.layout, true));
+    VkRenderingAttachmentInfo depth{};
+    if (pass.depth_.image.valid())
+        depth = attach(pass.depth_,
+                       pass.depth_writes_ ? access::depthAttachment.layout : access::depthTest.layout,
+                       pass.depth_writes_);
+    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                               .pNext = nullptr,
+                               .flags = 0,
+                               .renderArea = {{0, 0}, extent},
+                               .layerCount = 1,
+                               .viewMask = 0,
+                               .colorAttachmentCount = static_cast<std::uint32_t>(colors.size()),
+                               .pColorAttachments = colors.data(),
+                               .pDepthAttachment = pass.depth_.image.valid() ? &depth : nullptr,
+                               .pStencilAttachment = nullptr};
+    vkCmdBeginRendering(commands, &info);
+    // Depth is reversed and 0 says that nothing was drawn: what lies exactly on the far plane gets the least
+    // depth above it. Everything else is unchanged, being far larger.
+    constexpr float leastDepth = 1e-37f;
+    const VkViewport viewport{
+        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), leastDepth, 1};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    const auto row = [&](std::uint32_t band) {
+        return static_cast<std::int32_t>(std::uint64_t{extent.height} * band / piece.bands);
+    };
+    const VkRect2D rows{{0, row(piece.band)},
+                        {extent.width, static_cast<std::uint32_t>(row(piece.band + 1) - row(piece.band))}};
+    vkCmdSetScissor(commands, 0, 1, &rows);
+    if (pass.record_) pass.record_(commands);
+    vkCmdEndRendering(commands);
+}
+
+std::vector<PassList::Span> PassList::spans(std::size_t first, std::size_t last) const {
+    std::vector<Span> all;
+    for (std::size_t i = first; i < last; ++i)
+        if (!all.empty() && passes_[i]->name_ == passes_[all.back().first]->name_)
+            all.back().last = i + 1;
+        else
+            all.push_back({i, i + 1});
+    return all;
+}
+
+// Draws that take longer than the device may be kept busy for come in bands.
+std::vector<PassList::Piece> PassList::pieces(const std::vector<Span>& spans) const {
+    const double longest = device_.profile().longest_submit_ms;
+    std::vector<Piece> all;
+    for (std::size_t span = 0; span < spans.size(); ++span)
+        for (std::size_t i = spans[span].first; i < spans[span].last; ++i) {
+            const Pass& pass = *passes_[i];
+            const double rows = pass.kind_ == Pass::Kind::draw ? extentOf(pass).height : 1;
+            const auto bands =
+                static_cast<std::uint32_t>(std::clamp(std::ceil(pass.ms_ / longest), 1.0, rows));
+            for (std::uint32_t band = 0; band < bands; ++band)
+                all.push_back({i, span, band, bands, pass.ms_ / bands});
+        }
+    return all;
+}
+
+// For the message of a device that was lost.
+std::string PassList::describe(const std::vector<Piece>& pieces) const {
+    const auto nameOfPiece = [&](const Piece& piece) {
+        const std::string& name = passes_[piece.pass]->name_;
+        return piece.bands == 1 ? name : fmt::format("{} ({} of {})", name, piece.band + 1, piece.bands);
+    };
+    const std::string first = nameOfPiece(pieces.front()), last = nameOfPiece(pieces.back());
+    return first == last ? first : fmt::format("{} to {}", first, last);
+}
+
+// Adds each piece's time to that of its span: from time stamps where spans change, or that of all pieces,
+// which are of one span then, by the clock.
+void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms) {
+    struct Stamp {
+        std::size_t span;  // that ends with it
+    };
+    std::vector<Stamp> stamps;
+    OwnedQueryPool pool;
+    const bool stamped = device_.profile().time_stamps;
+    const auto most = static_cast<std::uint32_t>(pieces.size() + 1);
+    if (stamped) pool = makeTimestamps(device_.handle(), most);
+    const auto stamp = [&](VkCommandBuffer commands, std::uint32_t query) {
+        if (stamped) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
+    };
+    const double elapsed = device_.submit(
+        [&](VkCommandBuffer commands) {
+            const auto start = std::chrono::steady_clock::now();
+            if (stamped) vkCmdResetQueryPool(commands, pool, 0, most);
+            stamp(commands, 0);
+            for (std::size_t i = 0; i < pieces.size(); ++i) {
+                runPiece(pieces[i], commands);
+                if (i + 1 < pieces.size() && pieces[i + 1].span == pieces[i].span) continue;
+                stamps.push_back({pieces[i].span});
+                stamp(commands, static_cast<std::uint32_t>(stamps.size()));
+            }
+            record_ms_ += msSince(start);
+        },
+        describe(pieces));
+    if (!stamped) {
+        ms[pieces.front().span] += elapsed;
+        return;
+    }
+    std::vector<std::uint64_t> ticks(stamps.size() + 1);
+    checkResult(
+        vkGetQueryPoolResults(device_.handle(), pool, 0, static_cast<std::uint32_t>(ticks.size()),
+                              ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "vkGetQueryPoolResults");
+    for (std::size_t i = 0; i < stamps.size(); ++i)
+        ms[stamps[i].span] += static_cast<double>(device_.ticksBetween(ticks[i], ticks[i + 1])) *
+                              static_cast<double>(device_.limits().timestampPeriod) * 1e-6;
+}
+
+// Milliseconds of each span. A submit holds as many pieces as the device may be kept busy with, and without
+// time stamps those of one span.
+std::vector<double> PassList::runSpans(const std::vector<Span>& spans) {
+    std::vector<double> ms(spans.size());
+    std::vector<Piece> waiting;
+    double work = 0;
+    record_ms_ = 0;
+    for (const Piece& piece : pieces(spans)) {
+        const bool apart =
+            !device_.profile().time_stamps && !waiting.empty() && waiting.back().span != piece.span;
+        if (!waiting.empty() && (apart || work + piece.ms > device_.profile().longest_submit_ms)) {
+            submit(waiting, ms);
+            waiting.clear();
+            work = 0;
+        }
+        waiting.push_back(piece);
+        work += piece.ms;
+    }
+    if (!waiting.empty()) submit(waiting, ms);
+    return ms;
+}
+
+double PassList::run(std::size_t first, std::size_t last) {
+    prepare(first, last);
+    return runSpans({{first, last}}).front();
+}
+
+std::vector<PassMs> PassList::profile(std::size_t first, std::size_t last) {
+    prepare(first, last);
+    const std::vector<Span> all = spans(first, last);
+    const std::vector<double> ms = runSpans(all);
+    std::vector<PassMs> times;
+    for (std::size_t s = 0; s < all.size(); ++s) times.push_back({passes_[all[s].first]->name_, ms[s]});
+    return times;
+}
+
+void PassList::enqueue(FramesInFlight& frames) {
+    prepare(0, size());
+    frames.submit([&](VkCommandBuffer commands) {
+        for (std::size_t i = 0; i < size(); ++i) runPiece({.pass = i, .span = 0}, commands);
+    });
+}
+
+}  // namespace diptych

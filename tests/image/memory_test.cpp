@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Where device memory comes from when it is short: the next memory type, an exact size, and at last a message
+// that names what was too large. A heap that is full is played: lavapipe has one that never is.
+#include "shared/vulkan/memory.h"
+#include "tests/image/scenes.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+constexpr VkMemoryPropertyFlags localMemory = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                visibleMemory = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                                VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                cachedMemory = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+constexpr VkDeviceSize mebibyte = VkDeviceSize{1} << 20;
+
+// As many a discrete GPU has them: 0 its own, 1 the host's, 2 the host's and cached, 3 its own that the host
+// sees.
+VkPhysicalDeviceMemoryProperties discreteMemory() {
+    VkPhysicalDeviceMemoryProperties properties{};
+    properties.memoryTypeCount = 4;
+    properties.memoryTypes[0] = {localMemory, 0};
+    properties.memoryTypes[1] = {visibleMemory, 1};
+    properties.memoryTypes[2] = {visibleMemory | cachedMemory, 1};
+    properties.memoryTypes[3] = {localMemory | visibleMemory, 2};
+    properties.memoryHeapCount = 3;
+    return properties;
+}
+
+using Types = std::vector<std::uint32_t>;
+
+TEST(MemoryTypes, TheBestComeFirstAndAllThatServeFollow) {
+    const VkPhysicalDeviceMemoryProperties discrete = discreteMemory();
+    EXPECT_EQ(memoryTypes(discrete, 0xf, MemoryUse::device), (Types{0, 3, 1, 2}));
+    EXPECT_EQ(memoryTypes(discrete, 0xf, MemoryUse::upload), (Types{1, 2, 3}));
+    EXPECT_EQ(memoryTypes(discrete, 0xf, MemoryUse::readback), (Types{2, 1, 3}));
+    EXPECT_EQ(memoryTypes(discrete, 0x6, MemoryUse::device), (Types{1, 2}));
+    EXPECT_EQ(memoryTypes(discrete, 0x1, MemoryUse::readback), Types{});
+}
+
+// Memory of those types, whose heaps give up to so many bytes. All of it is really of device()'s first type
+// that the host sees.
+class PlayedMemory {
+public:
+    explicit PlayedMemory(std::vector<VkDeviceSize> room, std::vector<VkDeviceSize> says = {})
+        : room_(std::move(room)),
+          memory_(device().handle(), discreteMemory(),
+                  {.allocate = [this](const VkMemoryAllocateInfo& info,
+                                      VkDeviceMemory* memory) { return allocate(info, memory); },
+                   .left = [says = std::move(says)] { return says; }}) {}
+
+    Allocation take(VkDeviceSize size) {
+        return memory_.allocate({size, 16, 0xf}, MemoryUse::device, true, "the image lit");
+    }
+    const Types& asked() const { return asked_; }
+    Memory& memory() { return memory_; }
+
+private:
+    VkResult allocate(VkMemoryAllocateInfo info, VkDeviceMemory* memory) {
+        const VkPhysicalDeviceMemoryProperties discrete = discreteMemory();
+        asked_.push_back(info.memoryTypeIndex);
+        VkDeviceSize& room = room_.at(discrete.memoryTypes[info.memoryTypeIndex].heapIndex);
+        if (info.allocationSize > room) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        room -= info.allocationSize;
+        VkPhysicalDeviceMemoryProperties real;
+        vkGetPhysicalDeviceMemoryProperties(device().physical(), &real);
+        info.memoryTypeIndex = memoryTypes(real, ~0u, MemoryUse::upload).at(0);
+        return vkAllocateMemory(device().handle(), &info, nullptr, memory);
+    }
+
+    std::vector<VkDeviceSize> room_;
+    Types asked_;
+    Memory memory_;
+};
+
+TEST(MemoryTypes, TheNextTypeIsTakenWhereOneIsFull) {
+    PlayedMemory played({100 * mebibyte, 300 * mebibyte, 0});
+    const Allocation first = played.take(80 * mebibyte), second = played.take(80 * mebibyte);
+    // The second finds neither the device's own memory nor that which the host sees.
+    EXPECT_EQ(played.asked(), (Types{0, 0, 3, 1}));
+    EXPECT_EQ(first.mapped(), nullptr);
+    EXPECT_NE(second.mapped(), nullptr);
+    EXPECT_EQ(played.memory().allocated(), 160 * mebibyte);
+}
+
+TEST(MemoryTypes, ABlockIsAsSmallAsItMustBe) {
+    PlayedMemory played({40 * mebibyte, 0, 0});
+    const Allocation small = played.take(30 * mebibyte);
+    EXPECT_EQ(played.memory().allocated(), 30 * mebibyte);
+}
+
+// A heap that says that it has little left is asked last, though it might give more than it says.
+TEST(MemoryTypes, HeapsSayWhatTheyHaveLeft) {
+    PlayedMemory played({1000 * mebibyte, 1000 * mebibyte, 1000 * mebibyte},
+                        {mebibyte, 1000 * mebibyte, mebibyte});
+    const Allocation other = played.take(80 * mebibyte);
+    EXPECT_EQ(played.asked(), Types{1});
+    PlayedMemory wrong({1000 * mebibyte, 0, 0}, {mebibyte, mebibyte, mebibyte});
+    const Allocation same = wrong.take(80 * mebibyte);
+    EXPECT_EQ(wrong.asked(), Types{0});
+}
+
+TEST(MemoryTypes, WhatWasTooLargeIsNamed) {
+    PlayedMemory played({100 * mebibyte, 0, 0}, {20 * mebibyte, 0, 0});
+    const Allocation first = played.take(80 * mebibyte);
+    try {
+        played.take(300 * mebibyte);
+        FAIL() << "there is no such memory";
+    } catch (const std::runtime_error& error) {
+        EXPECT_EQ(
+            std::string(error.what()),
+            "Vulkan: no memory for the image lit, 300.0 MiB: 80.0 MiB in use, 20.0 MiB left in its heap; "
+            "try a smaller --size");
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
