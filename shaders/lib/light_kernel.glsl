@@ -10,7 +10,7 @@ layout(set = SET_LISTS, binding = BINDING_BOUNDS, scalar) readonly buffer Bounds
 };
 layout(set = SET_LISTS, binding = BINDING_MASKS, scalar) buffer Masks { uint masks[]; };
 layout(set = SET_LISTS, binding = BINDING_COUNTS, scalar) buffer Counts { LightListCount counts[]; };
-layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec3 tile_depths[]; };
+layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec2 tile_depths[]; };
 layout(set = SET_LISTS, binding = BINDING_USED_WORDS, scalar) buffer UsedWords { uint used_words[]; };
 layout(set = SET_LISTS, binding = BINDING_FOUR_BEGINS, scalar) buffer FourBegins { uint four_begins[]; };
 layout(set = SET_LISTS, binding = BINDING_OVERFLOW, scalar) buffer Overflow { uint overflowed_lists; };
@@ -50,13 +50,10 @@ LightListHead headOf(LightListCount count) {
 // and so read neighbouring words.
 uint maskWord(uint word, uint list) { return word * grid.list_stride + list; }
 
-// View depths that a cell's list for opaque surfaces covers, m; tiled: those of the depths drawn there.
+// View depths that a cell covers, m; tiled: those drawn there.
 vec2 cellDepths(uint tile, uint slice) {
-    return feature_light_lists == LISTS_TILED ? tile_depths[tile].xy : sliceDepths(slice);
+    return feature_light_lists == LISTS_TILED ? tile_depths[tile] : sliceDepths(slice);
 }
-
-// View depths that a tile's list for transparent surfaces covers, m: they begin at the camera.
-vec2 transparentDepths(uint tile) { return vec2(0.0, tile_depths[tile].z); }
 
 // The bits of `word` that are lights below number `end`.
 uint bitsBelow(uint word, uint end) {

@@ -40,11 +40,6 @@ void main() {
             uint number = row * grid.tiles.x + column;
             uvec2 tile = uvec2(column, row);
             bool reached = reaches(bound, cellBounds(tile, tiled ? cellDepths(number, slice) : slab));
-            if (tiled) {
-                bool around = reaches(bound, cellBounds(tile, transparentDepths(number)));
-                reached = reached && around;  // drops false positives of the opaque cell
-                if (around) atomicOr(masks[maskWord(word, grid.cells + number)], bit);
-            }
             if (reached) atomicOr(masks[maskWord(word, slice * grid.tiles.x * grid.tiles.y + number)], bit);
         }
     }

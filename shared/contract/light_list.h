@@ -27,8 +27,7 @@ struct LightGrid {
     uint slices;         // of depth; 1 where tiled
     float slice_offset;  // m: slice = (bits of (depth + offset) - bits of offset) >> shift, as integers, at
     uint slice_shift;    //   most slices - 1: steps that grow with depth and are exact to tell, without a log
-    uint cells;          // tiles.x * tiles.y * slices; tiled: of opaque lists, those of transparents follow
-    uint lists;          // cells, or twice as many where tiled
+    uint lists;          // one a cell: tiles.x * tiles.y * slices
     uint list_stride;    // lists of one row of the masks: a multiple of four
     uint local_lights;
     uint first_local;    // directional lights before them
@@ -92,7 +91,7 @@ CONTRACT_END
     X(0,  BOUNDS,      storage_buffer, "LightBound[local_lights]")                                        \
     X(1,  MASKS,       storage_buffer, "uint[words][list_stride]: bit i of word w is light 32 w + i")     \
     X(2,  COUNTS,      storage_buffer, "LightListCount[lists][segments]")                                 \
-    X(3,  TILE_DEPTHS, storage_buffer, "vec3[tiles]: least, largest and visible view depth, m")           \
+    X(3,  TILE_DEPTHS, storage_buffer, "vec2[tiles]: least and largest view depth drawn there, m")         \
     X(4,  OVERFLOW,    storage_buffer, "uint: lists that found no room")                                  \
     X(5,  LISTS_DEPTH, image,          "the picture's depth")                                             \
     X(6,  HEADS,       storage_buffer, "LightListHead[lists]")                                            \

@@ -210,7 +210,7 @@ std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
                      tiles(y - cut, y + cut, near, far, grid.centre.y, grid.tiles.y);
         }
     }
-    return grid.lists > grid.cells ? 2 * pairs : pairs;
+    return pairs;
 }
 
 gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
@@ -231,8 +231,7 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
     else
         sizeTiles(grid, view, std::bit_width(gpu::LIGHT_TILE) - 1);
     const auto count = [&] {
-        grid.cells = grid.tiles.x * grid.tiles.y * grid.slices;
-        grid.lists = lists == gpu::LISTS_TILED ? 2 * grid.cells : grid.cells;
+        grid.lists = grid.tiles.x * grid.tiles.y * grid.slices;
         grid.list_stride = (grid.lists + 3) / 4 * 4;
         return std::uint64_t{grid.list_stride};
     };

@@ -101,7 +101,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
         buffer("used words of light masks", std::uint64_t{(grid_.words + 31) / 32} * grid_.list_stride, 4);
     counts_ =
         buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
-    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec3));
+    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec2));
     overflow_ = buffer("light list overflow", 1, 4);
     overflow_seen_ = GpuBuffer(device, "light list overflow, read back", 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                MemoryUse::readback);

@@ -47,8 +47,7 @@ TEST(LightGrid, CoversAnyPictureWithWholeTiles) {
             EXPECT_GE(grid.tiles.x * side, static_cast<unsigned>(width));
             EXPECT_LT((grid.tiles.x - 1) * side, static_cast<unsigned>(width));
             EXPECT_GE(grid.tiles.y * side, static_cast<unsigned>(height));
-            EXPECT_EQ(grid.cells, grid.tiles.x * grid.tiles.y * grid.slices);
-            EXPECT_EQ(grid.lists, lists == gpu::LISTS_TILED ? 2 * grid.cells : grid.cells);
+            EXPECT_EQ(grid.lists, grid.tiles.x * grid.tiles.y * grid.slices);
             if (lists == gpu::LISTS_TILED) {
                 EXPECT_EQ(side, gpu::LIGHT_TILE);
             }
