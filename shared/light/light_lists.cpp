@@ -65,7 +65,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
         bounds = lightBounds(lights, view);
         const std::uint64_t texels = std::uint64_t{device.limits().maxTexelBufferElements} * 4;
         grid_ = makeLightGrid(
-            choice_.lists, view, lights, bounds,
+            choice_.lists, view, lights, bounds, device.profile().costs,
             std::min({std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes, texels}));
         all = listOfAll(grid_);
     }

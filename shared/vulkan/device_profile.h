@@ -9,13 +9,18 @@
 
 namespace diptych {
 
-// Nanoseconds of work on the whole device, for choices between two ways to draw the same picture.
+// Nanoseconds of work on the whole device, for choices between ways to draw the same picture: only their
+// ratios matter.
 struct DeviceCosts {
     double triangle = 0;  // of a depth pass
     double depth = 0;     // a fragment of a depth pass
     double surface = 0;   // making the surface of a shaded fragment
     double texture = 0;   // each texture of it
     double light = 0;     // each light at it
+    // Of light lists, for the size of their cells.
+    double list = 0;       // to clear, count and place one
+    double listed = 0;     // to mark and write one of its lights
+    double evaluated = 0;  // to evaluate one of its lights at a pixel
 };
 
 struct DeviceProfile {
