@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// The least and the largest view depth drawn in each tile, over all samples of all its pixels; the least is the
-// larger one where nothing was drawn. One workgroup for each tile, one thread for four pixels.
+// The least and the largest view depth drawn in each tile, over all samples of all its pixels; the least is
+// the larger one where nothing was drawn. One workgroup for each tile, one thread for four pixels.
 // MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"

@@ -22,10 +22,10 @@ constexpr double rounding = 4e-6;
 constexpr gpu::uint octaveShift = 23 - 2;
 constexpr gpu::uint mostSlices = 128;
 constexpr gpu::uint finestTile = 3, coarsestTile = 6;  // pixels, log2
-// SCATTER_THREADS threads share the cells of a light that reaches all of them; their loops stay far below
+// LIGHT_THREADS threads share the cells of a light that reaches all of them; their loops stay far below
 // lavapipe's limit.
 constexpr std::uint64_t mostCells = 131072;
-static_assert(mostCells / gpu::SCATTER_THREADS < 65535 / 2);
+static_assert(mostCells / gpu::LIGHT_THREADS < 65535 / 2);
 
 double middle(std::vector<double> values, double otherwise) {
     if (values.empty()) return otherwise;
@@ -233,7 +233,11 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
         grid.list_stride = (grid.lists + 3) / 4 * 4;
         return std::uint64_t{grid.list_stride};
     };
-    while (count() * grid.words * 4 > buffer_bytes || count() > mostCells)
+    // Of the masks, and of the candidates of tiles and slices.
+    const auto longestRow = [&] {
+        return std::max(count(), std::uint64_t{grid.tiles.x} * grid.tiles.y + grid.slices);
+    };
+    while (longestRow() * grid.words * 4 > buffer_bytes || count() > mostCells)
         sizeTiles(grid, view, grid.tile_shift + 1);
     const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds);
     // Evaluating a packet of four lights costs as much as three packets of one, so wide packets pay for long

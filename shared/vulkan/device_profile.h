@@ -33,8 +33,8 @@ struct DeviceProfile {
     // A shader's load of a uniform is gathered for every lane anew, so that fragment shaders read the view
     // from texels.
     bool gathers_uniforms = false;
-    // Workgroups run as wide as they are written. Otherwise a kernel of a thread a light beats one of a
-    // workgroup a cell.
+    // So many threads run at once that light lists are made by many for each tile (gather); otherwise by few
+    // for each light, which test less (scatter).
     bool wide_groups = false;
     DeviceCosts costs;
 };

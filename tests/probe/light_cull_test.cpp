@@ -3,6 +3,7 @@
 // must be no false negatives, and the false positives are counted.
 #include "shared/contract/features.h"
 #include "shared/light/light_grid.h"
+#include "shared/vulkan/device.h"
 #include "tests/probe/cells.h"
 #include "tests/probe/probe.h"
 
