@@ -42,8 +42,8 @@ GpuLights lightsOf(const std::vector<Light>& lights, const View& view, const Set
     return result;
 }
 
-// A workgroup a cell suits a GPU's wide groups; lavapipe runs them eight threads at a time and tests every
-// light in every cell (shared/light/README.md, "What lists cost").
+// A thread a tile and word of lights suits a GPU; lavapipe marks the cells of each light faster
+// (shared/light/README.md, "What lists cost").
 ListKernel kernelOf(LightKernel kernel, const Device& device) {
     if (kernel == LightKernel::automatic)
         return device.profile().wide_groups ? ListKernel::gather : ListKernel::scatter;

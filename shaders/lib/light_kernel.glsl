@@ -5,15 +5,14 @@
 
 #include "shaders/lib/light_cull.glsl"
 
-layout(set = SET_LISTS, binding = BINDING_BOUNDS, scalar) readonly buffer Bounds {
-    LightBound light_bounds[];
-};
+layout(set = SET_LISTS, binding = BINDING_BOUNDS) uniform samplerBuffer bound_texels;
 layout(set = SET_LISTS, binding = BINDING_MASKS, scalar) buffer Masks { uint masks[]; };
 layout(set = SET_LISTS, binding = BINDING_COUNTS, scalar) buffer Counts { LightListCount counts[]; };
-layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec3 tile_depths[]; };
+layout(set = SET_LISTS, binding = BINDING_TILE_DEPTHS, scalar) buffer TileDepths { vec2 tile_depths[]; };
 layout(set = SET_LISTS, binding = BINDING_USED_WORDS, scalar) buffer UsedWords { uint used_words[]; };
 layout(set = SET_LISTS, binding = BINDING_FOUR_BEGINS, scalar) buffer FourBegins { uint four_begins[]; };
 layout(set = SET_LISTS, binding = BINDING_OVERFLOW, scalar) buffer Overflow { uint overflowed_lists; };
+layout(set = SET_LISTS, binding = BINDING_CANDIDATES, scalar) buffer Candidates { uint candidates[]; };
 
 layout(set = SET_LISTS, binding = BINDING_HEADS, scalar) writeonly buffer Heads { LightListHead heads[]; };
 layout(set = SET_LISTS, binding = BINDING_INDICES, scalar) writeonly buffer Indices { uint indices[]; };
@@ -46,17 +45,30 @@ LightListHead headOf(LightListCount count) {
     return head;
 }
 
+LightBound boundOf(uint light) {
+    int texel = int(3u * light);
+    vec4 a = texelFetch(bound_texels, texel), b = texelFetch(bound_texels, texel + 1),
+         c = texelFetch(bound_texels, texel + 2);
+    return LIGHT_BOUND_OF_TEXELS(a, b, c);
+}
+
 // Words of the masks are stored word by word, not list by list: neighbouring threads have neighbouring lists
 // and so read neighbouring words.
 uint maskWord(uint word, uint list) { return word * grid.list_stride + list; }
 
-// View depths that a cell's list for opaque surfaces covers, m; tiled: those of the depths drawn there.
-vec2 cellDepths(uint tile, uint slice) {
-    return feature_light_lists == LISTS_TILED ? tile_depths[tile].xy : sliceDepths(slice);
+// Where a word of a tile's and of a slice's candidates stands: word by word, too.
+uint tileWord(uint word, uint tile) { return word * (grid.tiles.x * grid.tiles.y + grid.slices) + tile; }
+uint sliceWord(uint word, uint slice) { return tileWord(word, grid.tiles.x * grid.tiles.y + slice); }
+
+// Of a dispatch in rows of workgroups.
+uint threadNumber() {
+    return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
 }
 
-// View depths that a tile's list for transparent surfaces covers, m: they begin at the camera.
-vec2 transparentDepths(uint tile) { return vec2(0.0, tile_depths[tile].z); }
+// View depths that a cell covers, m; tiled: those drawn there.
+vec2 cellDepths(uint tile, uint slice) {
+    return feature_light_lists == LISTS_TILED ? tile_depths[tile] : sliceDepths(slice);
+}
 
 // The bits of `word` that are lights below number `end`.
 uint bitsBelow(uint word, uint end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tiles that a light's bounding sphere may reach, as a rectangle and row by row. The scatter kernel walks
+// The tiles that a light's bounding sphere may reach, as a rectangle and row by row. The kernels walk
 // only those.
 #ifndef LIGHT_RECT_GLSL
 #define LIGHT_RECT_GLSL

@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// The least and the largest view depth in each tile, over all samples of all its pixels, and how far
-// transparent surfaces may be seen in it: without end where a sample shows the background. One workgroup for
-// each tile, one thread for four pixels. MULTISAMPLED: 0 to 1
+// The least and the largest view depth drawn in each tile, over all samples of all its pixels; the least is
+// the larger one where nothing was drawn. One workgroup for each tile, one thread for four pixels.
+// MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
 
@@ -21,23 +21,20 @@ ivec2 size() { return textureSize(depth, 0); }
 
 const float NO_DEPTH = 2.0;
 // Reversed depths as the bits of floats; of floats that are not negative the bits order as the values do.
-shared uint nearest, deepest, background;
+shared uint nearest, deepest;
 
-void add(float z, inout float near, inout float deep, inout bool open) {
+void add(float z, inout float near, inout float deep) {
     near = max(near, z);
     deep = z > 0.0 ? min(deep, z) : deep;  // 0: nothing was drawn there
-    open = open || z <= 0.0;
 }
 
 void main() {
     if (gl_LocalInvocationIndex == 0u) {
         nearest = 0u;
         deepest = floatBitsToUint(NO_DEPTH);
-        background = 0u;
     }
     barrier();
     float near = 0.0, deep = NO_DEPTH;
-    bool open = false;
     uint side = 1u << grid.tile_shift;
     // In a tile of more pixels than the workgroup covers at once, each thread steps by LIGHT_TILE pixels
     // along both axes.
@@ -51,36 +48,33 @@ void main() {
             ivec2 last = size() - 1;
             int s = 0;
             do {
-                add(texelFetch(depth, p, s).r, near, deep, open);
-                add(texelFetch(depth, min(p + ivec2(1, 0), last), s).r, near, deep, open);
-                add(texelFetch(depth, min(p + ivec2(0, 1), last), s).r, near, deep, open);
-                add(texelFetch(depth, min(p + 1, last), s).r, near, deep, open);
+                add(texelFetch(depth, p, s).r, near, deep);
+                add(texelFetch(depth, min(p + ivec2(1, 0), last), s).r, near, deep);
+                add(texelFetch(depth, min(p + ivec2(0, 1), last), s).r, near, deep);
+                add(texelFetch(depth, min(p + 1, last), s).r, near, deep);
             } while (++s < textureSamples(depth));
 #else
             // Beyond the picture's edge the last pixel is repeated.
             vec4 z = textureGather(depth, vec2(p + 1) / vec2(size()));
-            add(z.x, near, deep, open);
-            add(z.y, near, deep, open);
-            add(z.z, near, deep, open);
-            add(z.w, near, deep, open);
+            add(z.x, near, deep);
+            add(z.y, near, deep);
+            add(z.z, near, deep);
+            add(z.w, near, deep);
 #endif
         }
     } while (++i < steps * steps);
     // One atomic operation for each subgroup, as those of single threads would wait for each other.
     near = subgroupMax(near);
     deep = subgroupMin(deep);
-    open = subgroupOr(open ? 1u : 0u) != 0u;
     if (subgroupElect()) {
         atomicMax(nearest, floatBitsToUint(near));
         atomicMin(deepest, floatBitsToUint(deep));
-        atomicOr(background, open ? 1u : 0u);
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         bool drawn = nearest > 0u;
         float least = drawn ? max(viewDepth(uintBitsToFloat(nearest)), 0.0) : MAX_BOUND_RADIUS;
         float largest = drawn ? max(viewDepth(uintBitsToFloat(deepest)), 0.0) : 0.0;
-        tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] =
-            vec3(least, largest, background != 0u ? MAX_BOUND_RADIUS : largest);
+        tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] = vec2(least, largest);
     }
 }

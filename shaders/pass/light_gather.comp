@@ -2,41 +2,39 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One workgroup for each cell: its threads test one light each until all lights are done.
-#include "shaders/lib/light_kernel.glsl"
+// One thread for each tile, 32 lights and a run of slices: the lights that are candidates of the tile and of
+// a slice are tested against the cell of both (after Drobot 2017, "Improved Culling for Tiled and Clustered
+// Rendering").
+#include "shaders/lib/light_walk.glsl"
 
-layout(local_size_x = LIST_GROUP) in;
-
-shared uint near_bits[LIST_GROUP / 32u], far_bits[LIST_GROUP / 32u];
+layout(local_size_x = 64) in;
 
 void main() {
-    uint thread = gl_LocalInvocationIndex, slice = gl_WorkGroupID.z;
-    uvec2 tile = gl_WorkGroupID.xy;
-    uint number = tile.y * grid.tiles.x + tile.x;
-    uint cell = slice * grid.tiles.x * grid.tiles.y + number;
-    vec2 depths = cellDepths(number, slice);
-    CellBounds opaque = cellBounds(tile, depths);
-    bool tiled = feature_light_lists == LISTS_TILED;
-    CellBounds transparent = cellBounds(tile, tiled ? transparentDepths(number) : depths);
-    for (uint first = 0u; first < grid.local_lights; first += LIST_GROUP) {
-        if (thread < LIST_GROUP / 32u) {
-            near_bits[thread] = 0u;
-            far_bits[thread] = 0u;
+    uint tiles = grid.tiles.x * grid.tiles.y;
+    uint number = threadNumber() % tiles, word = threadNumber() / tiles;
+    if (word >= grid.words) return;
+    uvec2 tile = uvec2(number % grid.tiles.x, number / grid.tiles.x);
+    uint in_tile = candidates[tileWord(word, number)];
+    uint run = (grid.slices + gl_NumWorkGroups.z - 1u) / gl_NumWorkGroups.z;
+    uint slice = gl_WorkGroupID.z * run, end = in_tile != 0u ? min(slice + run, grid.slices) : 0u;
+    uint left = 0u, reached = 0u;
+    while (slice < end) {
+        // A loop of its own, of a few instructions, passes slices without candidates.
+        while (slice < end && left == 0u) {
+            left = in_tile & candidates[sliceWord(word, slice)];
+            slice += left == 0u ? 1u : 0u;
         }
-        barrier();
-        uint light = first + thread;
-        if (light < grid.local_lights) {
-            LightBound bound = light_bounds[light];
-            bool around = !tiled || reaches(bound, transparent);
-            if (around && reaches(bound, opaque)) atomicOr(near_bits[thread / 32u], 1u << (thread % 32u));
-            if (tiled && around) atomicOr(far_bits[thread / 32u], 1u << (thread % 32u));
+        if (left != 0u) {
+            uint bit = left & (~left + 1u);
+            left ^= bit;
+            LightBound bound = boundOf(word * 32u + uint(findLSB(bit)));
+            uvec2 columns = columnsOfLight(bound, tile.y, slabOf(slice));
+            if (columns.x <= tile.x && tile.x < columns.y && reachesCell(bound, tile, slice)) reached |= bit;
+            if (left == 0u) {
+                if (reached != 0u) masks[maskWord(word, slice * tiles + number)] = reached;
+                reached = 0u;
+                ++slice;
+            }
         }
-        barrier();
-        uint word = first / 32u + thread;
-        if (thread < LIST_GROUP / 32u && word < grid.words) {
-            masks[maskWord(word, cell)] = near_bits[thread];
-            if (tiled) masks[maskWord(word, grid.cells + cell)] = far_bits[thread];
-        }
-        barrier();
     }
 }

@@ -27,8 +27,7 @@ struct LightGrid {
     uint slices;         // of depth; 1 where tiled
     float slice_offset;  // m: slice = (bits of (depth + offset) - bits of offset) >> shift, as integers, at
     uint slice_shift;    //   most slices - 1: steps that grow with depth and are exact to tell, without a log
-    uint cells;          // tiles.x * tiles.y * slices; tiled: of opaque lists, those of transparents follow
-    uint lists;          // cells, or twice as many where tiled
+    uint lists;          // one a cell: tiles.x * tiles.y * slices
     uint list_stride;    // lists of one row of the masks: a multiple of four
     uint local_lights;
     uint first_local;    // directional lights before them
@@ -48,6 +47,7 @@ struct LightGrid {
 
 // The region that a light can reach, for culling alone: what lies inside both a bounding sphere and a cone.
 // In view axes from the camera: x right, y down, z forward; m. Widened by more than float32 can round.
+// Shaders read it as texels.
 struct LightBound {
     vec3 centre;
     float radius;    // at most MAX_BOUND_RADIUS; a sphere of that radius is around the camera and reaches
@@ -57,6 +57,14 @@ struct LightBound {
     vec3 axis;       // unit
     float sin_cone;
 };
+#define LIGHT_BOUND_OF_TEXELS(a, b, c) LightBound(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w)
+CONTRACT_LANE(LightBound, centre, 0, 0);
+CONTRACT_LANE(LightBound, radius, 0, 3);
+CONTRACT_LANE(LightBound, apex, 1, 0);
+CONTRACT_LANE(LightBound, cos_cone, 1, 3);
+CONTRACT_LANE(LightBound, axis, 2, 0);
+CONTRACT_LANE(LightBound, sin_cone, 2, 3);
+CONTRACT_TEXELS(LightBound, 3);
 
 // How many lights of one list's segment there are, and of these the points, and the points and spots.
 struct LightListCount {
@@ -77,10 +85,10 @@ CONTRACT_LANE(LightListHead, spot_end, 0, 2);
 CONTRACT_LANE(LightListHead, end, 0, 3);
 CONTRACT_TEXELS(LightListHead, 1);
 
-CONTRACT_CONST(uint, LIGHT_TILE, 16);       // pixels, of tiled: one of its 256 threads each
+CONTRACT_CONST(uint, LIGHT_TILE, 16);       // pixels, of tiled: four for each of 64 threads
 CONTRACT_CONST(uint, SEGMENT_WORDS, 1024);  // 32,768 lights: a loop over them stays below lavapipe's limit
-CONTRACT_CONST(uint, LIST_GROUP, 256);      // threads of a workgroup of the kernels
-CONTRACT_CONST(uint, SCATTER_THREADS, 8);   // threads that divide a light's cells among them
+CONTRACT_CONST(uint, LIST_GROUP, 256);      // threads of the workgroup of the prefix sum
+CONTRACT_CONST(uint, LIGHT_THREADS, 8);     // threads that divide a light's cells among them
 CONTRACT_CONST(float, MAX_BOUND_RADIUS,
                4e18f);  // m, over twice as far as anything may be; its square stays finite
 
@@ -89,10 +97,10 @@ CONTRACT_END
 // SET_LISTS, of the kernels that make lists; columns as in bindings.h.
 // clang-format off
 #define LIST_BINDINGS(X)                                                                                  \
-    X(0,  BOUNDS,      storage_buffer, "LightBound[local_lights]")                                        \
+    X(0,  BOUNDS,      texel_buffer,   "LightBound[local_lights], three texels each")                     \
     X(1,  MASKS,       storage_buffer, "uint[words][list_stride]: bit i of word w is light 32 w + i")     \
     X(2,  COUNTS,      storage_buffer, "LightListCount[lists][segments]")                                 \
-    X(3,  TILE_DEPTHS, storage_buffer, "vec3[tiles]: least, largest and visible view depth, m")           \
+    X(3,  TILE_DEPTHS, storage_buffer, "vec2[tiles]: least and largest view depth drawn there, m")         \
     X(4,  OVERFLOW,    storage_buffer, "uint: lists that found no room")                                  \
     X(5,  LISTS_DEPTH, image,          "the picture's depth")                                             \
     X(6,  HEADS,       storage_buffer, "LightListHead[lists]")                                            \
@@ -100,7 +108,8 @@ CONTRACT_END
     X(8,  LISTED,      storage_buffer, "uint[lists]: lights of each, for channels")                       \
     X(9,  USED_WORDS,  storage_buffer, "uint[words / 32][list_stride]: which words have any bits")        \
     X(10, FOUR_BEGINS, storage_buffer, "uint[list_stride / 4]: packets of four lists, then where they begin") \
-    X(11, MASK_TEXELS, texel_buffer,   "the masks again, a row's lists four a texel")
+    X(11, MASK_TEXELS, texel_buffer,   "the masks again, a row's lists four a texel")                     \
+    X(12, CANDIDATES,  storage_buffer, "uint[words][tiles + slices]: as masks, of whole tiles and slices")
 // clang-format on
 
 CONTRACT_BEGIN

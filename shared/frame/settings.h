@@ -163,7 +163,7 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all"},
           &Settings::assign);
     visit(Field{.option = "light-kernel",
-                .help = "how lists are filled: by a thread a light, or a workgroup a cell",
+                .help = "how lists are filled: by light, or by tile",
                 .ignored = {.reference = row::every_light},
                 .sweep = "scatter,gather"},
           &Settings::light_kernel);

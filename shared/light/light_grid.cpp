@@ -22,14 +22,10 @@ constexpr double rounding = 4e-6;
 constexpr gpu::uint octaveShift = 23 - 2;
 constexpr gpu::uint mostSlices = 128;
 constexpr gpu::uint finestTile = 3, coarsestTile = 6;  // pixels, log2
-// SCATTER_THREADS threads share the cells of a light that reaches all of them; their loops stay far below
+// LIGHT_THREADS threads share the cells of a light that reaches all of them; their loops stay far below
 // lavapipe's limit.
 constexpr std::uint64_t mostCells = 131072;
-static_assert(mostCells / gpu::SCATTER_THREADS < 65535 / 2);
-
-// ns, measured on lavapipe with two threads; only the ratios matter. To clear, count and place a list; to
-// mark and write one of its lights; to evaluate a light at a pixel.
-constexpr double costOfCell = 40, costOfListed = 15, costOfEvaluated = 5;
+static_assert(mostCells / gpu::LIGHT_THREADS < 65535 / 2);
 
 double middle(std::vector<double> values, double otherwise) {
     if (values.empty()) return otherwise;
@@ -89,7 +85,7 @@ double reachVolume(const gpu::LightGrid& grid, bool orthographic, const TypicalL
 // Chooses the sizes of tiles and slices that cost least, for making lists and for evaluating lights at pixels
 // together. The lights that cells hold are counted for one grid and scaled to the others by reachVolume().
 void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::LightBound> bounds,
-                 std::uint64_t most) {
+                 const DeviceCosts& costs, std::uint64_t most) {
     const bool orthographic = view.camera.orthographic;
     const TypicalLight typical = typicalLight(bounds);
     grid.slice_offset = static_cast<float>(2 * typical.radius);
@@ -118,8 +114,8 @@ void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::Li
             const gpu::LightGrid g = sized(tile, slice);
             if (g.slices > mostSlices || cells(g) > most) break;
             const double listed = lights * reachVolume(g, orthographic, typical);
-            const double cost = static_cast<double>(cells(g)) * (costOfCell + listed * costOfListed) +
-                                pixels * listed * costOfEvaluated;
+            const double cost = static_cast<double>(cells(g)) * (costs.list + listed * costs.listed) +
+                                pixels * listed * costs.evaluated;
             if (cost < least) {
                 least = cost;
                 grid = g;
@@ -210,11 +206,12 @@ std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
                      tiles(y - cut, y + cut, near, far, grid.centre.y, grid.tiles.y);
         }
     }
-    return grid.lists > grid.cells ? 2 * pairs : pairs;
+    return pairs;
 }
 
 gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
-                             std::span<const gpu::LightBound> bounds, std::uint64_t buffer_bytes) {
+                             std::span<const gpu::LightBound> bounds, const DeviceCosts& costs,
+                             std::uint64_t buffer_bytes) {
     gpu::LightGrid grid{};
     const double half = view.camera.orthographic ? view.camera.ymag : std::tan(view.camera.yfov / 2);
     grid.pixel = static_cast<float>(2 * half / view.height);
@@ -227,16 +224,20 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
     grid.segments = (grid.words + gpu::SEGMENT_WORDS - 1) / gpu::SEGMENT_WORDS;
     grid.slices = 1;
     if (lists == gpu::LISTS_CLUSTERED)
-        sizeFroxels(grid, view, bounds, std::min(mostCells, buffer_bytes / (4 * std::max(grid.words, 1u))));
+        sizeFroxels(grid, view, bounds, costs,
+                    std::min(mostCells, buffer_bytes / (4 * std::max(grid.words, 1u))));
     else
         sizeTiles(grid, view, std::bit_width(gpu::LIGHT_TILE) - 1);
     const auto count = [&] {
-        grid.cells = grid.tiles.x * grid.tiles.y * grid.slices;
-        grid.lists = lists == gpu::LISTS_TILED ? 2 * grid.cells : grid.cells;
+        grid.lists = grid.tiles.x * grid.tiles.y * grid.slices;
         grid.list_stride = (grid.lists + 3) / 4 * 4;
         return std::uint64_t{grid.list_stride};
     };
-    while (count() * grid.words * 4 > buffer_bytes || count() > mostCells)
+    // Of the masks, and of the candidates of tiles and slices.
+    const auto longestRow = [&] {
+        return std::max(count(), std::uint64_t{grid.tiles.x} * grid.tiles.y + grid.slices);
+    };
+    while (longestRow() * grid.words * 4 > buffer_bytes || count() > mostCells)
         sizeTiles(grid, view, grid.tile_shift + 1);
     const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds);
     // Evaluating a packet of four lights costs as much as three packets of one, so wide packets pay for long

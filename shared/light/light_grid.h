@@ -5,6 +5,7 @@
 #include "shared/contract/light_list.h"
 #include "shared/light/lights.h"
 #include "shared/scene/view.h"
+#include "shared/vulkan/device_profile.h"
 
 #include <cstdint>
 #include <span>
@@ -17,11 +18,12 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
 
 // `lists`: LISTS_CLUSTERED or LISTS_TILED. No buffer of the lists is larger than `buffer_bytes`: tiles grow
 // until the masks fit, and the capacity of the index buffer ends there, so that lists beyond it overflow.
-// Clustered tiles and slices have the sizes that cost least for the given lights, in making lists and at
-// pixels together; Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward Shading", with bounds
-// from the projection alone as in Persson 2013, "Practical Clustered Shading".
+// Clustered tiles and slices have the sizes that cost least for the given lights by the device's `costs`, in
+// making lists and at pixels together; Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward
+// Shading", with bounds from the projection alone as in Persson 2013, "Practical Clustered Shading".
 gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights& lights,
-                             std::span<const gpu::LightBound> bounds, std::uint64_t buffer_bytes);
+                             std::span<const gpu::LightBound> bounds, const DeviceCosts& costs,
+                             std::uint64_t buffer_bytes);
 
 // An upper bound of the number of (light, list) pairs, from which the capacity of the index buffer is
 // computed.

@@ -18,10 +18,20 @@ constexpr auto listTypes = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
 // No buffer of the lists is larger, whatever the device allows.
 constexpr std::uint64_t mostBytes = std::uint64_t{256} << 20;
 
-constexpr std::uint32_t threads = 64;  // of a workgroup of scatter, count and fill
+constexpr std::uint32_t threads = 64;  // of a workgroup of all kernels but the prefix sum
 
 std::uint32_t workgroups(std::uint32_t count) {
     return (count + threads - 1) / threads;
+}
+
+// Slices that one thread of gather walks: fewer make more threads, which wait for each other less.
+constexpr gpu::uint slicesOfThread = 8;
+
+// In rows, as no device need run more than 65,535 workgroups along an axis.
+glm::uvec3 inRows(std::uint64_t count, gpu::uint depth = 1) {
+    constexpr std::uint64_t row = 32768;
+    const std::uint64_t groups = (count + threads - 1) / threads;
+    return {std::min(groups, row), (groups + row - 1) / row, depth};
 }
 
 // The list of all local lights in packets, each kind beginning a new packet.
@@ -65,7 +75,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
         bounds = lightBounds(lights, view);
         const std::uint64_t texels = std::uint64_t{device.limits().maxTexelBufferElements} * 4;
         grid_ = makeLightGrid(
-            choice_.lists, view, lights, bounds,
+            choice_.lists, view, lights, bounds, device.profile().costs,
             std::min({std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes, texels}));
         all = listOfAll(grid_);
     }
@@ -91,23 +101,28 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     }
     uploader.buffer(indices_, std::as_bytes(std::span(all)));
     bounds_ = makeBuffer<gpu::LightBound>(device, uploader, "light bounds", bounds,
-                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+                                          VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    bounds_view_ = makeTexelView(device, "light bounds", bounds_, VK_FORMAT_R32G32B32A32_SFLOAT);
     uploader.flush();
     masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.list_stride, 4,
                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     masks_view_ = makeTexelView(device, "light masks", masks_, VK_FORMAT_R32G32B32A32_UINT);
+    const bool gathers = choice_.kernel == ListKernel::gather;
+    candidates_ =
+        buffer("light candidates",
+               gathers ? std::uint64_t{grid_.words} * (grid_.tiles.x * grid_.tiles.y + grid_.slices) : 0, 4);
     four_begins_ = buffer("begins of light lists", grid_.list_stride / 4, 4);
     used_words_ =
         buffer("used words of light masks", std::uint64_t{(grid_.words + 31) / 32} * grid_.list_stride, 4);
     counts_ =
         buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
-    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec3));
+    tile_depths_ = buffer("tile depths", std::uint64_t{grid_.tiles.x} * grid_.tiles.y, sizeof(gpu::vec2));
     overflow_ = buffer("light list overflow", 1, 4);
     overflow_seen_ = GpuBuffer(device, "light list overflow, read back", 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                MemoryUse::readback);
     sampler_ = makeNearestSampler(device);
     sets_ = DescriptorSets(device, layouts.lists(), listTypes, 1);
-    sets_.buffer(0, gpu::BINDING_BOUNDS, bounds_.handle());
+    sets_.texels(0, gpu::BINDING_BOUNDS, bounds_view_);
     sets_.buffer(0, gpu::BINDING_MASKS, masks_.handle());
     sets_.buffer(0, gpu::BINDING_COUNTS, counts_.handle());
     sets_.buffer(0, gpu::BINDING_TILE_DEPTHS, tile_depths_.handle());
@@ -118,6 +133,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     sets_.buffer(0, gpu::BINDING_USED_WORDS, used_words_.handle());
     sets_.buffer(0, gpu::BINDING_FOUR_BEGINS, four_begins_.handle());
     sets_.texels(0, gpu::BINDING_MASK_TEXELS, masks_view_);
+    sets_.buffer(0, gpu::BINDING_CANDIDATES, candidates_.handle());
 }
 
 void LightLists::specialise(Variant& variant) const {
@@ -150,7 +166,8 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     // Only tiled lists read the depth, but lavapipe follows every descriptor of a bound set.
     sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-    const BufferRef masks = passes.buffer("light masks", masks_),
+    const BufferRef candidates = passes.buffer("light candidates", candidates_),
+                    masks = passes.buffer("light masks", masks_),
                     used = passes.buffer("used words", used_words_),
                     counts = passes.buffer("light counts", counts_),
                     begins = passes.buffer("list begins", four_begins_),
@@ -171,13 +188,14 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
                 dispatch(commands, bounds, {grid_.tiles.x, grid_.tiles.y, 1});
             });
     }
-    const bool scatters = choice_.kernel == ListKernel::scatter;
+    const bool gathers = choice_.kernel == ListKernel::gather;
     const char* const name = "assign lights";
-    Pass& clear = passes.copy(name).uses(overflow, access::transferWrite);
-    if (scatters) clear.uses(masks, access::transferWrite);
+    Pass& clear = passes.copy(name).uses(overflow, access::transferWrite).uses(masks, access::transferWrite);
+    if (gathers) clear.uses(candidates, access::transferWrite);
     clear.record([=, this](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, overflow_.handle(), 0, VK_WHOLE_SIZE, 0);
-        if (scatters) vkCmdFillBuffer(commands, masks_.handle(), 0, VK_WHOLE_SIZE, 0);
+        vkCmdFillBuffer(commands, masks_.handle(), 0, VK_WHOLE_SIZE, 0);
+        if (gathers) vkCmdFillBuffer(commands, candidates_.handle(), 0, VK_WHOLE_SIZE, 0);
     });
     const auto step = [&](Shader shader, glm::uvec3 size) -> Pass& {
         const VkPipeline pipeline = kernel(shader);
@@ -186,14 +204,15 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
             dispatch(commands, pipeline, size);
         });
     };
-    // In rows, as no device need run more than 65,535 workgroups along an axis.
-    constexpr gpu::uint row = 32768;
-    const gpu::uint scattered = workgroups(grid_.local_lights * gpu::SCATTER_THREADS);
-    Pass& mark = scatters ? step(Shader::light_scatter_comp,
-                                 {std::min(scattered, row), (scattered + row - 1) / row, 1})
-                          : step(Shader::light_gather_comp, {grid_.tiles.x, grid_.tiles.y, grid_.slices});
+    // Both kernels write parts of the masks, scatter atomically.
+    const glm::uvec3 byLight = inRows(std::uint64_t{grid_.local_lights} * gpu::LIGHT_THREADS);
+    if (gathers) step(Shader::light_candidates_comp, byLight).uses(candidates, read).uses(candidates, write);
+    Pass& mark = gathers ? step(Shader::light_gather_comp,
+                                inRows(std::uint64_t{grid_.words} * grid_.tiles.x * grid_.tiles.y,
+                                       (grid_.slices + slicesOfThread - 1) / slicesOfThread))
+                               .uses(candidates, read)
+                         : step(Shader::light_scatter_comp, byLight).uses(masks, read);
     mark.uses(masks, write);
-    if (scatters) mark.uses(masks, read);  // atomically
     if (tiled) mark.uses(depths, read);
     step(Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
         .uses(masks, access::texelRead(inCompute))
@@ -238,8 +257,8 @@ std::uint64_t LightLists::overflowed() const {
 
 std::uint64_t LightLists::bytes() const {
     std::uint64_t sum = 0;
-    for (const GpuBuffer* buffer : {&grid_buffer_, &bounds_, &masks_, &counts_, &used_words_, &four_begins_,
-                                    &tile_depths_, &heads_, &indices_, &listed_})
+    for (const GpuBuffer* buffer : {&grid_buffer_, &bounds_, &candidates_, &masks_, &counts_, &used_words_,
+                                    &four_begins_, &tile_depths_, &heads_, &indices_, &listed_})
         sum += buffer->size();
     return sum;
 }

@@ -13,8 +13,9 @@
 
 namespace diptych {
 
-// What fills the masks: threads of each light that walk the cells it may reach, or a workgroup of each cell
-// that tests all lights. Both apply the same test, so the lists are the same.
+// What fills the masks: threads of each light that walk the cells it may reach, or threads of each tile that
+// test the lights which may reach both the tile and a slice. Both apply the same test, so the lists are the
+// same.
 enum class ListKernel { scatter, gather };
 
 // Descriptor types of SET_LISTS, indexed by binding.
@@ -71,15 +72,16 @@ public:
     const GpuBuffer& heads() const { return heads_; }
     const GpuBuffer& indices() const { return indices_; }
     const GpuBuffer& masks() const { return masks_; }
+    const GpuBuffer& candidates() const { return candidates_; }  // with ListKernel::gather
 
 private:
     Device& device_;
     const ListLayouts& layouts_;
     Choice choice_;
     gpu::LightGrid grid_{};
-    GpuBuffer grid_buffer_, bounds_, masks_, used_words_, four_begins_, counts_, tile_depths_, overflow_,
-        overflow_seen_, heads_, indices_, listed_;
-    OwnedBufferView masks_view_, heads_view_, indices_view_;
+    GpuBuffer grid_buffer_, bounds_, candidates_, masks_, used_words_, four_begins_, counts_, tile_depths_,
+        overflow_, overflow_seen_, heads_, indices_, listed_;
+    OwnedBufferView bounds_view_, masks_view_, heads_view_, indices_view_;
     OwnedSampler sampler_;
     DescriptorSets sets_;
 };

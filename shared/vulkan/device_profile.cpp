@@ -9,7 +9,22 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
     const bool software = info.type == "cpu";
     const bool asSoftware = software && choices == ProfileChoices::of_device;
     // Measured on lavapipe with two cores. A GPU is assumed to take about a hundredth of each.
-    constexpr DeviceCosts lavapipe{65, 1, 20, 10, 3}, gpu{0.6, 0.01, 0.2, 0.1, 0.03};
+    constexpr DeviceCosts lavapipe{.triangle = 65,
+                                   .depth = 1,
+                                   .surface = 20,
+                                   .texture = 10,
+                                   .light = 3,
+                                   .list = 40,
+                                   .listed = 15,
+                                   .evaluated = 5};
+    constexpr DeviceCosts gpu{.triangle = 0.6,
+                              .depth = 0.01,
+                              .surface = 0.2,
+                              .texture = 0.1,
+                              .light = 0.03,
+                              .list = 0.4,
+                              .listed = 0.15,
+                              .evaluated = 0.05};
     return {.software = software,
             .bit_exact = software,
             .time_stamps = !software && timestampBits > 0,

@@ -9,13 +9,18 @@
 
 namespace diptych {
 
-// Nanoseconds of work on the whole device, for choices between two ways to draw the same picture.
+// Nanoseconds of work on the whole device, for choices between ways to draw the same picture: only their
+// ratios matter.
 struct DeviceCosts {
     double triangle = 0;  // of a depth pass
     double depth = 0;     // a fragment of a depth pass
     double surface = 0;   // making the surface of a shaded fragment
     double texture = 0;   // each texture of it
     double light = 0;     // each light at it
+    // Of light lists, for the size of their cells.
+    double list = 0;       // to clear, count and place one
+    double listed = 0;     // to mark and write one of its lights
+    double evaluated = 0;  // to evaluate one of its lights at a pixel
 };
 
 // Which device's choices a profile has. What is true of the device stays: whether it is software, agrees bit
@@ -35,8 +40,8 @@ struct DeviceProfile {
     // A shader's load of a uniform is gathered for every lane anew, so that fragment shaders read the view
     // from texels.
     bool gathers_uniforms = false;
-    // Workgroups run as wide as they are written. Otherwise a kernel of a thread a light beats one of a
-    // workgroup a cell.
+    // So many threads run at once that light lists are made by many for each tile (gather); otherwise by few
+    // for each light, which test less (scatter).
     bool wide_groups = false;
     // Sets of inputs between vertex and fragment shaders that pipelines are made with
     // (shaders/lib/inputs.glsl): 4, where every input costs, or 1, the set of all inputs, so that fewer

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -57,13 +59,14 @@ std::string textOf(const RecordedBarrier& barrier) {
 // The passes of one path, declared and not run.
 class Declared {
 public:
-    Declared(Path path, Assignment assign, const char* lights = "point:40,spot:10")
+    Declared(Path path, Assignment assign, LightKernel kernel = LightKernel::scatter,
+             const char* lights = "point:40,spot:10")
         : scene_(loadScene("builtin:triangle")), shared_(device(), scene_, pipelines()) {
         Settings settings = smallPicture(GBufferEncoding::standard);
         settings.path = path;
         settings.assign = assign;
         settings.lights = lights;
-        settings.light_kernel = LightKernel::scatter;
+        settings.light_kernel = kernel;
         settings.prepass = Switch::on;
         seen_.emplace(makeSceneView(scene_, viewRequest(settings)));
         frame_ = std::make_unique<PreparedFrame>(device(), shared_, *seen_, settings);
@@ -115,6 +118,30 @@ TEST(Declarations, BarriersOfForwardPlusWithClusters) {
               }));
 }
 
+// Gather waits for the candidates of tiles and slices; everything else is as with scatter.
+TEST(Declarations, BarriersOfGather) {
+    Declared scatter(Path::forward_plus, Assignment::clustered),
+        gather(Path::forward_plus, Assignment::clustered, LightKernel::gather);
+    std::vector<std::string> lines = secondRun(gather.passes()), other = secondRun(scatter.passes());
+    const auto isMask = [](const std::string& line) {
+        return line.find("light masks") != line.npos || line.find("candidates") != line.npos;
+    };
+    std::vector<std::string> masks;
+    std::ranges::copy_if(lines, std::back_inserter(masks), isMask);
+    EXPECT_EQ(masks, (std::vector<std::string>{
+                         "assign lights: light masks, compute write -> transfer fill",
+                         "assign lights: light candidates, compute write -> transfer fill",
+                         "assign lights: light candidates, transfer fill -> compute read+write",
+                         "assign lights: light candidates, compute write -> compute read",
+                         "assign lights: light masks, transfer fill -> compute write",
+                         "assign lights: light masks, compute write -> compute sample",
+                         "assign lights: light masks, compute write -> compute read",
+                     }));
+    std::erase_if(lines, isMask);
+    std::erase_if(other, isMask);
+    EXPECT_EQ(lines, other);
+}
+
 // Clusters need no depth: nothing of them waits for the G-buffer. Tiles do.
 TEST(Declarations, OnlyTilesWaitForDepth) {
     for (const Assignment assign : {Assignment::clustered, Assignment::tiled}) {
@@ -152,8 +179,12 @@ std::string inVain(const PassList& passes) {
 TEST(Declarations, NoneIsInVain) {
     for (const Path path : {Path::forward_plus, Path::deferred})
         for (const Assignment assign : {Assignment::clustered, Assignment::tiled, Assignment::every})
-            EXPECT_EQ(inVain(Declared(path, assign).passes()), "") << nameOf(path) << ", " << nameOf(assign);
-    EXPECT_EQ(inVain(Declared(Path::deferred, Assignment::every, "point:70000").passes()), "");
+            for (const LightKernel kernel : {LightKernel::scatter, LightKernel::gather})
+                EXPECT_EQ(inVain(Declared(path, assign, kernel).passes()), "")
+                    << nameOf(path) << ", " << nameOf(assign) << ", " << nameOf(kernel);
+    EXPECT_EQ(
+        inVain(Declared(Path::deferred, Assignment::every, LightKernel::scatter, "point:70000").passes()),
+        "");
 }
 
 TEST(Declarations, OneInVainIsFound) {
@@ -167,7 +198,7 @@ TEST(Declarations, OneInVainIsFound) {
 // The sums of batches of lights hand their memory on: two batches' sums at a time are needed, whatever their
 // number.
 TEST(Declarations, PartialSumsShareMemory) {
-    Declared declared(Path::deferred, Assignment::every, "point:200000");
+    Declared declared(Path::deferred, Assignment::every, LightKernel::scatter, "point:200000");
     std::size_t batches = 0;
     for (const DeclaredUse& use : declared.passes().declarations())
         batches += use.resource == "partial diffuse sum" && writes(use.access);

@@ -83,10 +83,9 @@ Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
     return frames.lit(0);
 }
 
-// Compares every way on both paths with `every` on forward+; `kernels`: with both list kernels, otherwise
-// with the device's default. A capture draws everything once more: small pictures are captured in every way,
-// large ones once for each path.
-void expectEveryWayEqual(Renderer& renderer, Size size, bool kernels) {
+// Compares every way on both paths with `every` on forward+. A capture draws everything once more: small
+// pictures are captured in every way, large ones once for each path.
+void expectEveryWayEqual(Renderer& renderer, Size size) {
     const bool small = size.width * size.height <= 1024;
     const Image every = litOf(renderer, picture(size, Path::forward_plus, Assignment::every), small);
     EXPECT_EQ(nonfinitePixels(every), 0u);
@@ -97,9 +96,7 @@ void expectEveryWayEqual(Renderer& renderer, Size size, bool kernels) {
     EXPECT_EQ(wrongPixels(every, litOf(renderer, objects, small)), 0u) << "per_object, all per pixel";
     for (const Path path : {Path::forward_plus, Path::deferred})
         for (const Way& way : ways) {
-            if (!kernels && way.kernel == LightKernel::gather) continue;
-            const Settings settings =
-                picture(size, path, way.assign, kernels ? way.kernel : LightKernel::automatic);
+            const Settings settings = picture(size, path, way.assign, way.kernel);
             const Image image = litOf(renderer, settings, small || &way == &ways[0]);
             EXPECT_EQ(wrongPixels(every, image), 0u)
                 << nameOf(path) << ", " << nameOf(way.assign) << ", " << nameOf(way.kernel);
@@ -128,8 +125,7 @@ TEST_P(LightMatrix, EveryWayIsEvery) {
     Renderer renderer(device(), lit_scene, pipelines());
     for (const Size size : sizesOf(name, count)) {
         SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height));
-        // Both kernels, unless one workgroup for each cell is too slow on this device.
-        expectEveryWayEqual(renderer, size, size.width * count <= 640 * 257);
+        expectEveryWayEqual(renderer, size);
     }
 }
 
@@ -154,7 +150,7 @@ TEST_P(LightPairs, EveryWayIsEvery) {
     // 5 and 4 are coprime: over all scenes every count meets every size.
     const Scene many = withLights(scene, counts[at % std::size(counts)]);
     Renderer renderer(device(), many, pipelines());
-    expectEveryWayEqual(renderer, sizes[at % std::size(sizes)], at % 3 == 0);
+    expectEveryWayEqual(renderer, sizes[at % std::size(sizes)]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, LightPairs, testing::ValuesIn(builtinScenes()),
@@ -184,7 +180,7 @@ void expectEqualUnder(const std::string& name, std::vector<Light> lights, Size s
     Scene scene = loadScene(name);
     scene.lights = std::move(lights);
     Renderer renderer(device(), scene, pipelines());
-    expectEveryWayEqual(renderer, size, true);
+    expectEveryWayEqual(renderer, size);
 }
 
 glm::dvec3 eyeOf(const std::string& name) {
@@ -287,7 +283,7 @@ TEST(LightExtremes, LightsBeyondTheLastSliceStillLight) {
 TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     const Scene scene = withLights(loadScene("builtin:gallery"), 65600);
     Renderer renderer(device(), scene, pipelines());
-    expectEveryWayEqual(renderer, {24, 14}, false);
+    expectEveryWayEqual(renderer, {24, 14});
     // Negative control: the last of all lights is among those summed up.
     Scene without = scene;
     for (Light& light : without.lights) light.intensity *= 1e-3f;

@@ -3,6 +3,7 @@
 // must be no false negatives, and the false positives are counted.
 #include "shared/contract/features.h"
 #include "shared/light/light_grid.h"
+#include "shared/vulkan/device.h"
 #include "tests/probe/cells.h"
 #include "tests/probe/probe.h"
 
@@ -261,8 +262,9 @@ std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
         const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
         const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
         const bool tiled = picture % 3 == 0;
-        const gpu::LightGrid grid = makeLightGrid(tiled ? gpu::LISTS_TILED : gpu::LISTS_CLUSTERED, view, gpu,
-                                                  bounds, std::uint64_t{128} << 20);
+        const gpu::LightGrid grid =
+            makeLightGrid(tiled ? gpu::LISTS_TILED : gpu::LISTS_CLUSTERED, view, gpu, bounds,
+                          probeDevice().profile().costs, std::uint64_t{128} << 20);
         for (std::size_t i = 0; i < lights.size(); ++i) {
             const glm::dvec3 at(gpu.lights[i].position);
             RectCase c{grid, {at.x, -at.y, -at.z}, static_cast<double>(lights[i].range), bounds[i], {}};

@@ -10,11 +10,18 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 namespace diptych {
 namespace {
 
 constexpr std::uint64_t lavapipes = std::uint64_t{128} << 20;
+
+DeviceCosts costsOf(const char* deviceType) {
+    DeviceInfo info;
+    info.type = deviceType;
+    return profileOf(info, 0).costs;
+}
 
 View viewOf(int width, int height) {
     View view;
@@ -34,9 +41,29 @@ std::vector<Light> pointsAhead(std::size_t count, float range) {
 }
 
 gpu::LightGrid gridOf(gpu::uint lists, const View& view, const std::vector<Light>& lights,
-                      std::uint64_t bytes = lavapipes) {
+                      const DeviceCosts& costs = costsOf("cpu")) {
     const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
-    return makeLightGrid(lists, view, gpu, lightBounds(gpu, view), bytes);
+    return makeLightGrid(lists, view, gpu, lightBounds(gpu, view), costs, lavapipes);
+}
+
+std::tuple<gpu::uint, gpu::uint, gpu::uint> cellSizeOf(const gpu::LightGrid& grid) {
+    return {grid.tile_shift, grid.slice_shift, grid.slices};
+}
+
+// Only the ratios of the costs matter; where a list costs more, there are fewer.
+TEST(LightGrid, HasTheSizeThatCostsLeastOnTheDevice) {
+    const std::vector<Light> lights = pointsAhead(300, 3);
+    const auto with = [&](const DeviceCosts& costs) {
+        return gridOf(gpu::LISTS_CLUSTERED, viewOf(640, 360), lights, costs);
+    };
+    const DeviceCosts cpu = costsOf("cpu"), gpu = costsOf("discrete");
+    EXPECT_LT(gpu.list, cpu.list);
+    EXPECT_EQ(cellSizeOf(with(gpu)), cellSizeOf(with(cpu)));
+    DeviceCosts lists = cpu, pixels = cpu;
+    lists.list *= 100;
+    pixels.evaluated *= 100;
+    EXPECT_LT(with(lists).lists, with(cpu).lists);
+    EXPECT_GT(with(pixels).lists, with(cpu).lists);
 }
 
 TEST(LightGrid, CoversAnyPictureWithWholeTiles) {
@@ -47,8 +74,7 @@ TEST(LightGrid, CoversAnyPictureWithWholeTiles) {
             EXPECT_GE(grid.tiles.x * side, static_cast<unsigned>(width));
             EXPECT_LT((grid.tiles.x - 1) * side, static_cast<unsigned>(width));
             EXPECT_GE(grid.tiles.y * side, static_cast<unsigned>(height));
-            EXPECT_EQ(grid.cells, grid.tiles.x * grid.tiles.y * grid.slices);
-            EXPECT_EQ(grid.lists, lists == gpu::LISTS_TILED ? 2 * grid.cells : grid.cells);
+            EXPECT_EQ(grid.lists, grid.tiles.x * grid.tiles.y * grid.slices);
             if (lists == gpu::LISTS_TILED) {
                 EXPECT_EQ(side, gpu::LIGHT_TILE);
             }

@@ -252,7 +252,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 13u + 2 + 8 + 12 + 9);
+    EXPECT_EQ(bindingTables().size(), 13u + 2 + 8 + 13 + 9);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// LIGHT_THREADS threads for each light: they divide among them the slices and the rows of tiles that the
+// light's bounding sphere may reach, and mark the light as a candidate of each slice and of each tile.
+#include "shaders/lib/light_walk.glsl"
+
+layout(local_size_x = 64) in;
+
+void main() {
+    uint light = threadNumber() / LIGHT_THREADS, thread = threadNumber() % LIGHT_THREADS;
+    if (light >= grid.local_lights) return;
+    LightBound bound = boundOf(light);
+    uint word = light / 32u, bit = 1u << (light % 32u);
+    uvec2 slices = slicesOfLight(bound);
+    for (uint slice = slices.x + thread; slice < slices.y; slice += LIGHT_THREADS)
+        atomicOr(candidates[sliceWord(word, slice)], bit);
+    uvec4 rect = rectOfLight(bound);
+    for (uint row = rect.z + thread; row < rect.w; row += LIGHT_THREADS)
+        for (uint column = rect.x; column < rect.y; ++column)
+            atomicOr(candidates[tileWord(word, row * grid.tiles.x + column)], bit);
+}
