@@ -3,6 +3,7 @@
 
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/physical_device.h"
+#include "shared/vulkan/pipeline_cache.h"
 
 #include <fmt/format.h>
 
@@ -164,6 +165,7 @@ struct Device::State {
     std::uint32_t timestamp_bits = 0;  // of a time stamp that the queue writes; 0: it writes none
     std::unique_ptr<VkDevice, DeviceDeleter> device;
     std::unique_ptr<Memory> memory;
+    std::optional<PipelineCache> pipeline_cache;
     VkQueue queue = VK_NULL_HANDLE;
     OwnedCommandPool pool;
     VkCommandBuffer commands = VK_NULL_HANDLE;
@@ -196,6 +198,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.profile = profileOf(s.info, s.timestamp_bits);
     s.device.reset(createDevice(s.physical, family));
     s.memory = std::make_unique<Memory>(s.physical, s.device.get());
+    s.pipeline_cache.emplace(s.physical, s.device.get(), userCacheFolder());
     vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
     const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .pNext = nullptr,
@@ -254,6 +257,9 @@ VkPhysicalDevice Device::physical() const {
 }
 Memory& Device::memory() {
     return *state_->memory;
+}
+VkPipelineCache Device::pipelineCache() const {
+    return state_->pipeline_cache->handle();
 }
 
 double Device::submit(const std::function<void(VkCommandBuffer)>& record) {

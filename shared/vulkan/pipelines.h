@@ -49,6 +49,8 @@ public:
     // A compute shader of shaders/pass, with a layout of its own.
     VkPipeline compute(const std::string& shader, const Variant& variant, VkPipelineLayout layout);
     VkPipelineLayout layout() const { return layout_; }
+    // Destroys all, of which none may be in use: a driver may hold megabytes for each.
+    void clear();
     std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:
