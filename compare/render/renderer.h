@@ -63,6 +63,9 @@ public:
 
     // Of the two paths; all their images at once. Throws std::runtime_error as draw() does.
     PreparedFrames prepare(std::span<const Settings> settings);
+    // Destroys all pipelines, of all Renderers that share them, before what needs others is drawn. Frames
+    // that are prepared must be gone.
+    void clearPipelines();
     // How many pipelines there are by now, of all Renderers that share them.
     std::size_t pipelines() const;
 

@@ -4,6 +4,7 @@
 #include "shared/vulkan/check.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -339,6 +340,7 @@ void PassList::beginLives(BarrierTracker& tracker, std::size_t pass) const {
 
 void PassList::runPass(std::size_t index, VkCommandBuffer commands) {
     const Pass& pass = *passes_[index];
+    last_run_ = index;
     beginLives(tracker_, index);
     barriersBefore(pass, usesOf(pass), commands);
     device_.beginLabel(commands, pass.name_);
@@ -471,18 +473,26 @@ std::vector<PassMs> PassList::profile(std::size_t first, std::size_t last) {
 // ---- reading back ------------------------------------------------------------------------------------
 
 std::vector<std::vector<float>> PassList::readBack(std::span<const ReadBack> requests) {
-    constexpr std::size_t stagingBytes = std::size_t{256} << 20;
-    const std::size_t largest = std::size_t{width_} * height_ * 16;
-    const std::size_t atOnce = std::max<std::size_t>(1, stagingBytes / largest);
-    std::vector<std::vector<float>> results(requests.size());
-    for (std::size_t i = 0; i < requests.size(); i += atOnce) {
-        const std::size_t count = std::min(atOnce, requests.size() - i);
-        copyToHost(requests.subspan(i, count), std::span(results).subspan(i, count));
-    }
+    std::vector<std::vector<float>> results;
+    std::vector<std::span<float>> into;
+    for (const ReadBack& request : requests)
+        results.emplace_back(std::size_t{width_} * height_ * static_cast<std::size_t>(request.components));
+    for (std::vector<float>& result : results) into.emplace_back(result);
+    readBack(requests, into);
     return results;
 }
 
-void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results) {
+void PassList::readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into) {
+    constexpr std::size_t stagingBytes = std::size_t{64} << 20;
+    const std::size_t largest = std::size_t{width_} * height_ * 16;
+    const std::size_t atOnce = std::max<std::size_t>(1, stagingBytes / largest);
+    for (std::size_t i = 0; i < requests.size(); i += atOnce) {
+        const std::size_t count = std::min(atOnce, requests.size() - i);
+        copyToHost(requests.subspan(i, count), into.subspan(i, count));
+    }
+}
+
+void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const std::span<float>> into) {
     const std::size_t texels = std::size_t{width_} * height_;
     const auto floatsPerTexel = [&](ImageRef image) { return bytesPerTexel(format(image)) / 4; };
     std::vector<GpuBuffer> buffers;
@@ -494,7 +504,7 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
     std::vector<Use> uses;
     for (const ReadBack& request : requests) {
         const Resource& found = resource(request.image);
-        if (found.life == Life::transient)
+        if (found.life == Life::transient && found.last != last_run_)
             throw std::logic_error("PassList: " + found.image->info().name +
                                    " is a transient and cannot be read back");
         uses.push_back({request.image.index, wholeOf(*found.image), access::copiedFromImage});
@@ -515,21 +525,22 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
-    tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t image) {
+    for (std::size_t image = 0; image < requests.size(); ++image) {
         const auto kept = static_cast<std::size_t>(requests[image].components);
         const std::size_t stored = floatsPerTexel(requests[image].image);
         if (kept > stored)
             throw std::logic_error("PassList: an image has fewer components than are read back");
         const auto* from = static_cast<const float*>(buffers[image].mapped());
-        std::vector<float>& out = results[image];
-        if (kept == stored) {
-            out.assign(from, from + texels * kept);
-            return;
-        }
-        out.resize(texels * kept);
-        float* to = out.data();
-        for (std::size_t i = 0; i < texels; ++i, from += stored, to += kept) std::copy_n(from, kept, to);
-    });
+        float* const to = into[image].data();
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
+            if (kept == stored)
+                std::copy_n(from + range.begin() * stored, range.size() * stored,
+                            to + range.begin() * stored);
+            else
+                for (std::size_t i = range.begin(); i < range.end(); ++i)
+                    std::copy_n(from + i * stored, kept, to + i * kept);
+        });
+    }
 }
 
 std::vector<DeclaredUse> PassList::declarations() const {

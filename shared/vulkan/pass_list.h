@@ -27,7 +27,7 @@ struct BufferRef {
 enum class Load { clear, keep };  // keep: an attachment's contents from an earlier pass
 
 // How long an image's contents are needed. A transient has them from its first pass in a run to its last:
-// images whose lives do not overlap share memory, and nothing may be read back.
+// images whose lives do not overlap share memory, and nothing may be read back once another pass has run.
 enum class Life { kept, transient };
 
 struct ImageDeclaration {
@@ -153,12 +153,15 @@ public:
     std::vector<PassMs> profile(std::size_t first, std::size_t last);
 
     // Images as the last run left them, row 0 on top: the first `components` float32 of every texel, side by
-    // side. Copied in one submit, as far as staging memory of 256 MiB allows, and unpacked on all cores.
+    // side. Copied in one submit, as far as staging memory of 64 MiB allows, and unpacked on all cores. Of
+    // transients only those that the last pass that ran had.
     struct ReadBack {
         ImageRef image;
         int components = 1;
     };
     std::vector<std::vector<float>> readBack(std::span<const ReadBack> requests);
+    // The same into memory of the caller's, width x height x components each.
+    void readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
 
     // One name for passes of the same name that follow each other.
     std::vector<std::string> names() const;
@@ -193,7 +196,7 @@ private:
     void prepare(std::size_t first, std::size_t last);
     std::vector<Span> spans(std::size_t first, std::size_t last) const;
     std::vector<double> runWithTimestamps(const std::vector<Span>& spans);
-    void copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results);
+    void copyToHost(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
 
     Device& device_;
     std::uint32_t width_, height_;
@@ -203,6 +206,7 @@ private:
     std::vector<bool> prepared_;      // by pass
     std::vector<Allocation> blocks_;  // memory of transients
     std::uint64_t shared_bytes_ = 0;
+    std::size_t last_run_ = ~std::size_t{0};  // the pass that ran last
     std::vector<RecordedBarrier> recorded_;
 };
 
