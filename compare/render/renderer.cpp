@@ -114,7 +114,7 @@ private:
                     unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
                 image = std::move(lit_);
             }
-            keepInFile(image);
+            keepInFile(image.data);
             (read.through_gbuffer ? frame_.through_gbuffer : frame_.channels)[read.mode] = std::move(image);
         });
         if (options_.twice) {
@@ -157,7 +157,7 @@ private:
         if (noise.pixels > 0)
             noise.max = channelStats(mode.metric, mode.kind, first, again, everyPixel(first.pixels())).max;
         frame_.noise[number] = noise;
-        letGo(first);
+        letGo(first.data);
     }
 
     static constexpr int lit = static_cast<int>(gpu::DEBUG_lit);

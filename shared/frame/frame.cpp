@@ -7,7 +7,7 @@ namespace diptych {
 
 void letGo(const Frame& frame, int mode) {
     for (const auto* pictures : {&frame.channels, &frame.through_gbuffer})
-        if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second);
+        if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second.data);
 }
 
 void letGo(const Frame& frame) {

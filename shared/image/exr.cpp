@@ -85,7 +85,7 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
         exr.setFrameBuffer(buffer);
         for (int row = 0; row < height; row += bandRows) {
             exr.writePixels(std::min(bandRows, height - row));
-            for (const ExrLayerView& layer : layers) letGo(*layer.image);
+            for (const ExrLayerView& layer : layers) letGo(layer.image->data);
         }
     } catch (const std::bad_alloc&) {
         throw;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/image/pixels.h"
 
-#include "shared/image/image.h"
-
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -67,25 +65,25 @@ void pixels::givePages(void* memory, std::size_t bytes) noexcept {
     ::munmap(memory, bytes);
 }
 
-void keepInFile(Image& image) {
-    const std::size_t bytes = image.data.size() * sizeof(float);
+void keepInFile(PixelData& picture) {
+    const std::size_t bytes = picture.size() * sizeof(float);
     if (bytes < pixels::ownPages) return;
     const int file = namelessFile();
     if (file < 0) return;
     // In place of the pages that the vector has: they are its own, and begin and end with one.
-    if (writeAll(file, reinterpret_cast<const char*>(image.data.data()), bytes)) {
+    if (writeAll(file, reinterpret_cast<const char*>(picture.data()), bytes)) {
         const std::lock_guard lock(kept().mutex);
-        const auto entry = kept().pictures.insert(image.data.data()).first;
-        if (::mmap(image.data.data(), bytes, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0) == MAP_FAILED)
+        const auto entry = kept().pictures.insert(picture.data()).first;
+        if (::mmap(picture.data(), bytes, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0) == MAP_FAILED)
             kept().pictures.erase(entry);
     }
     ::close(file);  // a mapping keeps it
 }
 
-void letGo(const Image& image) {
+void letGo(const PixelData& picture) {
     const std::lock_guard lock(kept().mutex);
-    if (kept().pictures.contains(image.data.data()))
-        ::madvise(const_cast<float*>(image.data.data()), image.data.size() * sizeof(float), MADV_DONTNEED);
+    if (kept().pictures.contains(picture.data()))
+        ::madvise(const_cast<float*>(picture.data()), picture.size() * sizeof(float), MADV_DONTNEED);
 }
 
 }  // namespace diptych

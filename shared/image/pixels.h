@@ -9,8 +9,6 @@
 
 namespace diptych {
 
-struct Image;
-
 namespace pixels {
 
 // Of a picture of this many bytes or more, memory is whole pages of the system's, which it has back as soon
@@ -50,10 +48,10 @@ using PixelData = std::vector<float, pixels::Allocator<float>>;
 // looked at: they stay where they are and can be read as before, but no longer written to. A small picture,
 // and one for which there is no room in such a file, stays in memory. Files are in $TMPDIR, else in /var/tmp
 // or /tmp.
-void keepInFile(Image& image);
+void keepInFile(PixelData& picture);
 
 // That the picture is not needed for now: of one that is kept in a file, no page stays in the program's
 // memory until it is looked at again. Any other is left alone.
-void letGo(const Image& image);
+void letGo(const PixelData& picture);
 
 }  // namespace diptych

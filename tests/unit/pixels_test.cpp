@@ -35,23 +35,23 @@ TEST(Pixels, KeptInAFileTheyStayWhatAndWhereTheyAre) {
     Image image = noise(400, 300, 1);
     const Image before = image;
     const float* const place = image.data.data();
-    keepInFile(image);
+    keepInFile(image.data);
     EXPECT_EQ(image.data.data(), place);
     EXPECT_EQ(image.data, before.data);
     EXPECT_GT(residentShare(image), 0.99);
-    letGo(image);
+    letGo(image.data);
     EXPECT_LT(residentShare(image), 0.01);
     EXPECT_EQ(image.data, before.data);
     const Image copy = image, moved = std::move(image);
     EXPECT_EQ(moved.data.data(), place);
-    letGo(copy);
+    letGo(copy.data);
     EXPECT_EQ(copy.data, before.data) << "a copy is in memory";
 }
 
 TEST(Pixels, WhatIsInMemoryIsNotLetGo) {
     for (const int width : {4, 400}) {
         const Image image = noise(width, width, 1), before = image;
-        letGo(image);
+        letGo(image.data);
         EXPECT_EQ(image.data, before.data) << width;
     }
 }
@@ -64,8 +64,8 @@ TEST(Pixels, AFileHasNoNameAndNeedsNoFolderOfTheUsers) {
         ::setenv("TMPDIR", temporary.c_str(), 1);
         Image image = noise(400, 300, 2);
         const Image before = image;
-        keepInFile(image);
-        letGo(image);
+        keepInFile(image.data);
+        letGo(image.data);
         EXPECT_EQ(image.data, before.data) << temporary;
         EXPECT_EQ(namesIn(place), std::vector<std::string>());
     }
@@ -76,9 +76,9 @@ TEST(Pixels, AFileHasNoNameAndNeedsNoFolderOfTheUsers) {
 TEST(Pixels, MemoryOfOneThatWasKeptIsNewForTheNext) {
     for (int round = 0; round < 4; ++round) {
         Image image = noise(400, 300, static_cast<unsigned>(round));
-        letGo(image);
+        letGo(image.data);
         EXPECT_EQ(image.data, noise(400, 300, static_cast<unsigned>(round)).data);
-        keepInFile(image);
+        keepInFile(image.data);
     }
 }
 
