@@ -67,8 +67,8 @@ public:
     }
 
     Image picture() override {
-        Image image{workload_.size.width, workload_.size.height, 3, {}};
-        image.data = std::move(passes_.readBack(std::array{PassList::ReadBack{target_, 3}}).front());
+        Image image(workload_.size.width, workload_.size.height, 3);
+        passes_.readBack(std::array{PassList::ReadBack{target_, 3}}, std::array{std::span(image.data)});
         return image;
     }
 

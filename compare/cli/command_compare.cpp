@@ -101,6 +101,7 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Device
             drawn.visual_checks.push_back(
                 visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
             drawn.materials.push_back(materialNames(scene));
+            letGo(shown);
         }
         std::ranges::move(frames, std::back_inserter(drawn.frames));
     }

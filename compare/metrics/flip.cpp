@@ -92,7 +92,7 @@ void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResul
     std::vector<float> counted;
     std::span<const float> errors = result.error.data;
     if (!covered.empty() || !pair.holes.empty()) {
-        counted = result.error.data;
+        counted.assign(result.error.data.begin(), result.error.data.end());
         for (std::size_t i = 0; i < counted.size(); ++i)
             if ((!covered.empty() && !covered[i]) || (!pair.holes.empty() && pair.holes[i] == Hole::same))
                 counted[i] = notMeasured;

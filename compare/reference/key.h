@@ -20,8 +20,8 @@ public:
     void add(const T& value) {
         add(std::as_bytes(std::span(&value, 1)));
     }
-    template <class T>
-    void addAll(const std::vector<T>& values) {
+    template <class T, class Allocator>
+    void addAll(const std::vector<T, Allocator>& values) {
         add(values.size());
         add(std::as_bytes(std::span(values)));
     }

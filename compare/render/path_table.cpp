@@ -14,9 +14,17 @@ namespace {
 // The paths, one row each.
 const PathFunctions paths[] = {
     {Path::deferred, [](FrameInputs&, const Settings&) { return std::vector<std::string>{}; }, addDeferred,
-     addDeferredCapture, [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; }},
+     addDeferredCapture, [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; },
+     [](Shader fragment) {
+         return fragment == Shader::gbuffer_frag || fragment == Shader::deferred_shade_frag ||
+                fragment == Shader::deferred_light_batch_frag || fragment == Shader::deferred_capture_frag;
+     }},
     {Path::forward_plus, prepareForwardPlus, addForwardPlus, addForwardPlusCapture,
-     [](const FrameInputs&) { return std::uint32_t{4}; }},
+     [](const FrameInputs&) { return std::uint32_t{4}; },
+     [](Shader fragment) {
+         return fragment == Shader::forward_shade_frag || fragment == Shader::forward_light_batch_frag ||
+                fragment == Shader::forward_capture_frag;
+     }},
 };
 
 }  // namespace

@@ -21,6 +21,7 @@ struct PathFunctions {
     std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, const FrameImages&,
                                           const CaptureRequest&);
     std::uint32_t (*bytesPerPixel)(const FrameInputs&);
+    bool (*draws)(Shader fragment);  // whether only this path draws with it
 };
 // Throws std::logic_error for the reference, which no device draws.
 const PathFunctions& functionsOf(Path path);

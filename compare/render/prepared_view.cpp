@@ -136,20 +136,20 @@ FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared)
             prepared.path.bytesPerPixel(prepared.view.inputs)};
 }
 
-std::vector<Image> readImages(PassList& passes, const std::vector<PassList::ReadBack>& requests) {
-    std::vector<std::vector<float>> data = passes.readBack(requests);
-    std::vector<Image> images(requests.size());
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        images[i].width = static_cast<int>(passes.width());
-        images[i].height = static_cast<int>(passes.height());
-        images[i].components = requests[i].components;
-        images[i].data = std::move(data[i]);
-    }
+std::vector<Image> readImages(PassList& passes, std::span<const PassList::ReadBack> requests) {
+    std::vector<Image> images;
+    std::vector<std::span<float>> into;
+    for (const PassList::ReadBack& request : requests)
+        images.emplace_back(static_cast<int>(passes.width()), static_cast<int>(passes.height()),
+                            request.components);
+    for (Image& image : images) into.emplace_back(image.data);
+    passes.readBack(requests, into);
     return images;
 }
 
 Image readLit(PreparedFrame& prepared) {
-    return std::move(readImages(prepared.passes, {{prepared.images.lit, 3}}).front());
+    return std::move(
+        readImages(prepared.passes, std::array{PassList::ReadBack{prepared.images.lit, 3}}).front());
 }
 
 }  // namespace diptych

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,6 @@ FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared)
 
 // lit as the last run left it, row 0 on top, R, G, B.
 Image readLit(PreparedFrame& prepared);
-std::vector<Image> readImages(PassList& passes, const std::vector<PassList::ReadBack>& requests);
+std::vector<Image> readImages(PassList& passes, std::span<const PassList::ReadBack> requests);
 
 }  // namespace diptych

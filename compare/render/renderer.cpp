@@ -15,9 +15,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -94,33 +96,47 @@ private:
         announce("capture");
         step("capture channels", captureFrames);
         const std::size_t first = passes.size();
-        const std::vector<CapturedImage> captured =
+        std::vector<CapturedImage> captured =
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
-        std::vector<PassList::ReadBack> requests;
-        for (const CapturedImage& c : captured) requests.push_back({c.image, debugMode(c.mode).width});
-        const auto read = [&] {
-            passes.run(first, passes.size());
-            return readImages(passes, requests);
-        };
-        std::vector<Image> channels = read();
-        for (std::size_t i = 0; i < captured.size(); ++i)
-            (captured[i].through_gbuffer ? frame_.through_gbuffer : frame_.channels)[captured[i].mode] =
-                std::move(channels[i]);
-        frame_.counters.unreproduced_pixels =
-            unequalPixels(frame_.channels[lit], lit_, device_.profile().bit_exact ? 0 : gpuUlps);
-        frame_.channels[lit] = std::move(lit_);
+        readCaptured(first, captured, [this](const CapturedImage& read, Image image) {
+            if (read.mode == lit && !read.through_gbuffer) {
+                frame_.counters.unreproduced_pixels =
+                    unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
+                image = std::move(lit_);
+            }
+            keepInFile(image.data);
+            (read.through_gbuffer ? frame_.through_gbuffer : frame_.channels)[read.mode] = std::move(image);
+        });
         if (options_.twice) {
             announce("once more");
             step("draw once more", 2);
             passes.run(0, first);
             addNoise(lit, readLit(prepared_));
             step("capture once more", captureFrames);
-            channels = read();
-            for (std::size_t i = 0; i < captured.size(); ++i)
-                if (!captured[i].through_gbuffer && captured[i].mode != lit)
-                    addNoise(captured[i].mode, channels[i]);
+            // What went through the G-buffer comes last, and is drawn once.
+            std::erase_if(captured, &CapturedImage::through_gbuffer);
+            readCaptured(first, captured, [this](const CapturedImage& read, const Image& image) {
+                if (read.mode != lit) addNoise(read.mode, image);
+            });
         }
         if (!isRequested(lit)) frame_.channels.erase(lit);
+    }
+
+    // Runs the capture's passes group by group, from pass `first` on, and hands out what each group left, one
+    // image after the other: each is gone before the next is read, and only few are there at a time.
+    void readCaptured(std::size_t first, std::span<const CapturedImage> captured,
+                      const std::function<void(const CapturedImage&, Image)>& take) {
+        PassList& passes = prepared_.passes;
+        while (!captured.empty()) {
+            const std::size_t pass = captured.front().pass;
+            passes.run(first, pass + 1);
+            for (first = pass + 1; !captured.empty() && captured.front().pass == pass;
+                 captured = captured.subspan(1)) {
+                const PassList::ReadBack request{captured.front().image,
+                                                 debugMode(captured.front().mode).width};
+                take(captured.front(), std::move(readImages(passes, std::span(&request, 1)).front()));
+            }
+        }
     }
 
     // Stores how the second run of a channel differs from the first.
@@ -131,6 +147,7 @@ private:
         if (noise.pixels > 0)
             noise.max = channelStats(mode.metric, mode.kind, first, again, everyPixel(first.pixels())).max;
         frame_.noise[number] = noise;
+        letGo(first.data);
     }
 
     static constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
@@ -205,6 +222,11 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
     return drawReferenceFrame(scene, view, settings, &surfaces, options);
 }
 
+void Renderer::clearPipelines(Path path) {
+    const PathFunctions& functions = functionsOf(path);
+    state_->shared.pipelines.erase([&](const PipelineKey& key) { return functions.draws(key.fragment); });
+}
+
 std::size_t Renderer::pipelines() const {
     return state_->shared.pipelines.count();
 }
@@ -259,6 +281,11 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
         each.progress = options.progress.part(place(done), place(done + 1));
         frames.push_back(renderer.draw(settings[i], each));
         addTimes(times[i], frames.back());
+        // Those of a path that is drawn no more: lavapipe has some 1.5 MB for each of the gallery's.
+        if (settings[i].path != Path::reference &&
+            std::none_of(settings.begin() + static_cast<std::ptrdiff_t>(i) + 1, settings.end(),
+                         [&](const Settings& later) { return later.path == settings[i].path; }))
+            renderer.clearPipelines(settings[i].path);
     }
     return frames;
 }

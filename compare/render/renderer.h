@@ -40,6 +40,9 @@ public:
     PreparedFrames prepare(std::span<const Settings> settings);
     // Times frames of the two paths, all at once and in turn; `options`: runs, progress.
     std::vector<TimedFrame> time(std::span<const Settings> settings, const RenderOptions& options);
+    // Destroys the pipelines of one path, of all Renderers that share them. Frames of it that are prepared
+    // must be gone.
+    void clearPipelines(Path path);
     // How many pipelines there are by now, of all Renderers that share them.
     std::size_t pipelines() const;
 

@@ -61,7 +61,7 @@ ErrorHistogram errorHistogram(const Image& errors, const Coverage& coverage) {
 
 std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t most, int apart, int first_x,
                                     int first_y) {
-    std::vector<float> left(errors.data);
+    PixelData left = errors.data;
     std::vector<WorstPixel> worst;
     const auto take = [&](int x, int y) {
         worst.push_back({x, y, double{errors.at(x, y)}});

@@ -118,8 +118,11 @@ ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool si
         const Exposure exposure =
             exposureFor(choice, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);
         auto& channels = layout.pictures.emplace_back();
-        for (const ChannelDiff& channel : comparison.channels)
+        for (const ChannelDiff& channel : comparison.channels) {
             channels.push_back(picturesOf(report, comparison, channel, prefix, exposure));
+            for (const std::size_t frame : {comparison.baseline, comparison.test})
+                letGo(report.frames[frame], channel.mode->number);
+        }
         if (singleFile)
             for (ChannelPictures& channel : channels) channel.values.clear();
         if (!singleFile && places[i] >= comparisonsInPage) layout.sections[i] = prefix + "section.js";

@@ -56,7 +56,9 @@ Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test)
     for (std::size_t i = 0; i < modes.size(); ++i) {
         diff.channels[i]->measurement.reset();
         MatchedChannel& pair = diff.channels[i]->pair;
-        frame.channels[modes[i].number] = std::move(test ? pair.test : pair.reference);
+        Image& channel = frame.channels[modes[i].number];
+        channel = std::move(test ? pair.test : pair.reference);
+        keepInFile(channel.data);
     }
     return frame;
 }

@@ -63,12 +63,18 @@ private:
         const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
         const auto add = [&](const Frame& frame, const std::string& name) {
             if (!name.empty())
-                tasks.push_back([&] { write(name, channelPicture(mode, frame, pictures.scale)); });
+                tasks.push_back([&] {
+                    write(name, channelPicture(mode, frame, pictures.scale));
+                    letGo(frame, mode.number);
+                });
         };
         add(left, pictures.baseline);
         add(right, pictures.test);
         if (!pictures.difference.empty() || !pictures.values.empty())
-            tasks.push_back([&] { writeErrors(comparison, channel, pictures); });
+            tasks.push_back([&] {
+                writeErrors(comparison, channel, pictures);
+                for (const Frame* frame : {&left, &right}) letGo(*frame, mode.number);
+            });
     }
 
     // Writes the difference picture, its figures, and the values script, which also holds the errors.
@@ -90,8 +96,11 @@ private:
         }
         if (pictures.values.empty()) return;
         if (!left) std::swap(left, right);
-        writeFile(folder_ / pictures.values,
-                  valuesScript(pictures.values, {left, right, errors.empty() ? nullptr : &errors}));
+        AtomicFile script(folder_ / pictures.values);
+        valuesScript(
+            pictures.values, {left, right, errors.empty() ? nullptr : &errors},
+            [&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), script.stream()); });
+        script.commit();
     }
 
     void write(const std::string& name, const Image8& image) {

@@ -44,13 +44,16 @@ bool holdsExactly(const Image& image, int exponent) {
     });
 }
 
-// Stores planes as differences along rows, split into bytes and deflated; the page reverses this.
+using Write = std::function<void(std::string_view)>;
+
+// Writes planes as differences along rows, split into bytes, deflated and in base64; the page reverses this.
 class Planes {
 public:
-    Planes(int width, std::size_t pixels, int bits)
+    Planes(int width, std::size_t pixels, int bits, const Write& write)
         : width_(static_cast<std::size_t>(width)),
           plane_(pixels * static_cast<std::size_t>(bits) / 8),
-          pixels_(pixels) {
+          pixels_(pixels),
+          write_(write) {
         // Level 1: a report waits for dozens of these; level 4 takes half again as long to save a thirteenth.
         if (deflateInit(&stream_, 1) != Z_OK) fail();
     }
@@ -74,9 +77,9 @@ public:
         deflateTo(Z_NO_FLUSH);
     }
 
-    std::string deflated() {
+    void finish() {
         deflateTo(Z_FINISH);
-        return std::move(out_);
+        pass(deflated_.size());
     }
 
 private:
@@ -90,15 +93,23 @@ private:
             stream_.next_out = piece.data();
             stream_.avail_out = static_cast<uInt>(piece.size());
             if (deflate(&stream_, flush) == Z_STREAM_ERROR) fail();
-            out_.append(reinterpret_cast<const char*>(piece.data()), piece.size() - stream_.avail_out);
+            deflated_.append(reinterpret_cast<const char*>(piece.data()), piece.size() - stream_.avail_out);
+            pass(deflated_.size() / 3 * 3);  // whole groups of three, so that pieces join
         } while (stream_.avail_out == 0);
+    }
+
+    void pass(std::size_t bytes) {
+        if (bytes == 0) return;
+        write_(base64(std::string_view(deflated_).substr(0, bytes)));
+        deflated_.erase(0, bytes);
     }
 
     std::size_t width_;
     std::vector<unsigned char> plane_;
     std::size_t pixels_;
     z_stream stream_{};
-    std::string out_;
+    const Write& write_;
+    std::string deflated_;  // and not yet written
 };
 
 // One word of a component; 32 bits are not scaled. A double holds every float times every scale exactly.
@@ -113,7 +124,7 @@ struct WordOf {
 
 }  // namespace
 
-std::string valuesScript(const std::string& name, const ChannelValues& values) {
+void valuesScript(const std::string& name, const ChannelValues& values, const Write& write) {
     const Image& first = *values.baseline;
     const int images = values.test ? 2 : 1;
     const bool small = first.data.size() * sizeof(float) * static_cast<std::size_t>(images) <= mostExactBytes;
@@ -123,7 +134,20 @@ std::string valuesScript(const std::string& name, const ChannelValues& values) {
     const WordOf word{small && !halfIsExact ? 32 : 16, std::exp2(exponent)};
     const double unit = word.bits == 16 && values.errors ? largestOf(*values.errors) : 1.0;
 
-    Planes planes(first.width, first.pixels(), word.bits);
+    const nlohmann::ordered_json head{{"width", first.width},
+                                      {"height", first.height},
+                                      {"components", first.components},
+                                      {"images", images},
+                                      {"errors", values.errors != nullptr},
+                                      {"bits", word.bits},
+                                      {"exact", word.bits == 32 || halfIsExact},
+                                      {"exponent", word.bits == 32 ? 0 : exponent},
+                                      {"errorUnit", unit > 0 ? unit : 1.0}};
+    std::string begin = "diptychValues(" + nlohmann::json(name).dump() + "," + head.dump();
+    begin.pop_back();  // the brace, since `data` belongs to it
+    write(begin + ",\"data\":\"");
+
+    Planes planes(first.width, first.pixels(), word.bits, write);
     const auto at = [](const Image& image, std::size_t pixel, int c) {
         return image.pixel(pixel)[static_cast<std::size_t>(c)];
     };
@@ -138,24 +162,8 @@ std::string valuesScript(const std::string& name, const ChannelValues& values) {
             return unscaled(static_cast<float>(unit > 0 && std::isfinite(e) ? e / unit : e));
         });
     }
-    const nlohmann::ordered_json head{{"width", first.width},
-                                      {"height", first.height},
-                                      {"components", first.components},
-                                      {"images", images},
-                                      {"errors", values.errors != nullptr},
-                                      {"bits", word.bits},
-                                      {"exact", word.bits == 32 || halfIsExact},
-                                      {"exponent", word.bits == 32 ? 0 : exponent},
-                                      {"errorUnit", unit > 0 ? unit : 1.0}};
-    // The data, most of it all, is appended: a JSON tree and its text would each hold it once more.
-    std::string script = "diptychValues(" + nlohmann::json(name).dump() + "," + head.dump();
-    script.pop_back();
-    script += ",\"data\":\"";
-    const std::string data = planes.deflated();
-    script.reserve(script.size() + data.size() / 3 * 4 + 16);
-    constexpr std::size_t piece = 3 << 14;  // whole groups of three, so that pieces join
-    for (std::size_t i = 0; i < data.size(); i += piece) script += base64(data.substr(i, piece));
-    return script += "\"});\n";
+    planes.finish();
+    write("\"});\n");
 }
 
 }  // namespace diptych

@@ -7,7 +7,9 @@
 #include "shared/image/image.h"
 
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace diptych {
 
@@ -32,6 +34,9 @@ inline constexpr std::size_t mostPixelsOfValues = std::size_t{16} << 20;
 // value x 2^exponent, by which the largest magnitude stays below 2^15, so that 11 bits are left of all that
 // is no more than 2^29 times smaller; `exact` where no value is changed by it. Errors in 16 bits are in units
 // of errorUnit, the largest finite one.
-std::string valuesScript(const std::string& name, const ChannelValues& values);
+//
+// The script is given to `write` piece by piece, since it may be larger than the pictures.
+void valuesScript(const std::string& name, const ChannelValues& values,
+                  const std::function<void(std::string_view)>& write);
 
 }  // namespace diptych

@@ -233,6 +233,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];
         if (channel.verdict != Verdict::forward_only) channel = diffChannel(*channel.mode, pair, options);
+        for (const Frame* frame : {&left, &right, pair.explaining})
+            if (frame) letGo(*frame, channel.mode->number);
         options.progress.at(static_cast<double>(++done) / static_cast<double>(comparison.channels.size()),
                             "compare " + std::string(channel.mode->name));
     });

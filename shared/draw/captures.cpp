@@ -41,10 +41,13 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group) {
     std::vector<CapturedImage> images;
     for (std::size_t i = 0; i < group.modes.size(); ++i) {
-        const ImageRef image = passes.image(std::string(debugMode(group.modes[i]).name), group.formats[i]);
+        const ImageRef image = passes.image({.name = std::string(debugMode(group.modes[i]).name),
+                                             .format = group.formats[i],
+                                             .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                             .life = Life::transient});
         const float background = group.modes[i] == static_cast<int>(gpu::DEBUG_material_id) ? -1.0f : 0.0f;
         pass.color(image, Load::clear, {.float32 = {background, 0, 0, 0}});
-        images.push_back({group.modes[i], image});
+        images.push_back({group.modes[i], image, passes.size() - 1});
     }
     return images;
 }

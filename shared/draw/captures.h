@@ -5,6 +5,7 @@
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,11 @@ struct CaptureGroup {
 };
 std::vector<CaptureGroup> captureGroups(std::span<const int> modes);
 
+// Groups share their images' memory: each is run, and read back, before the next one runs.
 struct CapturedImage {
     int mode = 0;
     ImageRef image;
+    std::size_t pass = 0;          // the number of its group's
     bool through_gbuffer = false;  // forward+: of a surface that was encoded and decoded
 };
 
@@ -31,7 +34,8 @@ struct CaptureRequest {
     std::vector<int> modes, through_gbuffer;
 };
 
-// Adds the group's attachments to a pass, cleared to what the background holds (0; material_id -1).
+// Adds the group's attachments to the list's last pass, cleared to what the background holds (0; material_id
+// -1).
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group);
 
 }  // namespace diptych

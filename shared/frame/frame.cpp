@@ -5,6 +5,15 @@
 
 namespace diptych {
 
+void letGo(const Frame& frame, int mode) {
+    for (const auto* pictures : {&frame.channels, &frame.through_gbuffer})
+        if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second.data);
+}
+
+void letGo(const Frame& frame) {
+    for (const auto& [mode, image] : frame.channels) letGo(frame, mode);
+}
+
 bool isReferenceFrame(const Frame& frame) {
     return frame.settings.path == Path::reference &&
            (frame.origin.file.empty() || !frame.origin.device.empty());

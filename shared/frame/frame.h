@@ -100,6 +100,10 @@ struct Frame {
     std::vector<std::string> notes;  // what users must know: what was drawn otherwise than requested
 };
 
+// letGo() of all pictures of one channel, and of every channel.
+void letGo(const Frame& frame, int mode);
+void letGo(const Frame& frame);
+
 // Whether it is a Frame of this program's reference: drawn now, or read from a file that this program wrote.
 // A file of another renderer is not.
 bool isReferenceFrame(const Frame& frame);

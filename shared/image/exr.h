@@ -26,7 +26,8 @@ struct ExrAttribute {
 };
 
 // Writes all layers as float32 into one scan-line part (ZIP compressed, on all cores), with the given string
-// attributes. Written beside `file` and renamed. Throws std::runtime_error naming the file.
+// attributes. Written beside `file` and renamed; pixels that are kept in files are let go. Throws
+// std::runtime_error naming the file.
 void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>& layers,
               const std::vector<ExrAttribute>& attributes = {});
 

@@ -122,13 +122,13 @@ std::vector<Layer> layersOf(const ExrPart& part) {
 // ---- pixels ------------------------------------------------------------------------------------------
 
 // Crops or extends `stored` to the display window, with 0 where nothing is stored.
-template <class T>
-std::vector<T> displayed(const std::vector<T>& stored, std::size_t components, const ExrWindow& data,
-                         const ExrWindow& display) {
+template <class Values>
+Values displayed(const Values& stored, std::size_t components, const ExrWindow& data,
+                 const ExrWindow& display) {
     const auto offset = [&](const ExrWindow& in, std::int64_t x, std::int64_t y) {
         return static_cast<std::size_t>((y - in.min_y) * in.width() + x - in.min_x) * components;
     };
-    std::vector<T> whole(static_cast<std::size_t>(display.width() * display.height()) * components);
+    Values whole(static_cast<std::size_t>(display.width() * display.height()) * components);
     const std::int32_t left = std::max(data.min_x, display.min_x),
                        right = std::min(data.max_x, display.max_x);
     if (left > right) return whole;

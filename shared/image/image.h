@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/image/pixels.h"
+
 #include <cstddef>
-#include <vector>
 
 namespace diptych {
 
 // W x H x N float32, row 0 on top, the components of a pixel next to each other.
 struct Image {
     int width = 0, height = 0, components = 0;
-    std::vector<float> data;
+    PixelData data;
 
     Image() = default;
     Image(int w, int h, int n, float value = 0.0f)

@@ -4,6 +4,7 @@
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/commands.h"
 #include "shared/vulkan/physical_device.h"
+#include "shared/vulkan/pipeline_cache.h"
 
 #include <fmt/format.h>
 
@@ -166,6 +167,7 @@ struct Device::State {
     std::unique_ptr<VkDevice, DeviceDeleter> device;
     std::unique_ptr<Memory> memory;
     std::uint32_t family = 0;
+    std::optional<PipelineCache> pipeline_cache;
     VkQueue queue = VK_NULL_HANDLE;
     OwnedCommandPool pool;
     VkCommandBuffer commands = VK_NULL_HANDLE;
@@ -199,6 +201,7 @@ Device::Device(const DeviceOptions& options) : state_(std::make_unique<State>())
     s.profile = profileOf(s.info, s.timestamp_bits, options.choices);
     s.device.reset(createDevice(s.physical, family));
     s.memory = std::make_unique<Memory>(s.physical, s.device.get(), knowsMemoryBudget(s.physical));
+    s.pipeline_cache.emplace(s.physical, s.device.get(), userCacheFolder());
     vkGetDeviceQueue(s.device.get(), family, 0, &s.queue);
     s.pool = makeCommandPool(s.device.get(), family);
     s.commands = allocateCommands(s.device.get(), s.pool);
@@ -241,6 +244,9 @@ VkPhysicalDevice Device::physical() const {
 }
 Memory& Device::memory() {
     return *state_->memory;
+}
+VkPipelineCache Device::pipelineCache() const {
+    return state_->pipeline_cache->handle();
 }
 
 VkQueue Device::queue() const {

@@ -50,7 +50,8 @@ public:
     VkDevice handle() const;
     VkPhysicalDevice physical() const;
     Memory& memory();
-    bool countsFragments() const;  // occlusion queries are exact
+    VkPipelineCache pipelineCache() const;  // for everything that makes pipelines, from any thread
+    bool countsFragments() const;           // occlusion queries are exact
     const DeviceProfile& profile() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 

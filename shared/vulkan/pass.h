@@ -23,7 +23,7 @@ struct BufferRef {
 enum class Load { clear, keep };  // keep: an attachment's contents from an earlier pass
 
 // How long an image's contents are needed. A transient has them from its first pass in a run to its last:
-// images whose lives do not overlap share memory, and nothing may be read back.
+// images whose lives do not overlap share memory, and nothing may be read back once another pass has run.
 enum class Life { kept, transient };
 
 struct ImageDeclaration {

@@ -85,14 +85,16 @@ public:
     void enqueue(FramesInFlight& frames);
 
     // Images as the last run left them, row 0 on top: the first `components` float32 of every texel of one
-    // level and layer, side by side. Copied in one submit, as far as staging memory of 256 MiB allows, and
-    // unpacked on all cores.
+    // level and layer, side by side. Copied in one submit, as far as staging memory of 64 MiB allows, and
+    // unpacked on all cores. Of transients only those that the last pass that ran had.
     struct ReadBack {
         ImageRef image;
         int components = 1;
         Slice slice{};
     };
     std::vector<std::vector<float>> readBack(std::span<const ReadBack> requests);
+    // The same into memory of the caller's, as many floats each.
+    void readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
 
     // One name for passes of the same name that follow each other.
     std::vector<std::string> names() const;
@@ -137,7 +139,7 @@ private:
     void renderPass(const Pass& pass, const Piece& piece, VkCommandBuffer commands);
     std::vector<double> runSpans(const std::vector<Span>& spans);
     void submit(const std::vector<Piece>& pieces, std::vector<double>& ms);
-    void copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results);
+    void copyToHost(std::span<const ReadBack> requests, std::span<const std::span<float>> into);
 
     Device& device_;
     std::uint32_t width_, height_;
@@ -148,6 +150,7 @@ private:
     std::vector<Allocation> blocks_;  // memory of transients
     std::uint64_t shared_bytes_ = 0;
     double record_ms_ = 0;
+    std::size_t last_run_ = ~std::size_t{0};  // the pass that ran last
     std::vector<RecordedBarrier> recorded_;
 };
 

@@ -2,6 +2,7 @@
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pass_resource.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -19,24 +20,32 @@ std::size_t texelsOf(const GpuImageInfo& image, const Slice& slice) {
 }  // namespace
 
 std::vector<std::vector<float>> PassList::readBack(std::span<const ReadBack> requests) {
-    constexpr std::size_t stagingBytes = std::size_t{256} << 20;
-    std::vector<std::vector<float>> results(requests.size());
-    for (std::size_t i = 0; i < requests.size();) {
-        std::size_t count = 0, bytes = 0;
-        while (i + count < requests.size()) {
-            const GpuImageInfo& image = resource(requests[i + count].image).image->info();
-            const std::size_t next = texelsOf(image, requests[i + count].slice) * bytesPerTexel(image.format);
-            if (count > 0 && bytes + next > stagingBytes) break;
-            bytes += next;
-            ++count;
-        }
-        copyToHost(requests.subspan(i, count), std::span(results).subspan(i, count));
-        i += count;
-    }
+    std::vector<std::vector<float>> results;
+    std::vector<std::span<float>> into;
+    for (const ReadBack& request : requests)
+        results.emplace_back(texelsOf(resource(request.image).image->info(), request.slice) *
+                             static_cast<std::size_t>(request.components));
+    for (std::vector<float>& result : results) into.emplace_back(result);
+    readBack(requests, into);
     return results;
 }
 
-void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vector<float>> results) {
+void PassList::readBack(std::span<const ReadBack> requests, std::span<const std::span<float>> into) {
+    constexpr std::size_t stagingBytes = std::size_t{64} << 20;
+    const auto bytesOf = [&](const ReadBack& request) {
+        const GpuImageInfo& image = resource(request.image).image->info();
+        return texelsOf(image, request.slice) * bytesPerTexel(image.format);
+    };
+    for (std::size_t i = 0; i < requests.size();) {
+        std::size_t end = i + 1, bytes = bytesOf(requests[i]);
+        while (end < requests.size() && bytes + bytesOf(requests[end]) <= stagingBytes)
+            bytes += bytesOf(requests[end++]);
+        copyToHost(requests.subspan(i, end - i), into.subspan(i, end - i));
+        i = end;
+    }
+}
+
+void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const std::span<float>> into) {
     const auto infoOf = [&](const ReadBack& request) -> const GpuImageInfo& {
         return resource(request.image).image->info();
     };
@@ -50,7 +59,7 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
     std::vector<Use> uses;
     for (const ReadBack& request : requests) {
         const Resource& found = resource(request.image);
-        if (found.life == Life::transient)
+        if (found.life == Life::transient && found.last != last_run_)
             throw std::logic_error("PassList: " + found.image->info().name +
                                    " is a transient and cannot be read back");
         uses.push_back(
@@ -74,22 +83,23 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<std::vec
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
-    tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t image) {
+    for (std::size_t image = 0; image < requests.size(); ++image) {
         const std::size_t texels = texelsOf(infoOf(requests[image]), requests[image].slice);
         const auto kept = static_cast<std::size_t>(requests[image].components);
         const std::size_t stored = bytesPerTexel(infoOf(requests[image]).format) / 4;
         if (kept > stored)
             throw std::logic_error("PassList: an image has fewer components than are read back");
         const auto* from = static_cast<const float*>(buffers[image].mapped());
-        std::vector<float>& out = results[image];
-        if (kept == stored) {
-            out.assign(from, from + texels * kept);
-            return;
-        }
-        out.resize(texels * kept);
-        float* to = out.data();
-        for (std::size_t i = 0; i < texels; ++i, from += stored, to += kept) std::copy_n(from, kept, to);
-    });
+        float* const to = into[image].data();
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
+            if (kept == stored)
+                std::copy_n(from + range.begin() * stored, range.size() * stored,
+                            to + range.begin() * stored);
+            else
+                for (std::size_t i = range.begin(); i < range.end(); ++i)
+                    std::copy_n(from + i * stored, kept, to + i * kept);
+        });
+    }
 }
 
 }  // namespace diptych

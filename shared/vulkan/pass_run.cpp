@@ -92,6 +92,7 @@ void PassList::beginLives(BarrierTracker& tracker, std::size_t pass) const {
 
 void PassList::runPiece(const Piece& piece, VkCommandBuffer commands) {
     const Pass& pass = *passes_[piece.pass];
+    last_run_ = piece.pass;
     if (piece.band == 0) {
         beginLives(tracker_, piece.pass);
         barriersBefore(pass.name_, usesOf(pass), commands);

@@ -91,10 +91,15 @@ VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant
     info.stage.pSpecializationInfo = &specialization.info;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    checkResult(vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-                "vkCreateComputePipelines");
+    checkResult(
+        vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline),
+        "vkCreateComputePipelines");
     entry->second = OwnedPipeline(device_.handle(), pipeline);
     return pipeline;
+}
+
+void Pipelines::erase(const std::function<bool(const PipelineKey&)>& which) {
+    std::erase_if(pipelines_, [&](const auto& pipeline) { return which(pipeline.first); });
 }
 
 OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts) const {
@@ -192,8 +197,9 @@ OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts
                                             .basePipelineHandle = VK_NULL_HANDLE,
                                             .basePipelineIndex = 0};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    checkResult(vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-                "vkCreateGraphicsPipelines");
+    checkResult(
+        vkCreateGraphicsPipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline),
+        "vkCreateGraphicsPipelines");
     return {device_.handle(), pipeline};
 }
 

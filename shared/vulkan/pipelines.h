@@ -79,6 +79,9 @@ public:
     // `module` must outlive the pipelines.
     VkPipeline compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout);
     VkPipelineLayout layout() const { return layout_; }
+    // Destroys those that draw with such keys, of which none may be in use: a driver may hold megabytes for
+    // each.
+    void erase(const std::function<bool(const PipelineKey&)>& which);
     std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:

@@ -208,28 +208,35 @@ constexpr VkDeviceSize stagingAlignment = 16;  // of every texel we upload
 
 struct Uploader::State {
     Device& device;
-    GpuBuffer staging;
+    GpuBuffer staging{};
     VkDeviceSize used = 0;
-    std::vector<std::function<void(VkCommandBuffer)>> copies;
+    std::vector<std::function<void(VkCommandBuffer)>> copies{};
 
     // Room for up to `bytes`, at least one: data goes in pieces where it is larger than the staging buffer.
-    std::byte* reserve(Uploader& self, VkDeviceSize bytes, VkDeviceSize& offset) {
-        if (used + bytes > staging.size()) self.flush();
+    std::byte* reserve(VkDeviceSize bytes, VkDeviceSize& offset) {
+        if (used + bytes > staging.size()) copy();
         if (bytes > staging.size())
-            staging =
-                GpuBuffer(device, "staging", bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
+            staging = GpuBuffer(device, "staging", std::max(bytes, stagingSize),
+                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
         offset = used;
         used += (bytes + stagingAlignment - 1) / stagingAlignment * stagingAlignment;
         return static_cast<std::byte*>(staging.mapped()) + offset;
     }
+
+    // What the staging buffer holds, which can be filled again.
+    void copy() {
+        if (!copies.empty())
+            device.submit([&](VkCommandBuffer commands) {
+                for (const auto& record : copies) record(commands);
+                memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                              VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+            });
+        copies.clear();
+        used = 0;
+    }
 };
 
-Uploader::Uploader(Device& device)
-    : state_(new State{
-          device,
-          GpuBuffer(device, "staging", stagingSize, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload),
-          0,
-          {}}) {}
+Uploader::Uploader(Device& device) : state_(new State{device}) {}
 
 Uploader::~Uploader() = default;
 
@@ -237,7 +244,7 @@ void Uploader::buffer(const GpuBuffer& target, std::span<const std::byte> data) 
     for (VkDeviceSize done = 0; done < data.size();) {
         const VkDeviceSize bytes = std::min<VkDeviceSize>(data.size() - done, stagingSize);
         VkBufferCopy copy{.srcOffset = 0, .dstOffset = done, .size = bytes};
-        std::copy_n(data.data() + done, bytes, state_->reserve(*this, bytes, copy.srcOffset));
+        std::copy_n(data.data() + done, bytes, state_->reserve(bytes, copy.srcOffset));
         state_->copies.push_back([this, copy, to = target.handle()](VkCommandBuffer commands) {
             vkCmdCopyBuffer(commands, state_->staging.handle(), to, 1, &copy);
         });
@@ -247,7 +254,7 @@ void Uploader::buffer(const GpuBuffer& target, std::span<const std::byte> data) 
 
 void Uploader::level(const GpuImage& target, std::uint32_t level, std::span<const std::byte> data) {
     VkDeviceSize offset = 0;
-    std::copy(data.begin(), data.end(), state_->reserve(*this, data.size(), offset));
+    std::copy(data.begin(), data.end(), state_->reserve(data.size(), offset));
     const GpuImageInfo& info = target.info();
     const VkBufferImageCopy copy{
         .bufferOffset = offset,
@@ -270,14 +277,8 @@ void Uploader::level(const GpuImage& target, std::uint32_t level, std::span<cons
 }
 
 void Uploader::flush() {
-    if (!state_->copies.empty())
-        state_->device.submit([&](VkCommandBuffer commands) {
-            for (const auto& copy : state_->copies) copy(commands);
-            memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                          VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
-        });
-    state_->copies.clear();
-    state_->used = 0;
+    state_->copy();
+    state_->staging = {};
 }
 
 }  // namespace diptych

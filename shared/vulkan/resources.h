@@ -92,7 +92,7 @@ void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 fromStage, Vk
 void submitBarriers(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> barriers);
 
 // Copies data to device buffers and images through a staging buffer of bounded size; what was given is
-// there when flush() returns.
+// there when flush() returns, which gives the staging buffer's memory to others.
 class Uploader {
 public:
     explicit Uploader(Device& device);

@@ -309,7 +309,7 @@ TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
         renderer.draw(picture(size, Path::deferred, Assignment::clustered), untimed({lit, listOverflow}));
     if (device().limits().maxStorageBufferRange <= (128u << 20)) {
         EXPECT_GT(frame.counters.overflowed_lists, 0u);
-        const std::vector<float>& overflow = frame.channels.at(listOverflow).data;
+        const PixelData& overflow = frame.channels.at(listOverflow).data;
         EXPECT_GT(std::count(overflow.begin(), overflow.end(), 1.0f), 0);
     }
     EXPECT_EQ(wrongPixels(every.channels.at(lit), frame.channels.at(lit)), 0u);

@@ -148,7 +148,7 @@ TEST(ExrOfOthers, NumbersThatFloat32WouldRoundAreKept) {
     ASSERT_EQ(large.channels, (std::vector<std::string>{"Z", "id"}));
     EXPECT_EQ(large.sample, "mixed");
     EXPECT_TRUE(small.exact.empty()) << "nothing is rounded";
-    EXPECT_EQ(small.image.data, (std::vector<float>{1, 0, 2, 16777216, 3, 2147483648}));
+    EXPECT_EQ(small.image.data, (diptych::PixelData{1, 0, 2, 16777216, 3, 2147483648}));
     ASSERT_EQ(large.exact.size(), 2u);
     EXPECT_TRUE(large.exact[0].empty());
     EXPECT_EQ(large.exact[1], (std::vector<std::uint32_t>{7, 16777217, 4294967295}));

@@ -88,7 +88,7 @@ TEST(Layers, OurUncertaintyIsNoChannel) {
     EXPECT_TRUE(matched.notes.empty()) << "nor is it said to be missing";
 
     PictureFile taken = ours;
-    EXPECT_EQ(takeUncertainty(taken).data, (std::vector<float>{0, 1}));
+    EXPECT_EQ(takeUncertainty(taken).data, (PixelData{0, 1}));
     EXPECT_TRUE(takeUncertainty(taken).empty());
     EXPECT_EQ(taken.layers.size(), 1u);
 }

@@ -15,11 +15,11 @@ namespace diptych {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-ChannelStats scalars(Metric metric, const std::vector<float>& baseline, const std::vector<float>& test) {
+ChannelStats scalars(Metric metric, const PixelData& baseline, const PixelData& test) {
     return channelStats(metric, ChannelKind::scalar, rowOf(1, baseline), rowOf(1, test),
                         everyPixel(baseline.size()));
 }
-double angle(std::vector<float> a, std::vector<float> b) {
+double angle(PixelData a, PixelData b) {
     return channelStats(Metric::angular, ChannelKind::vector, rowOf(3, std::move(a)), rowOf(3, std::move(b)),
                         everyPixel(1))
         .max;
@@ -38,7 +38,7 @@ TEST(Metrics, AbsoluteByHand) {
 }
 
 TEST(Metrics, PercentilesAreTheNearestRank) {
-    std::vector<float> baseline(1000, 0.0f), test(1000);
+    PixelData baseline(1000, 0.0f), test(1000);
     for (std::size_t i = 0; i < 1000; ++i)
         test[(i * 617) % 1000] = static_cast<float>(i + 1);  // 1 .. 1000, mixed
     const ChannelStats s = scalars(Metric::absolute, baseline, test);
@@ -137,7 +137,7 @@ TEST(Metrics, SizesMustAgree) {
         std::runtime_error);
 }
 
-Frame ids(std::vector<float> values) {
+Frame ids(PixelData values) {
     Frame frame;
     frame.settings.size = {static_cast<int>(values.size()), 1};
     frame.channels[gpu::DEBUG_material_id] = rowOf(1, std::move(values));
@@ -174,7 +174,7 @@ TEST(Coverage, BackgroundIsOutsideMeansAndErrors) {
     const Image baseline = rowOf(1, {0, 1}), test = rowOf(1, {7, 1.5f});  // 7: background, must not count
     EXPECT_EQ(channelStats(Metric::absolute, ChannelKind::scalar, baseline, test, c).mean, 0.5);
     const Image errors = errorImage(Metric::absolute, ChannelKind::scalar, baseline, test, c);
-    EXPECT_EQ(errors.data, (std::vector<float>{0, 0.5f}));
+    EXPECT_EQ(errors.data, (PixelData{0, 0.5f}));
 }
 
 TEST(Metrics, UnequalPixelsSeesBitsOrUlps) {

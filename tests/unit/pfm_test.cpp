@@ -14,7 +14,7 @@ namespace diptych {
 namespace {
 
 using namespace std::string_literals;
-using Values = std::vector<float>;
+using Values = PixelData;
 
 std::string little(const Values& values) {
     return {reinterpret_cast<const char*>(values.data()), 4 * values.size()};

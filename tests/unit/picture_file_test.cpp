@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
-using Values = std::vector<float>;
+using Values = PixelData;
 
 PictureFile pictureOf(const std::string& file, std::string_view part = {}) {
     return readPicture(std::as_bytes(std::span(file)), "a", part);

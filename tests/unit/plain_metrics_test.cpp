@@ -14,7 +14,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-PlainMetrics scalars(std::vector<float> reference, std::vector<float> test) {
+PlainMetrics scalars(PixelData reference, PixelData test) {
     const std::size_t count = reference.size();
     return plainMetrics(rowOf(1, std::move(reference)), rowOf(1, std::move(test)), ChannelKind::scalar,
                         Range::linear, everyPixel(count));
@@ -22,7 +22,7 @@ PlainMetrics scalars(std::vector<float> reference, std::vector<float> test) {
 PlainMetrics colors(const Image& reference, const Image& test, Range range = Range::linear) {
     return plainMetrics(reference, test, ChannelKind::color, range, everyPixel(reference.pixels()));
 }
-PlainMetrics vectors(std::vector<float> reference, std::vector<float> test) {
+PlainMetrics vectors(PixelData reference, PixelData test) {
     const std::size_t count = reference.size() / 3;
     return plainMetrics(rowOf(3, std::move(reference)), rowOf(3, std::move(test)), ChannelKind::vector,
                         Range::linear, everyPixel(count));
@@ -46,7 +46,7 @@ TEST(PlainMetrics, ByHand) {
 }
 
 TEST(PlainMetrics, PercentilesAreTheNearestRank) {
-    std::vector<float> reference(1000, 0.0f), test(1000);
+    PixelData reference(1000, 0.0f), test(1000);
     for (std::size_t i = 0; i < 1000; ++i) test[(i * 617) % 1000] = static_cast<float>(i + 1);
     const PlainMetrics m = scalars(reference, test);
     EXPECT_EQ(m.p99, 990);

@@ -38,14 +38,14 @@ TEST(Radiance, AMantissaIsTheMiddleOfItsStep) {
     ASSERT_EQ(image.width, 2);
     ASSERT_EQ(image.height, 1);
     ASSERT_EQ(image.components, 3);
-    EXPECT_EQ(image.data, (std::vector<float>{1.00390625f, 0.50390625f, 0.00390625f, 0, 0, 0}));
+    EXPECT_EQ(image.data, (PixelData{1.00390625f, 0.50390625f, 0.00390625f, 0, 0, 0}));
 }
 
 TEST(Radiance, ExposuresAreTakenOutAgain) {
     const Image image =
         radianceOf(hdr("-Y 1 +X 1", "\x80\x80\x80\x81",
                        "# a note\nEXPOSURE=2\nVIEW= -vtv\nEXPOSURE= 4.0 \nCOLORCORR=1 0.5 4\n"));
-    EXPECT_EQ(image.data, (std::vector<float>{1.00390625f / 8, 1.00390625f / 4, 1.00390625f / 32}));
+    EXPECT_EQ(image.data, (PixelData{1.00390625f / 8, 1.00390625f / 4, 1.00390625f / 32}));
     for (const char* bad : {"0", "-1", "nan", "inf", "one", "1 2x"})
         EXPECT_EQ(radianceFault(hdr("-Y 1 +X 1", "\x80\x80\x80\x81", "COLORCORR=1 "s + bad + "\n")),
                   "a.hdr: COLORCORR=1 "s + bad + " is not three numbers above 0")

@@ -90,8 +90,14 @@ Image noiseUpTo(int width, int height, int components, double largest, unsigned 
     return image;
 }
 
+std::string scriptOf(const ChannelValues& values) {
+    std::string script;
+    valuesScript("a.values.js", values, [&](std::string_view text) { script += text; });
+    return script;
+}
+
 Decoded through(const Image& a, const Image& b, const Image& errors) {
-    return decoded(valuesScript("a.values.js", {&a, &b, &errors}));
+    return decoded(scriptOf({&a, &b, &errors}));
 }
 
 TEST(ReportValues, SmallPicturesAreExact) {
@@ -157,7 +163,7 @@ TEST(ReportValues, LargePicturesKeepElevenBits) {
 
 TEST(ReportValues, OneFrameAloneHasItsOwn) {
     const Image a = noiseUpTo(5, 4, 2, 1, 7);
-    const Decoded back = decoded(valuesScript("a.values.js", {&a, nullptr, nullptr}));
+    const Decoded back = decoded(scriptOf({&a, nullptr, nullptr}));
     EXPECT_EQ(back.head["images"], 1);
     ASSERT_EQ(back.planes.size(), 2u);
     EXPECT_EQ(back.planes[1][19], double{a.data[39]});

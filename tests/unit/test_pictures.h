@@ -39,7 +39,7 @@ inline Image noise(int width, int height, unsigned seed, float low = 0, float hi
 }
 
 // One row of pixels.
-inline Image rowOf(int components, std::vector<float> values) {
+inline Image rowOf(int components, PixelData values) {
     Image image(static_cast<int>(values.size()) / components, 1, components);
     image.data = std::move(values);
     return image;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "shared/image/pixels.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <mutex>
+#include <set>
+#include <string>
+
+namespace diptych {
+namespace {
+
+// The pictures that are in files, by where their pixels begin. Never destroyed: pictures may outlive it.
+struct Kept {
+    std::mutex mutex;
+    std::set<const void*> pictures;
+};
+
+Kept& kept() {
+    static auto* const all = new Kept;
+    return *all;
+}
+
+// A new file without a name, for reading and writing; -1 where none can be made.
+int namelessFile() {
+    const char* const chosen = std::getenv("TMPDIR");
+    for (const std::string& folder :
+         {std::string(chosen ? chosen : ""), std::string("/var/tmp"), std::string("/tmp")}) {
+        if (folder.empty()) continue;
+        std::string name = folder + "/diptych-XXXXXX";
+        if (const int file = ::mkostemp(name.data(), O_CLOEXEC); file >= 0) {
+            ::unlink(name.c_str());
+            return file;
+        }
+    }
+    return -1;
+}
+
+bool writeAll(int file, const char* bytes, std::size_t count) {
+    while (count > 0) {
+        const ssize_t written = ::write(file, bytes, count);
+        if (written <= 0) return false;
+        bytes += written;
+        count -= static_cast<std::size_t>(written);
+    }
+    return true;
+}
+
+}  // namespace
+
+void* pixels::takePages(std::size_t bytes) {
+    void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    return memory;
+}
+
+void pixels::givePages(void* memory, std::size_t bytes) noexcept {
+    {
+        const std::lock_guard lock(kept().mutex);
+        kept().pictures.erase(memory);
+    }
+    ::munmap(memory, bytes);
+}
+
+void keepInFile(PixelData& picture) {
+    const std::size_t bytes = picture.size() * sizeof(float);
+    if (bytes < pixels::ownPages) return;
+    const int file = namelessFile();
+    if (file < 0) return;
+    // In place of the pages that the vector has: they are its own, and begin and end with one.
+    if (writeAll(file, reinterpret_cast<const char*>(picture.data()), bytes)) {
+        const std::lock_guard lock(kept().mutex);
+        const auto entry = kept().pictures.insert(picture.data()).first;
+        if (::mmap(picture.data(), bytes, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0) == MAP_FAILED)
+            kept().pictures.erase(entry);
+    }
+    ::close(file);  // a mapping keeps it
+}
+
+void letGo(const PixelData& picture) {
+    const std::lock_guard lock(kept().mutex);
+    if (kept().pictures.contains(picture.data()))
+        ::madvise(const_cast<float*>(picture.data()), picture.size() * sizeof(float), MADV_DONTNEED);
+}
+
+}  // namespace diptych

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "shared/vulkan/pipeline_cache.h"
+
+#include "shared/vulkan/spirv.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+
+// FNV-1a of 64 bits (Fowler, Noll and Vo 1991), of bytes or of words.
+class CacheHash {
+public:
+    template <class T>
+    void add(std::span<const T> values) {
+        for (const T value : values) value_ = (value_ ^ static_cast<std::uint64_t>(value)) * 0x100000001b3u;
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+std::uint64_t hashOf(std::span<const std::byte> data) {
+    CacheHash hash;
+    hash.add(data);
+    return hash.value();
+}
+
+std::uint64_t hashOfProgram() {
+    CacheHash hash;
+    for (const ShaderModule& module : shaderModules()) hash.add(module.words);
+    return hash.value();
+}
+
+// How a file begins.
+struct CacheFileHead {
+    std::array<char, 8> magic{'d', 'i', 'p', 't', 'y', 'c', 'h', '1'};
+    PipelineCacheKey key;
+    std::uint64_t bytes = 0, hash = 0;  // of the data, which follow
+};
+static_assert(std::has_unique_object_representations_v<CacheFileHead>);  // every byte is written by us
+
+// A driver that keeps nothing gives the header that Vulkan demands (VkPipelineCacheHeaderVersionOne).
+constexpr std::size_t emptyCacheBytes = sizeof(VkPipelineCacheHeaderVersionOne);
+
+}  // namespace
+
+fs::path userCacheFolder() {
+    // The XDG base directory specification: a relative path is invalid, and ignored.
+    for (const auto& [variable, below] : {std::pair{"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}})
+        if (const char* const value = std::getenv(variable); value && fs::path(value).is_absolute())
+            return fs::path(value) / below / "diptych";
+    return {};
+}
+
+fs::path pipelineCacheFile(const fs::path& folder, const PipelineCacheKey& key) {
+    CacheHash hash;
+    hash.add(std::span<const std::uint8_t>(key.driver));
+    hash.add(std::span<const std::uint32_t>(
+        std::array{key.vendor, key.device, key.driver_version, key.api_version}));
+    return folder / fmt::format("pipelines-{:016x}", hash.value());
+}
+
+std::vector<std::byte> readPipelineCache(const fs::path& file, const PipelineCacheKey& key) {
+    std::ifstream stream(file, std::ios::binary);
+    CacheFileHead head;
+    if (!stream.read(reinterpret_cast<char*>(&head), sizeof head)) return {};
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(file, failed);
+    if (head.magic != CacheFileHead{}.magic || head.key != key || failed || size != sizeof head + head.bytes)
+        return {};
+    std::vector<std::byte> data(head.bytes);
+    if (!stream.read(reinterpret_cast<char*>(data.data()), static_cast<std::streamsize>(data.size())) ||
+        hashOf(data) != head.hash)
+        return {};
+    return data;
+}
+
+bool writePipelineCache(const fs::path& file, const PipelineCacheKey& key, std::span<const std::byte> data) {
+    std::error_code failed;
+    fs::create_directories(file.parent_path(), failed);
+    const fs::path beside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
+    CacheFileHead head;
+    head.key = key;
+    head.bytes = data.size();
+    head.hash = hashOf(data);
+    std::ofstream stream(beside, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(&head), sizeof head);
+    stream.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
+    stream.close();
+    if (stream) fs::rename(beside, file, failed);
+    if (stream && !failed) return true;
+    fs::remove(beside, failed);
+    return false;
+}
+
+PipelineCache::PipelineCache(VkPhysicalDevice physical, VkDevice device, const fs::path& folder)
+    : device_(device) {
+    if (!folder.empty()) {
+        VkPhysicalDeviceProperties properties;
+        vkGetPhysicalDeviceProperties(physical, &properties);
+        std::memcpy(key_.driver.data(), properties.pipelineCacheUUID, VK_UUID_SIZE);
+        key_.vendor = properties.vendorID;
+        key_.device = properties.deviceID;
+        key_.driver_version = properties.driverVersion;
+        key_.api_version = properties.apiVersion;
+        file_ = pipelineCacheFile(folder, key_);
+        // Reading all modules takes milliseconds, and is in vain with a driver that keeps nothing.
+        if (std::error_code failed; fs::exists(file_, failed)) {
+            key_.program = hashOfProgram();
+            begun_with_ = readPipelineCache(file_, key_);
+        }
+    }
+    const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                         .pNext = nullptr,
+                                         .flags = 0,
+                                         .initialDataSize = begun_with_.size(),
+                                         .pInitialData = begun_with_.data()};
+    if (vkCreatePipelineCache(device_, &info, nullptr, &cache_) != VK_SUCCESS) cache_ = VK_NULL_HANDLE;
+}
+
+PipelineCache::~PipelineCache() {
+    if (cache_ == VK_NULL_HANDLE) return;
+    try {
+        keep();
+    } catch (const std::exception&) {  // out of memory: it is compiled again
+    }
+    vkDestroyPipelineCache(device_, cache_, nullptr);
+}
+
+void PipelineCache::keep() const {
+    if (file_.empty()) return;
+    std::size_t size = 0;
+    if (vkGetPipelineCacheData(device_, cache_, &size, nullptr) != VK_SUCCESS || size <= emptyCacheBytes)
+        return;
+    std::vector<std::byte> data(size);
+    if (vkGetPipelineCacheData(device_, cache_, &size, data.data()) != VK_SUCCESS) return;
+    data.resize(size);
+    if (data == begun_with_) return;
+    PipelineCacheKey key = key_;
+    key.program = hashOfProgram();
+    writePipelineCache(file_, key, data);
+}
+
+}  // namespace diptych
