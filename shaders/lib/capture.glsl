@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The outputs of a capture pass: one channel an attachment; which one is a specialization constant, so a
-// capture of channels without light does no lighting. ATTACHMENTS is how many there are.
+// The outputs of a capture pass: one channel an attachment; which one is a specialization constant.
+// ATTACHMENTS is how many there are. SHADES: 0 in the modules for channels that no light changes; a pipeline
+// would prune the code of lighting, but only after a compiler has read it.
 #ifndef CAPTURE_GLSL
 #define CAPTURE_GLSL
 
+#ifndef SHADES
+#define SHADES 1
+#endif
+
 #include "shaders/lib/debug.glsl"
+#if SHADES
+#include "shaders/lib/shade.glsl"
+#endif
 
 layout(location = 0) out vec4 out_channels[ATTACHMENTS];
 
@@ -15,7 +23,13 @@ uint captureMode(uint attachment) {
     return modes[attachment];
 }
 
-void capture(Surface s, PixelLights lights, Radiance radiance, float z) {
+void capture(Surface s, float z) {
+    PixelLights lights = lightsAt(gl_FragCoord.xy, z);
+#if SHADES
+    Radiance radiance = shade(s, lights);
+#else
+    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+#endif
     for (uint i = 0; i < ATTACHMENTS; ++i)
         out_channels[i] = debugValue(captureMode(i), s, lights, radiance, z);
 }

@@ -2,7 +2,9 @@
 #ifndef DEBUG_GLSL
 #define DEBUG_GLSL
 
-#include "shaders/lib/shade.glsl"
+#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/light_lists.glsl"
+#include "shaders/lib/radiance.glsl"
 
 // The numbers of a channel (shared/contract/debug_mode.h), never a colour map. z: the reversed depth.
 vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, float z) {

@@ -20,20 +20,8 @@
 #include "shaders/lib/loop.glsl"
 #include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/position.glsl"
+#include "shaders/lib/radiance.glsl"
 #include "shaders/lib/surface.glsl"
-
-// W/(sr m^2), towards the viewer.
-struct Radiance {
-    vec3 diffuse;
-    vec3 specular;
-    vec3 ambient;
-    vec3 emission;
-};
-
-vec3 lit(Radiance radiance) {
-    vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
-    return sum;
-}
 
 // What every light meets at a pixel.
 struct Shading {

@@ -10,7 +10,5 @@
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     float z = depthAt(p);
-    Surface s = surfaceFromGBuffer(p, z);
-    PixelLights lights = lightsAt(gl_FragCoord.xy, z);
-    capture(s, lights, shade(s, lights), z);
+    capture(surfaceFromGBuffer(p, z), z);
 }

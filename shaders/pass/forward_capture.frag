@@ -7,7 +7,5 @@
 #include "shaders/lib/forward.glsl"
 
 void main() {
-    Surface s = forwardSurface();
-    PixelLights lights = lightsAt(gl_FragCoord.xy, shadedDepth());
-    capture(s, lights, shade(s, lights), shadedDepth());
+    capture(forwardSurface(), shadedDepth());
 }

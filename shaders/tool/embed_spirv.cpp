@@ -76,11 +76,11 @@ int writeLayoutChecks(std::ofstream& out, const Reflection& r) {
     return structs;
 }
 
-// A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area][.inputsN].
+// A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area or .unlit][.inputsN].
 struct Module {
     std::string name, shader;
     unsigned number = 0;
-    bool area_lights = false;
+    bool area_lights = false, lights = true;
     int inputs = 3;
     Words words;
 
@@ -89,7 +89,7 @@ struct Module {
         std::ranges::replace(symbol, '.', '_');
         return symbol;
     }
-    auto order() const { return std::tie(shader, number, area_lights, inputs); }
+    auto order() const { return std::tie(shader, number, lights, area_lights, inputs); }
 };
 
 Module moduleOf(const std::filesystem::path& file) {
@@ -104,6 +104,8 @@ Module moduleOf(const std::filesystem::path& file) {
     while (std::getline(parts, part, '.')) {
         if (part == "area")
             module.area_lights = true;
+        else if (part == "unlit")
+            module.lights = false;
         else if (part.starts_with("inputs"))
             module.inputs = std::stoi(part.substr(std::string("inputs").size()));
         else
@@ -117,7 +119,8 @@ void writeTable(std::ofstream& out, const std::vector<Module>& modules) {
            "    static constexpr ShaderModule modules[] = {\n";
     for (const Module& m : modules)
         out << "        {\"" << m.name << "\", Shader::" << m.shader << ", " << m.number << ", "
-            << (m.area_lights ? "true" : "false") << ", " << m.inputs << ", " << m.symbol() << "},\n";
+            << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.inputs << ", " << m.symbol()
+            << "},\n";
     out << "    };\n    return modules;\n}\n\n}  // namespace diptych\n";
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/pipeline_parts.h"
 
+#include "shared/contract/debug_mode.h"
 #include "shared/contract/geometry.h"
 #include "shared/contract/object_lights.h"
+#include "shared/frame/debug_modes.h"
 
 #include <array>
 #include <cstddef>
-#include <utility>
+#include <tuple>
 
 namespace diptych {
 
@@ -22,14 +24,23 @@ int inputsOf(const Variant& variant, int sets) {
     return least;
 }
 
+// Whether it needs the code of lighting: captures of channels that no light changes do not. What is no
+// capture has DEBUG_lit in all of them.
+bool needsLights(const Variant& variant) {
+    for (gpu::uint i = 0; i < gpu::CAPTURE_ATTACHMENTS; ++i)
+        if (isLit(static_cast<int>(variant.get(gpu::FEATURE_capture_0 + i)))) return true;
+    return false;
+}
+
 // Some shaders exist as several modules, because a device pays for code and inputs that a variant does not
-// use: of those that draw to as many attachments the one with the code of area lights or without it, as the
-// variant needs (a shader that lights nothing has none with it), and with the fewest inputs that suffice.
+// use: of those that draw to as many attachments the one with the code of lighting and of area lights or
+// without it, as the variant needs (a shader that lights nothing has none with it), and with the fewest
+// inputs that suffice.
 const ShaderModule* moduleOf(Shader shader, std::size_t attachments, const Variant& variant, int inputs) {
     const ShaderModule* best = &plainModule(shader, static_cast<std::uint32_t>(attachments));
-    const bool areaLights = variant.get(gpu::FEATURE_area_lights) != 0;
+    const bool lights = needsLights(variant), areaLights = variant.get(gpu::FEATURE_area_lights) != 0;
     const auto unfit = [&](const ShaderModule& module) {
-        return std::pair(module.area_lights != areaLights, module.inputs);
+        return std::tuple(module.lights != lights, module.area_lights != areaLights, module.inputs);
     };
     for (const ShaderModule& module : shaderModules(shader))
         if (module.number == best->number && module.inputs >= inputs && unfit(module) < unfit(*best))

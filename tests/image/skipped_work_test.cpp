@@ -6,6 +6,7 @@
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
+#include <array>
 #include <functional>
 
 namespace diptych::tests {
@@ -23,7 +24,7 @@ Image litWith(const Scene& scene, const Settings& settings,
                     static_cast<std::uint32_t>(settings.size.height));
     const FrameImages images = path.add(passes, view.inputs);
     passes.run();
-    return readImages(passes, {{images.lit, 3}}).front();
+    return readImages(passes, std::array{PassList::ReadBack{images.lit, 3}}).front();
 }
 
 Settings smallFrame(Path path) {
