@@ -99,7 +99,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     const int profiled = std::max(bench.runs, fewestProfiled);
     const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);
     double done = 0;
-    const auto step = [&](std::size_t i, const char* what) {
+    const auto step = [&](std::size_t i, const std::string& what) {
         progress.at(done++ / steps, fmt::format("{} {}", modeName(tried[i].path, tried[i].assign), what));
     };
     std::vector<std::size_t> timed;  // of `frames`

@@ -247,12 +247,13 @@ std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const
     const int profiled = std::min(options.runs, mostProfiled);
     const double steps = static_cast<double>(drawn.size()) * (1 + options.runs + profiled);
     double done = 0;
-    const auto step = [&](std::size_t i, const char* what) {
+    const auto step = [&](std::size_t i, const std::string& what) {
         options.progress.at(done++ / steps, fmt::format("{}: {}", nameOf(drawn[i].path), what));
     };
     if (drawn.empty()) return times;
     PreparedFrames frames = prepare(drawn);
     for (std::size_t i = 0; i < drawn.size(); ++i) {
+        if (options.on_step) options.on_step(fmt::format("{}: time", nameOf(drawn[i].path)));
         step(i, "first frame");
         frames.draw(i);
     }

@@ -3,6 +3,8 @@
 
 #include "compare/render/frame_facts.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
 namespace diptych {
@@ -23,7 +25,8 @@ std::vector<PassTime> mediansOf(const std::vector<std::vector<PassTime>>& frames
 }  // namespace
 
 std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
-                                    int profiled, const std::function<void(std::size_t, const char*)>& step) {
+                                    int profiled,
+                                    const std::function<void(std::size_t, const std::string&)>& step) {
     std::vector<TimedFrame> timed(which.size());
     std::vector<std::vector<double>> recording(which.size());
     std::vector<std::vector<std::vector<PassTime>>> passes(which.size());
@@ -31,7 +34,7 @@ std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std:
     const auto inTurns = [&](int rounds, const char* what, const std::function<void(std::size_t)>& draw) {
         for (int round = 0; round < rounds; ++round)
             for (std::size_t i = 0; i < which.size(); ++i) {
-                if (step) step(which[i], what);
+                if (step) step(which[i], fmt::format("{} {} of {}", what, round + 1, rounds));
                 const auto start = std::chrono::steady_clock::now();
                 draw(i);
                 timed[i].made_in_ms +=

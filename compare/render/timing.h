@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -21,10 +22,10 @@ struct TimedFrame {
 // Each frame's first draw, in which drivers compile, must be over. Draws frames `which` of `frames` until a
 // GPU has left its idle clocks (DeviceProfile::warm_up_ms), then in `runs` rounds of one frame each, then in
 // `profiled` rounds in which each pass is timed by itself. In the order of `which`. `step`, if any, is called
-// before each frame of a round with its number in `frames` and "frame" or "passes".
+// before each frame of a round with its number in `frames` and what it is, "frame 2 of 5".
 std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
                                     int profiled,
-                                    const std::function<void(std::size_t, const char*)>& step = {});
+                                    const std::function<void(std::size_t, const std::string&)>& step = {});
 
 // Where a frame keeps them.
 void addTimes(const TimedFrame& timed, Frame& frame);

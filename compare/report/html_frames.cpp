@@ -51,9 +51,9 @@ std::string times(const Frame& a, const Frame& b) {
     }
     return out +
            "</table></div><p class=\"soft\">Whole frames are timed unsplit, both paths' in turn; passes are "
-           "the "
            "medians of separate, profiled runs and need not add up. What the host does comes on "
-           "top.</p></div>\n";
+           "top.</p></div>"
+           "\n";
 }
 
 std::string costs(const Frame& a, const Frame& b) {

@@ -268,6 +268,13 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!pair.cpu && mode.metric != Metric::exact) {
         result.max += gpuSlack(mode, pair.baseline.channels.at(mode.number));
         result.because += fmt::format("; and {} ULP of the pixel's largest component on a GPU", gpuUlps);
+        const Frame* const forward = pair.of(Path::forward_plus);
+        if (deferred && forward && forward->settings.prepass != Switch::on &&
+            (isLit(mode.number) || mode.number == static_cast<int>(gpu::DEBUG_depth) ||
+             mode.number == static_cast<int>(gpu::DEBUG_position)))
+            result.because +=
+                ", where without a depth pre-pass forward+ shades with the fragment's own depth, whose bits "
+                "may differ from those that were stored";
     }
     return result;
 }

@@ -6,6 +6,8 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstddef>
+#include <set>
+#include <string>
 
 namespace diptych {
 namespace {
@@ -42,11 +44,30 @@ TEST(DeviceFaults, MemoryThatIsNotThereNamesASmallerSize) {
 }
 
 TEST(DeviceFaults, ALostDeviceIsNamedAtEverySubmit) {
-    EXPECT_GE(
-        sweep("vkQueueSubmit2", VK_ERROR_DEVICE_LOST,
-              "vkQueueSubmit2: the device was lost; run it again, or choose another device with --device", 2),
-        3);
-    EXPECT_GE(sweep("vkWaitForFences", VK_ERROR_DEVICE_LOST, "vkWaitForFences: the device was lost", 2), 3);
+    EXPECT_GE(sweep("vkQueueSubmit2", VK_ERROR_DEVICE_LOST,
+                    "the device was lost; run it again with a smaller --size or fewer --lights, or choose "
+                    "another device with --device",
+                    2),
+              3);
+    EXPECT_GE(sweep("vkWaitForFences", VK_ERROR_DEVICE_LOST, "the device was lost; run it again", 2), 3);
+}
+
+TEST(DeviceFaults, ALostDeviceSaysWhatItWasRunning) {
+    const Folder folder;
+    std::set<std::string> running;
+    for (int at = 1; at < manyCalls; ++at) {
+        const Faulted ran =
+            runFaulted(folder, compareTriangle,
+                       {"vkQueueSubmit2", std::to_string(static_cast<int>(VK_ERROR_DEVICE_LOST))}, at);
+        if (ran.seen.empty()) break;
+        const std::string before = "diptych: Vulkan: ", after = ": the device was lost";
+        const std::size_t from = ran.err.find(before), to = ran.err.find(after);
+        ASSERT_TRUE(from != std::string::npos && to != std::string::npos) << ran.err;
+        running.insert(ran.err.substr(from + before.size(), to - from - before.size()));
+    }
+    for (const char* what :
+         {"running G-buffer to shade", "running G-buffer", "running shade", "running capture"})
+        EXPECT_TRUE(running.contains(what)) << what;
 }
 
 TEST(DeviceFaults, WhatCannotBeMadeIsNamed) {

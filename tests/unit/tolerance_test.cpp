@@ -206,6 +206,21 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
     }
 }
 
+// Only a pre-pass makes forward+ shade with the stored depth, and only a GPU's may differ from a fragment's.
+TEST(Tolerance, ADepthThatWasNotStoredIsNamedOnAGpu) {
+    for (const bool cpu : {true, false})
+        for (const Switch prepass : {Switch::on, Switch::off, Switch::automatic})
+            for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_albedo}) {
+                Pair p;
+                p.cpu = cpu;
+                p.encoding(GBufferEncoding::full);
+                p.forward.settings.prepass = prepass;
+                const bool named = p.of(mode).because.find("the fragment's own depth") != std::string::npos;
+                EXPECT_EQ(named, !cpu && prepass != Switch::on && mode != gpu::DEBUG_albedo)
+                    << cpu << nameOf(prepass) << mode;
+            }
+}
+
 TEST(Tolerance, EveryChannelSaysWhy) {
     for (const bool cpu : {true, false})
         for (const GBufferEncoding e :
