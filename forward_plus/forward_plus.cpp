@@ -19,10 +19,12 @@ std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const 
 }
 
 // Draws whose fragments are shaded.
-void addShadedDraws(Pass& pass, const PassList& passes, const FrameInputs& inputs, const FrameImages& images,
+void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, const FrameImages& images,
                     const LightBatch& batch, const KeyOf& keyOf) {
     const auto stored = storedDepth(passes, inputs, images);
     if (stored) pass.samples(images.depth, inFragment);
+    batch.read(pass);
+    inputs.lists.read(passes, pass);
     pass.takes(shadingMs(passes, inputs, batch));
     pass.record(recordDraws(
         inputs,
@@ -49,8 +51,6 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
             pass.depthTest(images.depth);
         else
             pass.depth(images.depth, Load::clear);
-        batch.read(pass);
-        inputs.lists.read(passes, pass);
         addShadedDraws(pass, passes, inputs, images, batch, [&](const DrawItem& item) {
             PipelineKey key = keyOf(inputs, item, batch);
             key.depth_write = !drawn;
@@ -74,15 +74,12 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
         if (modes.empty()) continue;
         const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
             pass.depthTest(frame.depth);
-            inputs.lists.read(passes, pass);
             addShadedDraws(pass, passes, inputs, frame, batch, [&](const DrawItem& item) {
                 return quantised(forwardBatchKey(inputs, item, batch), inputs, throughGBuffer);
             });
         });
         for (const CaptureGroup& group : captureGroups(modes)) {
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
-            last.read(pass);
-            inputs.lists.read(passes, pass);
             for (CapturedImage image : addCaptureImages(passes, pass, group)) {
                 image.through_gbuffer = throughGBuffer;
                 images.push_back(image);

@@ -62,11 +62,12 @@ void print(const ScenePlan& plan) {
             if (line.modelled == modelled) fmt::print("    {:<26} {}\n", line.what, line.why);
     }
     for (const PathPlan& path : plan.paths) {
-        fmt::print("  {}: {}; {} bytes per pixel{}\n", path.path, fmt::join(path.passes, " > "),
-                   path.bytes_per_pixel,
-                   path.shared_bytes_per_pixel > 0 ? fmt::format(", and {} saved by images that share memory",
-                                                                 path.shared_bytes_per_pixel)
-                                                   : "");
+        fmt::print(
+            "  {}: {}; {} bytes per pixel{}\n", path.path, fmt::join(path.passes, " > "),
+            path.bytes_per_pixel,
+            path.shared_bytes_per_pixel > 0
+                ? fmt::format("; {} more are saved by images that share memory", path.shared_bytes_per_pixel)
+                : "");
         for (const std::string& line : path.notes) fmt::print("    {}\n", line);
     }
     for (const std::string& line : plan.notes) fmt::print("  note: {}\n", line);

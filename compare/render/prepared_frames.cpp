@@ -4,6 +4,8 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 
+#include <chrono>
+
 namespace diptych {
 
 struct PreparedFrames::State {
@@ -45,9 +47,10 @@ double PreparedFrames::objectListsMs(std::size_t i) const {
 }
 
 void PreparedFrames::warmUp(std::span<const std::size_t> which) {
-    double worked = 0;
-    while (!which.empty() && worked < state_->device.profile().warm_up_ms)
-        for (const std::size_t i : which) worked += draw(i);
+    const auto start = std::chrono::steady_clock::now();
+    const std::chrono::duration<double, std::milli> enough(state_->device.profile().warm_up_ms);
+    while (!which.empty() && std::chrono::steady_clock::now() - start < enough)
+        for (const std::size_t i : which) draw(i);
 }
 
 std::vector<PassTime> PreparedFrames::profile(std::size_t i) {

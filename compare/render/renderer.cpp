@@ -251,16 +251,27 @@ std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const
         options.progress.at(done++ / steps, fmt::format("{}: {}", nameOf(drawn[i].path), what));
     };
     if (drawn.empty()) return times;
+    const auto now = [] { return std::chrono::steady_clock::now(); };
+    const auto msFrom = [&](std::chrono::steady_clock::time_point start) {
+        return std::chrono::duration<double, std::milli>(now() - start).count();
+    };
+    const auto begun = now();
     PreparedFrames frames = prepare(drawn);
+    std::vector<double> firstMs(drawn.size(), msFrom(begun) / static_cast<double>(drawn.size()));
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (options.on_step) options.on_step(fmt::format("{}: time", nameOf(drawn[i].path)));
         step(i, "first frame");
+        const auto start = now();
         frames.draw(i);
+        firstMs[i] += msFrom(start);
     }
     std::vector<std::size_t> all(drawn.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     std::vector<TimedFrame> timed = timeInTurns(frames, all, options.runs, profiled, step);
-    for (std::size_t i = 0; i < drawn.size(); ++i) times[places[i]] = std::move(timed[i]);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        timed[i].made_in_ms += firstMs[i];
+        times[places[i]] = std::move(timed[i]);
+    }
     return times;
 }
 

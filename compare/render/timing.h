@@ -16,7 +16,7 @@ struct TimedFrame {
     std::vector<double> ms;        // of each frame, in the order they were drawn
     FrameTime time;                // of these
     std::vector<PassTime> passes;  // medians over the profiled frames
-    double made_in_ms = 0;         // wall clock of all that
+    double made_in_ms = 0;         // wall clock of all that, without warming up
 };
 
 // Each frame's first draw, in which drivers compile, must be over. Draws frames `which` of `frames` until a

@@ -31,7 +31,6 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
     LightBatch batch{gpu::BATCH_FIRST, 0, most};
     while (batch.first + most < packets) {
         Pass& pass = passes.draw("shade earlier lights");
-        batch.read(pass);
         const auto sum = [&](const char* name) {
             return passes.image({.name = name, .format = litFormat, .life = Life::transient});
         };

@@ -24,14 +24,14 @@ struct LightBatch {
     void read(Pass& pass) const;
 };
 
-// Adds a draw for each batch of the lights but the last, which is returned for the pass that completes the
-// sum: lists of up to DeviceProfile::packets_per_draw packets are one batch, BATCH_WHOLE, without an extra
-// draw. `add` declares depth and what else is read, and records the drawing of one batch into attachments 0
-// (diffuse) and 1 (specular).
 // About how long it takes to shade every pixel of the list's size with a batch, ms; each fragment that is
 // drawn over takes as long again.
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch);
 
+// Adds a draw for each batch of the lights but the last, which is returned for the pass that completes the
+// sum: lists of up to DeviceProfile::packets_per_draw packets are one batch, BATCH_WHOLE, without an extra
+// draw. `add` declares depth, the earlier sums and what else is read, and records the drawing of one batch
+// into attachments 0 (diffuse) and 1 (specular).
 using AddBatch = std::function<void(Pass&, const LightBatch&)>;
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add);
 

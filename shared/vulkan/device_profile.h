@@ -9,8 +9,8 @@
 
 namespace diptych {
 
-// Nanoseconds of work on the whole device, for choices between ways to draw the same picture: only their
-// ratios matter.
+// Nanoseconds of work on the whole device: for choices between ways to draw the same picture, where only
+// their ratios matter, and for how long a draw takes, about, before it is divided (Pass::takes).
 struct DeviceCosts {
     double triangle = 0;  // of a depth pass
     double depth = 0;     // a fragment of a depth pass

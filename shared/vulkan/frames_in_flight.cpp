@@ -23,7 +23,7 @@ FramesInFlight::~FramesInFlight() {
 void FramesInFlight::wait(Slot& slot) {
     if (!slot.under_way) return;
     const VkFence fence = slot.fence;
-    checkResult(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    checkResult(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "running " + slot.what);
     checkResult(vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
     slot.under_way = false;
 }
@@ -33,10 +33,11 @@ std::uint32_t FramesInFlight::nextSlot() {
     return next_;
 }
 
-void FramesInFlight::submit(const std::function<void(VkCommandBuffer)>& record) {
+void FramesInFlight::submit(const std::function<void(VkCommandBuffer)>& record, const std::string& what) {
     Slot& slot = slots_[nextSlot()];
     recordCommands(slot.commands, record);
-    checkResult(submitCommands(device_.queue(), slot.commands, slot.fence), "vkQueueSubmit2");
+    slot.what = what;
+    checkResult(submitCommands(device_.queue(), slot.commands, slot.fence), "running " + what);
     slot.under_way = true;
     next_ = (next_ + 1) % count();
 }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -25,7 +26,8 @@ public:
     std::uint32_t nextSlot();
     // Records and submits a frame. Frames run in the order of their submits; barriers reach from one to the
     // next.
-    void submit(const std::function<void(VkCommandBuffer)>& record);
+    // `what` is named where the device is lost.
+    void submit(const std::function<void(VkCommandBuffer)>& record, const std::string& what);
     void wait();  // until the device is done with all
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(slots_.size()); }
@@ -35,6 +37,7 @@ private:
         VkCommandBuffer commands = VK_NULL_HANDLE;
         OwnedFence fence;
         bool under_way = false;
+        std::string what;
     };
     void wait(Slot& slot);
 

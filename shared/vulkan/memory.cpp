@@ -81,11 +81,15 @@ std::vector<std::uint32_t> memoryTypes(const VkPhysicalDeviceMemoryProperties& p
                                          : use == MemoryUse::readback ? visible | cached
                                                                       : visible;
     std::vector<std::uint32_t> types;
+    // Others have rules of their own: lazily allocated, protected, a vendor's.
+    constexpr VkMemoryPropertyFlags plain = local | visible | cached;
     for (const VkMemoryPropertyFlags flags : {wanted, must})
-        for (std::uint32_t type = 0; type < properties.memoryTypeCount; ++type)
-            if ((allowed >> type & 1) != 0 && (properties.memoryTypes[type].propertyFlags & flags) == flags &&
+        for (std::uint32_t type = 0; type < properties.memoryTypeCount; ++type) {
+            const VkMemoryPropertyFlags has = properties.memoryTypes[type].propertyFlags;
+            if ((allowed >> type & 1) != 0 && (has & ~plain) == 0 && (has & flags) == flags &&
                 std::ranges::find(types, type) == types.end())
                 types.push_back(type);
+        }
     return types;
 }
 
@@ -121,19 +125,20 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
     if (types.empty())
         throw std::runtime_error(
             fmt::format("Vulkan: the device has no memory type for {}; choose another with --device", what));
-    for (const std::uint32_t type : types)
-        for (std::size_t i = 0; i < blocks_.size(); ++i)
-            if (blocks_[i] && blocks_[i]->type == type && blocks_[i]->image == image)
-                if (Allocation found = take(i, needs); found.size() > 0) return found;
     const std::vector<VkDeviceSize> left = calls_.left();
-    const auto hasRoom = [&](std::uint32_t type) {
-        return heapOf(type) >= left.size() || left[heapOf(type)] >= needs.size;
+    const auto leftOf = [&](std::uint32_t type) {
+        return heapOf(type) < left.size() ? left[heapOf(type)] : ~VkDeviceSize{0};
     };
     // What a heap says to have left is an estimate: one that says too little is asked, too, after all others.
     for (const bool room : {true, false})
         for (const std::uint32_t type : types) {
-            if (hasRoom(type) != room) continue;
-            if (const auto block = addBlock(type, needs.size, image)) return take(*block, needs);
+            for (std::size_t i = 0; room && i < blocks_.size(); ++i)
+                if (blocks_[i] && blocks_[i]->type == type && blocks_[i]->image == image)
+                    if (Allocation found = take(i, needs); found.size() > 0) return found;
+            if ((leftOf(type) >= needs.size) != room) continue;
+            const VkDeviceSize whole = leftOf(type) >= blockSize ? blockSize : needs.size;
+            if (const auto block = addBlock(type, std::max(whole, needs.size), needs.size, image))
+                return take(*block, needs);
         }
     std::string budget;
     if (!left.empty())
@@ -144,18 +149,20 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
         static_cast<double>(needs.size) / 1048576.0, static_cast<double>(allocated()) / 1048576.0, budget));
 }
 
-// The block has exactly the size that is asked for where a whole one finds no room.
-std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize size, bool image) {
-    for (VkDeviceSize bytes = std::max(blockSize, size);; bytes = size) {
+std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
+                                            bool image) {
+    for (VkDeviceSize bytes = most;; bytes = least) {
         const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                         .pNext = nullptr,
                                         .allocationSize = bytes,
                                         .memoryTypeIndex = type};
         VkDeviceMemory memory = VK_NULL_HANDLE;
-        if (calls_.allocate(info, &memory) != VK_SUCCESS) {
-            if (bytes == size) return std::nullopt;
+        const VkResult result = calls_.allocate(info, &memory);
+        if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
+            if (bytes == least) return std::nullopt;
             continue;
         }
+        checkResult(result, "vkAllocateMemory");
         auto block = std::make_unique<Block>();
         block->memory = OwnedMemory(device_, memory);
         block->size = bytes;

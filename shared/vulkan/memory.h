@@ -79,8 +79,10 @@ private:
     struct Block;
     Allocation take(std::size_t block, const VkMemoryRequirements& needs);
     void release(std::size_t block, VkDeviceSize offset, VkDeviceSize size);
-    // A new block's index; nothing where the type's heap is full.
-    std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize size, bool image);
+    // The index of a new block of `most` bytes, or where they are not there of `least`; nothing where the
+    // type's heap is full.
+    std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
+                                        bool image);
     std::uint32_t heapOf(std::uint32_t type) const { return properties_.memoryTypes[type].heapIndex; }
 
     VkDevice device_;

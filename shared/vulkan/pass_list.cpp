@@ -155,6 +155,7 @@ void PassList::allocate() {
     for (std::size_t p = 0; p < passes_.size(); ++p)
         for (const Use& use : usesOf(*passes_[p])) {
             Resource& used = *resources_[use.resource];
+            if (!used.image || used.image->bound()) continue;  // one that has memory lives no longer
             used.first = std::min(used.first, p);
             used.last = std::max(used.last, p);
         }

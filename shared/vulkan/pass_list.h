@@ -81,7 +81,7 @@ public:
     // How long the host took to record the commands of the last run() or profile(), ms. Not part of its time.
     double recordMs() const { return record_ms_; }
 
-    // The whole list as one submit that is not waited for; nothing is timed.
+    // The whole list as one submit that is not waited for; nothing is timed, and nothing comes in bands.
     void enqueue(FramesInFlight& frames);
 
     // Images as the last run left them, row 0 on top: the first `components` float32 of every texel of one

@@ -53,6 +53,7 @@ void PassList::barriersBefore(const std::string& pass, const std::vector<Use>& u
                               VkCommandBuffer commands) {
     std::vector<VkImageMemoryBarrier2> images;
     std::vector<VkBufferMemoryBarrier2> buffers;
+    std::vector<VkMemoryBarrier2> memory;
     for (const Barrier& barrier : tracker_.before(pass, uses)) {
         recorded_.push_back({pass, tracker_.name(barrier.resource), barrier.part, barrier.from, barrier.to});
         const Resource& found = *resources_[barrier.resource];
@@ -64,6 +65,14 @@ void PassList::barriersBefore(const std::string& pass, const std::vector<Use>& u
             of.subresourceRange = {found.image->aspect(), barrier.part.level, barrier.part.levels,
                                    barrier.part.layer, barrier.part.layers};
             images.push_back(of);
+            // What an image had in the same memory before is out of reach of this image's barrier.
+            if (found.before && barrier.from.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+                memory.push_back({.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                  .pNext = nullptr,
+                                  .srcStageMask = of.srcStageMask,
+                                  .srcAccessMask = of.srcAccessMask,
+                                  .dstStageMask = of.dstStageMask,
+                                  .dstAccessMask = of.dstAccessMask});
         } else {
             auto of = scopesOf<VkBufferMemoryBarrier2>(VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, barrier);
             of.buffer = found.buffer->handle();
@@ -75,8 +84,8 @@ void PassList::barriersBefore(const std::string& pass, const std::vector<Use>& u
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .pNext = nullptr,
                                 .dependencyFlags = 0,
-                                .memoryBarrierCount = 0,
-                                .pMemoryBarriers = nullptr,
+                                .memoryBarrierCount = static_cast<std::uint32_t>(memory.size()),
+                                .pMemoryBarriers = memory.data(),
                                 .bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size()),
                                 .pBufferMemoryBarriers = buffers.data(),
                                 .imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size()),
@@ -211,10 +220,7 @@ std::string PassList::describe(const std::vector<Piece>& pieces) const {
 // Adds each piece's time to that of its span: from time stamps where spans change, or that of all pieces,
 // which are of one span then, by the clock.
 void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms) {
-    struct Stamp {
-        std::size_t span;  // that ends with it
-    };
-    std::vector<Stamp> stamps;
+    std::vector<std::size_t> ended;  // the span that ends with each time stamp after the first
     OwnedQueryPool pool;
     const bool stamped = device_.profile().time_stamps;
     const auto most = static_cast<std::uint32_t>(pieces.size() + 1);
@@ -230,8 +236,8 @@ void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms)
             for (std::size_t i = 0; i < pieces.size(); ++i) {
                 runPiece(pieces[i], commands);
                 if (i + 1 < pieces.size() && pieces[i + 1].span == pieces[i].span) continue;
-                stamps.push_back({pieces[i].span});
-                stamp(commands, static_cast<std::uint32_t>(stamps.size()));
+                ended.push_back(pieces[i].span);
+                stamp(commands, static_cast<std::uint32_t>(ended.size()));
             }
             record_ms_ += msSince(start);
         },
@@ -240,15 +246,15 @@ void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms)
         ms[pieces.front().span] += elapsed;
         return;
     }
-    std::vector<std::uint64_t> ticks(stamps.size() + 1);
+    std::vector<std::uint64_t> ticks(ended.size() + 1);
     checkResult(
         vkGetQueryPoolResults(device_.handle(), pool, 0, static_cast<std::uint32_t>(ticks.size()),
                               ticks.size() * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
                               VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
         "vkGetQueryPoolResults");
-    for (std::size_t i = 0; i < stamps.size(); ++i)
-        ms[stamps[i].span] += static_cast<double>(device_.ticksBetween(ticks[i], ticks[i + 1])) *
-                              static_cast<double>(device_.limits().timestampPeriod) * 1e-6;
+    for (std::size_t i = 0; i < ended.size(); ++i)
+        ms[ended[i]] += static_cast<double>(device_.ticksBetween(ticks[i], ticks[i + 1])) *
+                        static_cast<double>(device_.limits().timestampPeriod) * 1e-6;
 }
 
 // Milliseconds of each span. A submit holds as many pieces as the device may be kept busy with, and without
@@ -289,9 +295,11 @@ std::vector<PassMs> PassList::profile(std::size_t first, std::size_t last) {
 
 void PassList::enqueue(FramesInFlight& frames) {
     prepare(0, size());
-    frames.submit([&](VkCommandBuffer commands) {
-        for (std::size_t i = 0; i < size(); ++i) runPiece({.pass = i, .span = 0}, commands);
-    });
+    frames.submit(
+        [&](VkCommandBuffer commands) {
+            for (std::size_t i = 0; i < size(); ++i) runPiece({.pass = i, .span = 0}, commands);
+        },
+        describe({{.pass = 0, .span = 0}, {.pass = size() - 1, .span = 0}}));
 }
 
 }  // namespace diptych

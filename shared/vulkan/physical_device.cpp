@@ -138,9 +138,11 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     note("picture size", true, fmt::format("up to {} x {}", l.maxImageDimension2D, l.maxImageDimension2D));
     note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
     note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));
-    note("memory budgets", knowsMemoryBudget(device),
-         "what its heaps have left is asked before memory is taken");
+    note("memory budgets", knowsMemoryBudget(device));
     note("depth clamping", f.v10.features.depthClamp == VK_TRUE);
+    note("blending by attachment", f.v10.features.independentBlend == VK_TRUE);
+    note("indirect draws of later instances", f.v10.features.drawIndirectFirstInstance == VK_TRUE);
+    note("stores in fragment shaders", f.v10.features.fragmentStoresAndAtomics == VK_TRUE);
     note("4 samples a pixel",
          (l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0);
     note(
@@ -258,6 +260,9 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     vkGetPhysicalDeviceFeatures(physical, &there);
     wanted.v10.features.occlusionQueryPrecise = there.occlusionQueryPrecise;
     wanted.v10.features.depthClamp = there.depthClamp;
+    wanted.v10.features.independentBlend = there.independentBlend;
+    wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;
+    wanted.v10.features.fragmentStoresAndAtomics = there.fragmentStoresAndAtomics;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .pNext = nullptr,

@@ -64,15 +64,23 @@ std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
         OwnedPipeline* pipeline;
     };
     std::vector<Missing> missing;
-    for (const PipelineKey& key : keys) {
-        const auto [entry, isNew] = pipelines_.try_emplace(key);
-        if (!isNew) continue;
-        missing.push_back({&entry->first, choose_(key), &entry->second});
-        load(*missing.back().parts.vertex);
-        if (missing.back().parts.fragment != nullptr) load(*missing.back().parts.fragment);
+    try {
+        for (const PipelineKey& key : keys) {
+            const auto [entry, isNew] = pipelines_.try_emplace(key);
+            if (!isNew) continue;
+            missing.push_back({&entry->first, {}, &entry->second});
+            missing.back().parts = choose_(key);
+            load(*missing.back().parts.vertex);
+            if (missing.back().parts.fragment != nullptr) load(*missing.back().parts.fragment);
+        }
+        tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+            *missing[i].pipeline = make(*missing[i].key, missing[i].parts);
+        });
+    } catch (...) {
+        // None that was not made may be found later.
+        std::erase_if(pipelines_, [](const auto& entry) { return entry.second.get() == VK_NULL_HANDLE; });
+        throw;
     }
-    tbb::parallel_for(std::size_t{0}, missing.size(),
-                      [&](std::size_t i) { *missing[i].pipeline = make(*missing[i].key, missing[i].parts); });
     std::vector<VkPipeline> pipelines;
     for (const PipelineKey& key : keys) pipelines.push_back(pipelines_.at(key));
     return pipelines;

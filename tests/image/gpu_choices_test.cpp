@@ -48,7 +48,7 @@ TEST_P(GpuChoices, DrawTheSamePictures) {
     EXPECT_EQ(asGpu().validationMessages(), 0u) << asGpu().firstValidationMessage();
 }
 INSTANTIATE_TEST_SUITE_P(Chosen, GpuChoices,
-                         testing::Values("builtin:gallery", "builtin:cutout", "builtin:ortho"),
+                         testing::Values("builtin:cutout", "builtin:ortho", "builtin:points"),
                          [](const auto& test) { return testName(test.param); });
 
 // That they are what is drawn with: each shows in the frame.

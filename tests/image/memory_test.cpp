@@ -40,6 +40,9 @@ TEST(MemoryTypes, TheBestComeFirstAndAllThatServeFollow) {
     EXPECT_EQ(memoryTypes(discrete, 0xf, MemoryUse::readback), (Types{2, 1, 3}));
     EXPECT_EQ(memoryTypes(discrete, 0x6, MemoryUse::device), (Types{1, 2}));
     EXPECT_EQ(memoryTypes(discrete, 0x1, MemoryUse::readback), Types{});
+    VkPhysicalDeviceMemoryProperties lazy = discrete;
+    lazy.memoryTypes[0].propertyFlags |= VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT;
+    EXPECT_EQ(memoryTypes(lazy, 0xf, MemoryUse::device), (Types{3, 1, 2}));
 }
 
 // Memory of those types, whose heaps give up to so many bytes. All of it is really of device()'s first type
@@ -53,8 +56,8 @@ public:
                                       VkDeviceMemory* memory) { return allocate(info, memory); },
                    .left = [says = std::move(says)] { return says; }}) {}
 
-    Allocation take(VkDeviceSize size) {
-        return memory_.allocate({size, 16, 0xf}, MemoryUse::device, true, "the image lit");
+    Allocation take(VkDeviceSize size, MemoryUse use = MemoryUse::device) {
+        return memory_.allocate({size, 16, 0xf}, use, true, "the image lit");
     }
     const Types& asked() const { return asked_; }
     Memory& memory() { return memory_; }
@@ -85,6 +88,29 @@ TEST(MemoryTypes, TheNextTypeIsTakenWhereOneIsFull) {
     EXPECT_EQ(first.mapped(), nullptr);
     EXPECT_NE(second.mapped(), nullptr);
     EXPECT_EQ(played.memory().allocated(), 160 * mebibyte);
+}
+
+// A block of a type that suits less is not filled while the best one has room.
+TEST(MemoryTypes, EachUseHasItsBestTypeThoughAnotherHasABlock) {
+    PlayedMemory played({1000 * mebibyte, 1000 * mebibyte, 1000 * mebibyte});
+    const Allocation upload = played.take(mebibyte, MemoryUse::upload),
+                     readback = played.take(mebibyte, MemoryUse::readback), own = played.take(mebibyte),
+                     more = played.take(mebibyte);
+    EXPECT_EQ(played.asked(), (Types{1, 2, 0}));
+}
+
+// Only a heap that is full is passed over.
+TEST(MemoryTypes, OtherErrorsAreNotTakenForAFullHeap) {
+    Memory lost(
+        device().handle(), discreteMemory(),
+        {.allocate = [](const VkMemoryAllocateInfo&, VkDeviceMemory*) { return VK_ERROR_DEVICE_LOST; },
+         .left = [] { return std::vector<VkDeviceSize>{}; }});
+    try {
+        lost.allocate({mebibyte, 16, 0xf}, MemoryUse::device, true, "the image lit");
+        FAIL() << "the device is lost";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("the device was lost"), std::string::npos) << error.what();
+    }
 }
 
 TEST(MemoryTypes, ABlockIsAsSmallAsItMustBe) {
