@@ -107,7 +107,7 @@ CONTRACT_END
     X(7,  INDICES,     storage_buffer, "uint[capacity * width]")                                          \
     X(8,  LISTED,      storage_buffer, "uint[lists]: lights of each, for channels")                       \
     X(9,  USED_WORDS,  storage_buffer, "uint[words / 32][list_stride]: which words have any bits")        \
-    X(10, FOUR_BEGINS, storage_buffer, "uint[list_stride / 4]: packets of four lists, then where they begin") \
+    X(10, FOUR_BEGINS, storage_buffer, "uint[list_stride / 4]: packets of four lists, then their begins")        \
     X(11, MASK_TEXELS, texel_buffer,   "the masks again, a row's lists four a texel")                     \
     X(12, CANDIDATES,  storage_buffer, "uint[words][tiles + slices]: as masks, of whole tiles and slices")
 // clang-format on

@@ -71,12 +71,15 @@ TEST(PipelineCache, AnotherDriverDeviceOrProgramGetsNothing) {
     const fs::path place = folder();
     const fs::path file = place / "pipelines";
     ASSERT_TRUE(writePipelineCache(file, someKey(), someData(100)));
-    const std::vector<std::function<void(PipelineCacheKey&)>> others{[](PipelineCacheKey& key) { key.driver.back() ^= 1; },
-                                                                     [](PipelineCacheKey& key) { ++key.program; },
-                                                                     [](PipelineCacheKey& key) { ++key.vendor; },
-                                                                     [](PipelineCacheKey& key) { ++key.device; },
-                                                                     [](PipelineCacheKey& key) { ++key.driver_version; },
-                                                                     [](PipelineCacheKey& key) { ++key.api_version; }};
+    using Change = std::function<void(PipelineCacheKey&)>;
+    const std::vector<Change> others{
+        [](PipelineCacheKey& key) { key.driver.back() ^= 1; },
+        [](PipelineCacheKey& key) { ++key.program; },
+        [](PipelineCacheKey& key) { ++key.vendor; },
+        [](PipelineCacheKey& key) { ++key.device; },
+        [](PipelineCacheKey& key) { ++key.driver_version; },
+        [](PipelineCacheKey& key) { ++key.api_version; },
+    };
     for (std::size_t i = 0; i < others.size(); ++i) {
         PipelineCacheKey other = someKey();
         others[i](other);
