@@ -100,14 +100,14 @@ CONTRACT_END
     X(0,  BOUNDS,      texel_buffer,   "LightBound[local_lights], three texels each")                     \
     X(1,  MASKS,       storage_buffer, "uint[words][list_stride]: bit i of word w is light 32 w + i")     \
     X(2,  COUNTS,      storage_buffer, "LightListCount[lists][segments]")                                 \
-    X(3,  TILE_DEPTHS, storage_buffer, "vec2[tiles]: least and largest view depth drawn there, m")         \
+    X(3,  TILE_DEPTHS, storage_buffer, "vec2[tiles]: least and largest view depth drawn there, m")        \
     X(4,  OVERFLOW,    storage_buffer, "uint: lists that found no room")                                  \
     X(5,  LISTS_DEPTH, image,          "the picture's depth")                                             \
     X(6,  HEADS,       storage_buffer, "LightListHead[lists]")                                            \
     X(7,  INDICES,     storage_buffer, "uint[capacity * width]")                                          \
     X(8,  LISTED,      storage_buffer, "uint[lists]: lights of each, for channels")                       \
     X(9,  USED_WORDS,  storage_buffer, "uint[words / 32][list_stride]: which words have any bits")        \
-    X(10, FOUR_BEGINS, storage_buffer, "uint[list_stride / 4]: packets of four lists, then their begins")        \
+    X(10, FOUR_BEGINS, storage_buffer, "uint[list_stride / 4]: packets of four lists, then their begins") \
     X(11, MASK_TEXELS, texel_buffer,   "the masks again, a row's lists four a texel")                     \
     X(12, CANDIDATES,  storage_buffer, "uint[words][tiles + slices]: as masks, of whole tiles and slices")
 // clang-format on
