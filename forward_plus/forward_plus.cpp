@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "forward_plus/forward_plus.h"
 
+#include "shared/contract/encoded_surface.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
 
 #include <memory>
+#include <optional>
 
 namespace diptych {
 
@@ -20,7 +22,7 @@ std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const 
 
 // Draws whose fragments are shaded.
 void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, const FrameImages& images,
-                    const LightBatch& batch, const KeyOf& keyOf) {
+                    const LightBatch& batch, const KeyOf& keyOf, gpu::uint surface = gpu::SURFACE_DECODED) {
     const auto stored = storedDepth(passes, inputs, images);
     if (stored) pass.samples(images.depth, inFragment);
     batch.read(pass);
@@ -33,7 +35,7 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
             key.variant.set(gpu::FEATURE_stored_depth, stored != nullptr);
             return key;
         },
-        batch, stored));
+        batch, stored, surface));
 }
 
 }  // namespace
@@ -69,26 +71,37 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
 std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
                                                  const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    for (const bool throughGBuffer : {false, true}) {
-        const std::vector<int>& modes = throughGBuffer ? request.through_gbuffer : request.modes;
-        if (modes.empty()) continue;
+    const auto capture = [&](const std::vector<int>& modes, std::optional<gpu::uint> surface) {
+        const bool encoded = surface.has_value();
+        const gpu::uint shaded = surface.value_or(gpu::SURFACE_DECODED);
+        if (modes.empty()) return;
         const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
             pass.depthTest(frame.depth);
-            addShadedDraws(pass, passes, inputs, frame, batch, [&](const DrawItem& item) {
-                return quantised(forwardBatchKey(inputs, item, batch), inputs, throughGBuffer);
-            });
+            addShadedDraws(
+                pass, passes, inputs, frame, batch,
+                [&](const DrawItem& item) {
+                    return quantised(forwardBatchKey(inputs, item, batch), inputs, encoded);
+                },
+                shaded);
         });
         for (const CaptureGroup& group : captureGroups(modes)) {
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
             for (CapturedImage image : addCaptureImages(passes, pass, group)) {
-                image.through_gbuffer = throughGBuffer;
+                image.surface = surface;
                 images.push_back(image);
             }
-            addShadedDraws(pass, passes, inputs, frame, last, [&](const DrawItem& item) {
-                return quantised(forwardCaptureKey(inputs, item, group, last), inputs, throughGBuffer);
-            });
+            addShadedDraws(
+                pass, passes, inputs, frame, last,
+                [&](const DrawItem& item) {
+                    return quantised(forwardCaptureKey(inputs, item, group, last), inputs, encoded);
+                },
+                shaded);
         }
-    }
+    };
+    capture(request.modes, {});
+    capture(request.through_gbuffer, gpu::SURFACE_DECODED);
+    for (gpu::uint surface = gpu::SURFACE_RAISED; surface < gpu::SURFACE_END; ++surface)
+        capture(request.bounded, surface);
     return images;
 }
 

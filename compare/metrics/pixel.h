@@ -54,4 +54,10 @@ inline double angle(const float* a, const float* b) {
     return std::atan2(cross, ax * bx + ay * by + az * bz) * 180 / std::numbers::pi;
 }
 
+// By how much the lengths of two vectors of three finite components differ.
+inline double lengthsApart(const float* a, const float* b) {
+    const auto length = [](const float* v) { return std::hypot(double{v[0]}, double{v[1]}, double{v[2]}); };
+    return std::abs(length(a) - length(b));
+}
+
 }  // namespace diptych::metrics

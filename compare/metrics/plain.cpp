@@ -26,7 +26,7 @@ constexpr int bandHeight = 16;    // rows whose sums are made by one thread and 
 // The sums of one band of rows.
 struct BandSums {
     RowSums components;
-    double angles = 0, mostDegrees = 0, peak = 0;
+    double angles = 0, mostDegrees = 0, mostLength = 0, peak = 0;
     std::uint64_t different = 0, infinite = 0, nonfinite_reference = 0, nonfinite_test = 0;
 };
 
@@ -56,6 +56,7 @@ public:
             total.components.add(band.components);
             total.angles += band.angles;
             total.mostDegrees = std::max(total.mostDegrees, band.mostDegrees);
+            total.mostLength = std::max(total.mostLength, band.mostLength);
             total.peak = std::max(total.peak, band.peak);
             total.different += band.different;
             total.infinite += band.infinite;
@@ -94,6 +95,7 @@ void PlainPass::addFinite(int y, const float* test, const float* reference, Band
         const double degrees = angle(test + 3 * x, reference + 3 * x);
         sums.angles += degrees;
         sums.mostDegrees = std::max(sums.mostDegrees, degrees);
+        sums.mostLength = std::max(sums.mostLength, lengthsApart(test + 3 * x, reference + 3 * x));
     }
 }
 
@@ -171,6 +173,7 @@ void setComponents(const BandSums& sums, double components, Range range, PlainMe
 void setAngles(const BandSums& sums, PlainMetrics& m) {
     const double beyond = m.nonfinite_different ? infinity : 0;
     m.angle_max = sums.mostDegrees + beyond;
+    m.length_max = sums.mostLength + beyond;
     m.angle_mean = sums.angles / static_cast<double>(m.pixels) + beyond;
 }
 

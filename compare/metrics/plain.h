@@ -34,6 +34,7 @@ struct PlainMetrics {
     double relative_max = 0, relative_mean = 0, relative_p99 = 0, relative_p999 = 0;
     // Degrees; for ChannelKind::vector of 3 components, else 0.
     double angle_max = 0, angle_mean = 0;
+    double length_max = 0;  // | |t| - |r| |, likewise
 
     // Wang, Bovik, Sheikh and Simoncelli 2004, "Image Quality Assessment: From Error Visibility to Structural
     // Similarity": windows of 11x11, Gaussian of deviation 1.5, K1 0.01, K2 0.03, L 1; the mean over windows

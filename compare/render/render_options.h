@@ -21,7 +21,8 @@ struct RenderOptions {
     std::vector<int> channels;
     std::vector<int> requested;  // of these, Frame::requested; empty: all
     int runs = 5;                // timed frames; 0: no times, no profile
-    // forward+: also draw lit channels from surfaces that went through the G-buffer's encoding.
+    // forward+: also draw lit channels from surfaces that went through the G-buffer's encoding, and what its
+    // bits may change of them.
     bool through_gbuffer = false;
     bool twice = false;                               // draw every channel twice, for Frame::noise
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v

@@ -3,6 +3,7 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
+#include "compare/render/encoding_bound.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/reference_frame.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -86,8 +88,31 @@ private:
                 request.modes.push_back(mode);
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)
-                if (isRequested(mode)) request.through_gbuffer.push_back(mode);
+                if (isRequested(mode)) {
+                    request.through_gbuffer.push_back(mode);
+                    if (settings_.gbuffer != GBufferEncoding::full && isLightable(mode))
+                        request.bounded.push_back(mode);
+                }
         return request;
+    }
+
+    // Whether the scene can light the channel at all.
+    bool isLightable(int mode) const {
+        const Variant& variant = prepared_.view.inputs.variant;
+        return !isAmbient(mode) || variant.get(gpu::FEATURE_ambient) != 0 ||
+               variant.get(gpu::FEATURE_lightmap) != 0;
+    }
+
+    // Keeps an image of surfaces other than the path's own.
+    void takeEncoded(const CapturedImage& read, Image image) {
+        if (*read.surface == gpu::SURFACE_DECODED) {
+            keepInFile(image.data);
+            frame_.through_gbuffer[read.mode] = std::move(image);
+            return;
+        }
+        if (*read.surface == gpu::SURFACE_RAISED)
+            bounds_.try_emplace(read.mode, std::as_const(frame_).channels.at(read.mode));
+        bounds_.at(read.mode).add(*read.surface, std::move(image));
     }
 
     // Draws every channel from the timed frame's images. lit itself stays the timed pipeline's.
@@ -99,22 +124,29 @@ private:
         std::vector<CapturedImage> captured =
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         readCaptured(first, captured, [this](const CapturedImage& read, Image image) {
-            if (read.mode == lit && !read.through_gbuffer) {
+            if (read.surface) return takeEncoded(read, std::move(image));
+            if (read.mode == lit) {
                 frame_.counters.unreproduced_pixels =
                     unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
                 image = std::move(lit_);
             }
             keepInFile(image.data);
-            (read.through_gbuffer ? frame_.through_gbuffer : frame_.channels)[read.mode] = std::move(image);
+            frame_.channels[read.mode] = std::move(image);
         });
+        for (auto& [mode, bound] : bounds_) {
+            frame_.encoding_bound[mode] = bound.take();
+            keepInFile(frame_.encoding_bound[mode].data);
+            letGo(std::as_const(frame_).channels.at(mode).data);
+        }
+        bounds_.clear();
         if (options_.twice) {
             announce("once more");
             step("draw once more", 2);
             passes.run(0, first);
             addNoise(lit, readLit(prepared_));
             step("capture once more", captureFrames);
-            // What went through the G-buffer comes last, and is drawn once.
-            std::erase_if(captured, &CapturedImage::through_gbuffer);
+            // What the encoding makes comes last, and is drawn once.
+            std::erase_if(captured, [](const CapturedImage& read) { return read.surface.has_value(); });
             readCaptured(first, captured, [this](const CapturedImage& read, const Image& image) {
                 if (read.mode != lit) addNoise(read.mode, image);
             });
@@ -161,6 +193,7 @@ private:
     PreparedFrame prepared_;
     Frame frame_;
     Image lit_;
+    std::map<int, EncodingBound> bounds_;  // by debug mode, while they are gathered
 };
 
 }  // namespace

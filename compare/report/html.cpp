@@ -151,15 +151,16 @@ constexpr const char* legend =
 
 std::string usedText(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
-    // There the largest error equals the tolerance by construction, and a full meter would read as "just
-    // barely passed".
-    if (channel.unexplained_pixels)
-        return fmt::format("<span class=\"soft\">explained by the encoding, {} pixels left over</span>",
+    if (channel.unexplained_pixels.value_or(0) > 0)
+        return fmt::format("<span class=\"soft\">the encoding leaves {} pixels unexplained</span>",
                            *channel.unexplained_pixels);
     if (!channel.rule.empty()) return fmt::format("<span class=\"soft\">{}</span>", markup(channel.rule));
     const double error =
         channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
-    const double share = channel.tolerance.max > 0 ? std::min(error / channel.tolerance.max, 1.0) : 1.0;
+    const double used = channel.encoding_use        ? channel.encoding_use->used
+                        : channel.tolerance.max > 0 ? error / channel.tolerance.max
+                                                    : 1.0,
+                 share = std::min(used, 1.0);
     return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
                        nameOf(channel.verdict), 100 * share);
 }

@@ -201,6 +201,9 @@ private:
         row("pixels that differ", fmt::format("{}", s.different));
         if (channel_.unexplained_pixels)
             row("not explained by encoding", fmt::format("{}", *channel_.unexplained_pixels));
+        if (const auto& use = channel_.encoding_use; use && use->x >= 0)
+            row("of what the bits allow there",
+                fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
         if (s.nonfinite_baseline + s.nonfinite_test > 0)
             row("NaN or infinite pixels", fmt::format("{} | {}", s.nonfinite_baseline, s.nonfinite_test));
         return out + "</dl>\n";

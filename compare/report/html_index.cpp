@@ -21,6 +21,7 @@ double usedShare(const ChannelDiff& channel) {
     if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0)
         return std::numeric_limits<double>::infinity();
+    if (channel.encoding_use) return channel.encoding_use->used;
     const double error =
         channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
     if (error == 0) return 0;
@@ -29,7 +30,7 @@ double usedShare(const ChannelDiff& channel) {
 }
 
 // The failing channel that uses most of its tolerance; if none fails, the passing one that does, except
-// channels judged by what the encoding explains.
+// channels judged by what the encoding explains, whose tolerance is each pixel's own.
 const ChannelDiff* worstOf(const Comparison& comparison) {
     const ChannelDiff* worst = nullptr;
     for (const bool failing : {true, false}) {

@@ -43,6 +43,12 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
     json["unexplained_pixels"] =
         channel.unexplained_pixels ? Json(*channel.unexplained_pixels) : Json(nullptr);
+    if (channel.encoding_use)
+        json["encoding"] = {{"used", finiteOrNull(channel.encoding_use->used)},
+                            {"beyond_pixels", channel.encoding_use->beyond},
+                            {"most", finiteOrNull(channel.encoding_use->most)},
+                            {"mean", finiteOrNull(channel.encoding_use->mean)},
+                            {"pixel", {channel.encoding_use->x, channel.encoding_use->y}}};
     if (anywhere)
         json["worst_values"] = {{"baseline", valuesAt(report.baseline(comparison), channel)},
                                 {"test", valuesAt(report.test(comparison), channel)}};

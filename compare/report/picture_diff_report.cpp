@@ -32,6 +32,7 @@ std::vector<DebugMode> modesOf(const PictureDiff& diff) {
                        .width = pair.reference.components,
                        .metric = pair.metric,
                        .kind = pair.kind,
+                       .domain = Domain::any,
                        .maker = MadeBy::both,
                        .shows = ours ? known->shows : std::string_view(pair.reference_type)};
         const bool color = pair.kind == ChannelKind::color && mode.width == 3;

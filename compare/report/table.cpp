@@ -19,13 +19,15 @@ namespace {
 
 using TableRow = std::array<std::string, 7>;
 
-// Where the encoding's effect is known for each pixel, the tolerance is its largest and max equals it by
-// construction, so the outcome is shown instead.
+// Where the encoding's effect is bounded for each pixel, the tolerance is the largest bound, and the error at
+// another pixel says little beside it, so the outcome is shown instead.
 std::string toleranceOf(const ChannelDiff& channel) {
     if (!channel.rule.empty() && !std::isfinite(channel.tolerance.max)) return "rule";
     if (!channel.unexplained_pixels) return number(channel.tolerance.max);
-    return *channel.unexplained_pixels == 0 ? "explained"
-                                            : fmt::format("{} px left", *channel.unexplained_pixels);
+    if (*channel.unexplained_pixels > 0) return fmt::format("{} px left", *channel.unexplained_pixels);
+    if (const auto& use = channel.encoding_use; use && use->beyond > 0)
+        return fmt::format("{:.3g} x bits", use->used);
+    return "explained";
 }
 
 TableRow rowOf(const ChannelDiff& channel) {

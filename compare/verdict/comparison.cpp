@@ -3,6 +3,7 @@
 
 #include "compare/render/reference_frame.h"
 #include "compare/run/command_text.h"
+#include "compare/verdict/domain.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
 
@@ -25,6 +26,13 @@ namespace {
 std::string faultOf(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("{} pixel(s) differ from what the encoding explains", *channel.unexplained_pixels);
+    if (channel.encoding_use && channel.encoding_use->beyond > 0)
+        return fmt::format(
+            "explained by what deferred reads back, but {:.3g} times what the bits of its G-buffer can do at "
+            "{},{}, "
+            "and more than they can at {} pixel(s)",
+            channel.encoding_use->used, channel.encoding_use->x, channel.encoding_use->y,
+            channel.encoding_use->beyond);
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     if (channel.tolerance.most_pixels) {
         const double p999 = channel.certain_p999.value_or(channel.stats.p999);
@@ -60,8 +68,15 @@ void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
         channel.tolerance.because += fmt::format("; and {:.3g} that two runs of one path differ by", noise);
     }
     channel.unexplained_pixels = unexplainedPixels(mode, pair);
+    channel.encoding_use = encodingUse(mode, pair);
     channel.certain_p999 = certainP999(mode, pair);
     channel.reason = faultOf(channel);
+    // What this program drew must be what it may be at all, whatever it is compared with.
+    for (const Frame* frame : {&pair.baseline, &pair.test})
+        if (channel.reason.empty() && frame->origin.file.empty())
+            if (const std::string fault = outsideDomain(mode, frame->channels.at(mode.number), pair.coverage);
+                !fault.empty())
+                channel.reason = frame->name + ": " + fault;
 }
 
 // Judges by a rule of the user.
@@ -142,14 +157,18 @@ void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& compariso
     }
 }
 
-// The forward+ Frame that was drawn through the G-buffer of this pair's scene and camera.
+// The forward+ Frame of this pair's scene and camera that tells what its encoding may do.
 const Frame* explaining(const Report& report, const Frame& left, const Frame& right) {
     if (!isReferenceFrame(left) && !isReferenceFrame(right)) return nullptr;
-    for (const Frame& frame : report.frames)
-        if (frame.settings.path == Path::forward_plus && !frame.through_gbuffer.empty() &&
-            frame.scene == right.scene && frame.settings.camera == right.settings.camera &&
-            frame.settings.size == right.settings.size)
+    Settings wanted = right.settings;
+    wanted.path = Path::forward_plus;
+    for (const Frame& frame : report.frames) {
+        // Which deferred ignores.
+        wanted.prepass = frame.settings.prepass;
+        if (!frame.encoding_bound.empty() && frame.scene == right.scene &&
+            effectiveSettings(frame.settings) == effectiveSettings(wanted))
             return &frame;
+    }
     return nullptr;
 }
 
@@ -323,8 +342,11 @@ void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
             const auto then = std::as_const(baseline).channels.find(mode), now = frame.channels.find(mode);
             if (then != baseline.channels.end() && now != frame.channels.end() &&
                 then->second.width == now->second.width && then->second.height == now->second.height &&
-                unequalPixels(then->second, now->second, cpu ? 0 : gpuUlps) == 0)
+                unequalPixels(then->second, now->second, cpu ? 0 : gpuUlps) == 0) {
                 baseline.through_gbuffer[mode] = through;
+                if (const auto bound = frame.encoding_bound.find(mode); bound != frame.encoding_bound.end())
+                    baseline.encoding_bound[mode] = bound->second;
+            }
         }
 }
 

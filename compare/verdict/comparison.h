@@ -6,6 +6,7 @@
 #include "compare/metrics/channel.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/closer_path.h"
+#include "compare/verdict/encoding_use.h"
 #include "compare/verdict/rules.h"
 #include "compare/verdict/selection.h"
 #include "compare/verdict/tolerance.h"
@@ -33,6 +34,7 @@ struct ChannelDiff {
     Tolerance tolerance;
     std::optional<std::uint64_t>
         unexplained_pixels;  // lit channels: pixels whose difference the encoding does not explain
+    std::optional<EncodingUse> encoding_use;  // of what the G-buffer's bits allow a lit channel
     std::optional<double>
         certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
     Verdict verdict = Verdict::pass;

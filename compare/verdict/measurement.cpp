@@ -70,6 +70,7 @@ const std::array rows{
     Row{{"ulp_mean", false, "mean number of float32 values between t and r"}, plain<&PlainMetrics::ulp_mean>},
     Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&PlainMetrics::angle_max>},
     Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&PlainMetrics::angle_mean>},
+    Row{{"length_max", false, "largest difference of vectors' lengths"}, angle<&PlainMetrics::length_max>},
 };
 
 }  // namespace

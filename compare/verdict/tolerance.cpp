@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/tolerance.h"
 
+#include "compare/metrics/pixel.h"
 #include "compare/render/reference_frame.h"
+#include "compare/verdict/encoding_bits.h"
+#include "compare/verdict/encoding_use.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
@@ -19,21 +22,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// Float32 on the way of a number in [0, 1] through packUnorm and unpackUnorm: a product and a sum (half an
-// ULP of 1 each) and a division (2.5 ULP by Vulkan's rules), doubled for a square root and a square.
-constexpr double unormSlack = 8 * 0x1p-24;
-constexpr double sqrtSlack = 2 * unormSlack;
-
-double halfStep(unsigned bits) {
-    return 0.5 / static_cast<double>((1u << bits) - 1);
-}
-
-// x -> x' with sqrt(x) rounded in `bits`: worst where the last step meets 1, 1 - (1 - h)^2.
-double sqrtBound(unsigned bits) {
-    const double h = halfStep(bits);
-    return 2 * h - h * h + sqrtSlack;
-}
-
 struct Bits {
     unsigned normal, roughness, metallic;
 };
@@ -44,21 +32,18 @@ Bits bitsOf(GBufferEncoding encoding) {
 }
 
 Tolerance unormTolerance(unsigned bits) {
-    return {halfStep(bits) + unormSlack,
-            fmt::format("half a step of {} bits, 0.5 / {}", bits, (1u << bits) - 1)};
+    return {unormBound(bits), fmt::format("half a step of {} bits, 0.5 / {}", bits, (1u << bits) - 1)};
 }
 
 // Of radiance in 9.9.9.e5: emission and lightmaps.
 Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
-    // The largest component has its top bit set, so half a step is at most 0.5 / 256 of it; 1/512 of that
-    // more where rounding moves the exponent. Below 2^-16 the exponent ends and half a step stays 2^-25.
-    constexpr double half = 0.5 / (1u << (gpu::EMISSION_MANTISSA_BITS - 1));
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
-    const double dark = floor > 0 ? 0x1p-25 / floor : 0;
-    return {std::max(half * (1 + 1.0 / 512), dark),
-            dark > half ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, where it is darkest")
-                        : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
+    const double dark = floor > 0 ? leastRadianceBound / floor : 0;
+    return {std::max(radianceBound(), dark),
+            dark > radianceBound()
+                ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, where it is darkest")
+                : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
 }
 
 Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair) {
@@ -77,9 +62,9 @@ Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair) {
 
 // mix(dielectric F0, albedo, metallic): the worse of the two ends, plus metallic's step times their distance.
 Tolerance specularTolerance(const FramePair& pair, const Bits& bits) {
-    const double albedo = sqrtBound(gpu::ALBEDO_BITS), metallic = halfStep(bits.metallic) + unormSlack;
+    const double albedo = squareBound(gpu::ALBEDO_BITS), metallic = unormBound(bits.metallic);
     const bool stored = pair.needs.dielectric_specular;
-    const double ends = stored ? std::max(albedo, sqrtBound(gpu::SPECULAR_BITS)) : albedo;
+    const double ends = stored ? std::max(albedo, squareBound(gpu::SPECULAR_BITS)) : albedo;
     const double apart = stored ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
     return {ends + metallic * apart,
             fmt::format(
@@ -96,29 +81,25 @@ const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
     return found == forward->through_gbuffer.end() ? nullptr : &found->second;
 }
 
-// The encoding's whole effect on this scene, measured within forward+ alone.
+// What the bits allow at each pixel is judged pixel by pixel (encodingUse()); here is the largest.
 Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
-    const Image* through = throughGBuffer(mode, pair);
-    if (!through)
+    if (!throughGBuffer(mode, pair))
         return {0,
                 "forward+ was not drawn through this G-buffer's encoding, so no difference can be explained"};
-    const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
-    const bool deferredIsBaseline = pair.baseline.settings.path == Path::deferred;
-    const ChannelStats effect = channelStats(mode.metric, mode.kind, deferredIsBaseline ? *through : own,
-                                             deferredIsBaseline ? own : *through, pair.coverage);
-    if (effect.infinite > 0)
+    const std::optional<EncodingUse> use = encodingUse(mode, pair);
+    if (!use)
         return {0,
-                fmt::format(
-                    "forward+ shading what the G-buffer gives back is a NaN or infinity against a number at "
-                    "{} pixel(s), which explains nothing",
-                    effect.infinite)};
-    const std::string place =
-        effect.worst_x < 0 ? "" : fmt::format(", worst at {},{}", effect.worst_x, effect.worst_y);
+                "forward+ was not drawn from surfaces that this G-buffer's bits allow, so none is explained"};
+    const std::string used = use->x < 0 || use->beyond > 0
+                                 ? ""
+                                 : fmt::format("; at most {:.0f} % of a pixel's own is used, at {},{}",
+                                               100 * use->used, use->x, use->y);
     return {
-        effect.max,
-        fmt::format("forward+ shading what the {} G-buffer gives back moves by up to {:.3g} (mean {:.3g}{}); "
-                    "deferred must equal that {}",
-                    nameOf(pair.of(Path::forward_plus)->settings.gbuffer), effect.max, effect.mean, place,
+        use->most,
+        fmt::format("what the bits of the {} G-buffer allow at each pixel, up to {:.3g} (mean {:.3g}), by "
+                    "forward+ shading its own surfaces moved by them{}; deferred must equal what forward+ "
+                    "shades from the decoded surfaces {}",
+                    nameOf(pair.of(Path::forward_plus)->settings.gbuffer), use->most, use->mean, used,
                     pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
@@ -128,7 +109,7 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
     const Bits bits = bitsOf(encoding);
     switch (mode.number) {
         case gpu::DEBUG_albedo:
-            return {sqrtBound(gpu::ALBEDO_BITS),
+            return {squareBound(gpu::ALBEDO_BITS),
                     "square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255"};
         case gpu::DEBUG_normals:
             return {octahedralBound(bits.normal),
@@ -186,18 +167,6 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
     return 0;
 }
 
-// How far float32 shading may be from double precision, in the channel's metric.
-constexpr double shadingRounding = 1e-4;
-
-// The G-buffer's whole effect on a lit channel, at 99.9 % of the pixels.
-double encodingEffect(const DebugMode& mode, const FramePair& pair) {
-    if (!pair.explaining) return 0;
-    const auto through = pair.explaining->through_gbuffer.find(mode.number);
-    const auto own = pair.explaining->channels.find(mode.number);
-    if (through == pair.explaining->through_gbuffer.end() || own == pair.explaining->channels.end()) return 0;
-    return channelStats(mode.metric, mode.kind, own->second, through->second, pair.coverage).p999;
-}
-
 // A path compared with the reference may differ by what its encoding and its float32 arithmetic lose.
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
@@ -208,14 +177,11 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
-        if (const double effect = packed ? encodingEffect(mode, pair) : 0; effect > 0) {
-            result.max += effect;
+        if (allowedByBits(mode, pair))
             result.because += fmt::format(
-                "; and what forward+ changes by at 99.9 % of the pixels when it shades what the {} G-buffer "
-                "gives "
-                "back, {:.3g}",
-                nameOf(path.settings.gbuffer), effect);
-        }
+                "; beyond what the bits of the {} G-buffer allow at each pixel, by forward+ shading its own "
+                "surfaces moved by them",
+                nameOf(path.settings.gbuffer));
         if (!reference.uncertainty.empty())
             result.because +=
                 "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
@@ -240,21 +206,6 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
 }
 
 }  // namespace
-
-const Frame* FramePair::of(Path path) const {
-    const bool first = baseline.settings.path == path, second = test.settings.path == path;
-    if (first == second) return nullptr;
-    return first ? &baseline : &test;
-}
-
-// Rounding moves a point of the octahedron |x|+|y|+|z| = 1 by up to (h, h, -2h), h = 0.5 / (2^(bits-1) - 1).
-// At a face's centre, 1 / sqrt(3) from the origin, that is perpendicular to the direction: an angle of
-// sqrt(6) h sqrt(3) = 3 sqrt(2) h. Float32 adds some 8 roundings of 2^-24 to the coordinates before they are
-// rounded, and 10 to the decoded, normalised vector.
-double octahedralBound(unsigned bits) {
-    const double h = 0.5 / static_cast<double>((1u << (bits - 1)) - 1);
-    return degrees * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + 10 * 0x1p-24);
-}
 
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame* deferred = pair.of(Path::deferred);
@@ -282,7 +233,8 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    if (reference.uncertainty.empty()) return {};
+    const Image* const bits = allowedByBits(mode, pair);
+    if (reference.uncertainty.empty() && !bits) return {};
     // Student's t of 7 degrees of freedom, 99.9 % against the 95 % that is stated: 5.41 / 2.36.
     constexpr double surer = 2.29;
     const Image& baseline = pair.baseline.channels.at(mode.number);
@@ -292,9 +244,9 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
-        const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-        const double open =
-            surer * double{reference.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
+        double open = bits ? double{*bits->pixel(i)} : 0;
+        if (!reference.uncertainty.empty()) open += surer * double{reference.uncertainty.pixel(i)[0]};
+        open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
         const double e = error(test.pixel(i), p);
         errors.push_back(e > open ? e - open : std::isnan(e) ? std::numeric_limits<double>::infinity() : 0);
     }

@@ -11,6 +11,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/encoded_surface.h"
 #include "shared/contract/features.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"

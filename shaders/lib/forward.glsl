@@ -3,6 +3,7 @@
 #ifndef FORWARD_GLSL
 #define FORWARD_GLSL
 
+#include "shaders/lib/encoded_surface.glsl"
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
 #include "shaders/lib/position.glsl"
@@ -13,19 +14,20 @@ float shadedDepth() {
     return on(feature_stored_depth) ? depthAt(ivec2(gl_FragCoord.xy)) : gl_FragCoord.z;
 }
 
-// With quantise_surface it is what the deferred path would read back, which reproduces its picture bit for
-// bit.
+// With encoded_surface it is what the deferred path would read back, which reproduces its picture bit for
+// bit, or the surface moved by what the encoding's bits allow.
 Surface forwardSurface() {
     vec4 base_color = baseColor();
     cutOut(base_color);
     Surface s = surfaceFromMaterial(base_color);
     if (on(feature_stored_depth)) s.position = positionFromDepth(gl_FragCoord.xy, shadedDepth());
-    if (on(feature_quantise_surface)) {
+    if (on(feature_encoded_surface) && constants.surface == SURFACE_DECODED) {
         Surface decoded = decodeGBuffer(encodeGBuffer(s), s.position);
         decoded.object_irradiance = s.object_irradiance;
         return decoded;
     }
     s.geometric_normal = quantiseGeometricNormal(s.geometric_normal);
+    if (on(feature_encoded_surface)) return movedSurface(s, constants.surface);
     return s;
 }
 

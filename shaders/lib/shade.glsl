@@ -14,6 +14,7 @@
 #include "shaders/lib/area.glsl"
 #endif
 #include "shaders/lib/brdf.glsl"
+#include "shaders/lib/encoded_surface.glsl"
 #include "shaders/lib/partial_sums.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/lights.glsl"
@@ -72,7 +73,7 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
 // The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light alone.
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
-    Shading shading = Shading(s, v, makeBrdf(s, v));
+    Shading shading = Shading(s, v, shadedBrdf(s, v));
     Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission);
     if (feature_light_batch == BATCH_LATER) {
         radiance.diffuse = partialDiffuse();

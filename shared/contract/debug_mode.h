@@ -8,38 +8,39 @@
 
 #include "types.h"
 
-// number  name            width  metric    kind    made by       shows
+// number  name            width  metric  kind  domain  made by  shows
 //   width   components; kind names them in an EXR: color .R.G.B, vector .X.Y.Z, scalar .Y, id .Y
 //   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
+//   domain  unit: vectors of length 1   share: 0 to 1   positive: 0 or more   any
 //   made by both (and the reference), forward_only where the G-buffer does not carry it, or by the two paths
 //   alone (paths_only): how they work, of which the reference knows nothing
 // clang-format off
-#define DEBUG_MODES(X)                                                                                    \
-    X(0,  lit,              3, relative, color,  both,         "radiance, W/(sr m^2)")                    \
-    X(1,  albedo,           3, absolute, color,  both,         "base colour, linear Rec.709")             \
-    X(2,  normals,          3, angular,  vector, both,         "shading normal, world")                   \
-    X(3,  metallic,         1, absolute, scalar, both,         "metallic, 0 to 1")                        \
-    X(4,  roughness,        1, absolute, scalar, both,         "perceptual roughness, 0 to 1")            \
-    X(5,  emission,         3, relative, color,  both,         "emitted radiance, W/(sr m^2)")            \
-    X(6,  occlusion,        1, absolute, scalar, both,         "ambient occlusion, 0 to 1")               \
-    X(7,  specular,         3, absolute, color,  both,         "F0, specular colour at normal incidence") \
-    X(8,  material_id,      1, exact,    id,     both,         "index of the material, -1 in the background") \
-    X(9,  texcoords,        2, absolute, vector, forward_only, "first texture coordinates")               \
-    X(10, depth,            1, relative, scalar, both,         "view depth, m (EXR layer Z)")             \
-    X(11, position,         3, relative, vector, both,         "shading position, world axes, from the camera, m") \
-    X(12, geometric_normal, 3, angular,  vector, both,         "normal of the triangle, world")           \
-    X(20, light_count,      1, absolute, scalar, paths_only,   "lights evaluated at the pixel")           \
-    X(21, list_overflow,    1, exact,    scalar, paths_only,   "1 where the pixel's light list found no room") \
-    X(40, lit_diffuse,      3, relative, color,  both,         "reflected by the diffuse lobe, W/(sr m^2)") \
-    X(41, lit_specular,     3, relative, color,  both,         "reflected by the specular lobe, W/(sr m^2)") \
-    X(42, lit_ambient,      3, relative, color,  both,         "reflected ambient light, W/(sr m^2)") \
-    X(50, dielectric_f90,   1, absolute, scalar, both,         "F90 of the dielectric layer, 0 to 1") \
-    X(51, lightmap,         3, relative, color,  both,         "irradiance of the lightmap over pi, W/(sr m^2)")
+#define DEBUG_MODES(X)                                                                                         \
+    X(0,  lit,              3, relative, color,  any,      both,         "radiance, W/(sr m^2)")               \
+    X(1,  albedo,           3, absolute, color,  share,    both,         "base colour, linear Rec.709")        \
+    X(2,  normals,          3, angular,  vector, unit,     both,         "shading normal, world")              \
+    X(3,  metallic,         1, absolute, scalar, share,    both,         "metallic, 0 to 1")                   \
+    X(4,  roughness,        1, absolute, scalar, share,    both,         "perceptual roughness, 0 to 1")       \
+    X(5,  emission,         3, relative, color,  positive, both,         "emitted radiance, W/(sr m^2)")       \
+    X(6,  occlusion,        1, absolute, scalar, share,    both,         "ambient occlusion, 0 to 1")          \
+    X(7,  specular,         3, absolute, color,  share,    both,         "F0, specular colour at normal incidence") \
+    X(8,  material_id,      1, exact,    id,     any,      both,         "index of the material, -1 in the background") \
+    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first texture coordinates")          \
+    X(10, depth,            1, relative, scalar, positive, both,         "view depth, m (EXR layer Z)")        \
+    X(11, position,         3, relative, vector, any,      both,         "shading position, world axes, from the camera, m") \
+    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "normal of the triangle, world")      \
+    X(20, light_count,      1, absolute, scalar, positive, paths_only,   "lights evaluated at the pixel")      \
+    X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list found no room") \
+    X(40, lit_diffuse,      3, relative, color,  any,      both,         "reflected by the diffuse lobe, W/(sr m^2)") \
+    X(41, lit_specular,     3, relative, color,  any,      both,         "reflected by the specular lobe, W/(sr m^2)") \
+    X(42, lit_ambient,      3, relative, color,  any,      both,         "reflected ambient light, W/(sr m^2)") \
+    X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
+    X(51, lightmap,         3, relative, color,  positive, both,         "irradiance of the lightmap over pi, W/(sr m^2)")
 // clang-format on
 
 CONTRACT_BEGIN
-#define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, maker, shows) \
+#define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows) \
     CONTRACT_CONST(uint, DEBUG_##name, number);
 DEBUG_MODES(DIPTYCH_DEBUG_NUMBER)
 #undef DIPTYCH_DEBUG_NUMBER

@@ -38,8 +38,8 @@
     X(17, gbuffer_wide_emission,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* more materials than the packed bits can name */                                                      \
     X(18, gbuffer_wide_material_id,   gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
-    /* shade what the G-buffer would have given back */                                                     \
-    X(19, quantise_surface,           pass,    0, PASS_FORWARD)                                             \
+    /* shade DrawConstants::surface of encoded_surface.h */                                                 \
+    X(19, encoded_surface,            pass,    0, PASSES_SHADE)                                             \
     /* DEBUG_* of each attachment of a capture pass */                                                      \
     X(20, capture_0,                  pass,    0, PASSES_SHADE)                                             \
     X(21, capture_1,                  pass,    0, PASSES_SHADE)                                             \

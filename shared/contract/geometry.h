@@ -32,6 +32,7 @@ struct DrawConstants {
     uint material;  // its number: the channel material_id
     uint light_first;
     uint light_end;
+    uint surface;  // SURFACE_*, with FEATURE_encoded_surface
 };
 
 CONTRACT_END

@@ -6,6 +6,7 @@
 #include "shared/vulkan/pipelines.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,14 +25,15 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes);
 struct CapturedImage {
     int mode = 0;
     ImageRef image;
-    std::size_t pass = 0;          // the number of its group's
-    bool through_gbuffer = false;  // forward+: of a surface that was encoded and decoded
+    std::size_t pass = 0;                   // the number of its group's
+    std::optional<gpu::uint> surface = {};  // forward+: SURFACE_*, where it is not of the path's own
 };
 
-// The channels that a capture makes: of surfaces as they are, and of surfaces that went through the
-// G-buffer's encoding (forward+ only; what the deferred path has to show).
+// The channels that a capture makes: of surfaces as they are; and, forward+ only, of surfaces that went
+// through the G-buffer's encoding, which the deferred path has to show, and of those that bound its effect
+// (SURFACE_RAISED and all after it, in this order).
 struct CaptureRequest {
-    std::vector<int> modes, through_gbuffer;
+    std::vector<int> modes, through_gbuffer, bounded;
 };
 
 // Adds the group's attachments to the list's last pass, cleared to what the background holds (0; material_id

@@ -62,7 +62,7 @@ PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, c
 
 PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface) {
     key.variant.take(inputs.variant, featuresSetBy(FeatureSource::gbuffer));
-    key.variant.set(gpu::FEATURE_quantise_surface, surface);
+    key.variant.set(gpu::FEATURE_encoded_surface, surface);
     return key;
 }
 

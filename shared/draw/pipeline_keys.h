@@ -22,8 +22,9 @@ PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, con
 PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, const CaptureGroup& group,
                               const LightBatch& batch);
 
-// Lets a forward key quantise as the frame's G-buffer would. With `surface` the whole surface is encoded and
-// decoded before it is shaded; without, only the geometric normal is, as both paths must have the same one.
+// Lets a forward key quantise as the frame's G-buffer would. With `surface` a surface that the encoding may
+// make is shaded (gpu::DrawConstants::surface); without, only the geometric normal is quantised, as both
+// paths must have the same one.
 PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface);
 
 }  // namespace diptych

@@ -34,11 +34,12 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
 
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightBatch& batch,
-                                                 std::shared_ptr<const DescriptorSets> gbuffer) {
+                                                 std::shared_ptr<const DescriptorSets> gbuffer,
+                                                 gpu::uint surface) {
     std::vector<PipelineKey> keys;
     for (const DrawItem& item : inputs.draws.items) keys.push_back(keyOf(item));
     std::vector<VkPipeline> pipelines = inputs.pipelines.get(keys);
-    return [&inputs, batch, gbuffer = std::move(gbuffer),
+    return [&inputs, batch, surface, gbuffer = std::move(gbuffer),
             pipelines = std::move(pipelines)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, gbuffer.get());
         inputs.geometry.bind(commands, inputs.draw_buffer);
@@ -55,7 +56,7 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
             // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
             vkCmdSetFrontFace(commands,
                               item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-            push(commands, inputs, {item.draw, item.range.material, batch.first, batch.end});
+            push(commands, inputs, {item.draw, item.range.material, batch.first, batch.end, surface});
             vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
                              item.range.vertex_offset, item.draw);
             last = &item;
@@ -76,7 +77,7 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
     return [&inputs, pipeline, batch,
             sets = std::make_shared<const DescriptorSets>(std::move(gbuffer))](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, sets.get());
-        push(commands, inputs, {0, 0, batch.first, batch.end});
+        push(commands, inputs, {0, 0, batch.first, batch.end, gpu::SURFACE_DECODED});
         recordTriangle(commands, pipeline);
     };
 }

@@ -2,6 +2,7 @@
 // Records the commands that draw the scene or a full-screen triangle.
 #pragma once
 
+#include "shared/contract/encoded_surface.h"
 #include "shared/draw/light_batches.h"
 
 #include <functional>
@@ -11,11 +12,12 @@ namespace diptych {
 
 // What records the draws of every item, in the list's order, each with the pipeline of its key. Pipelines
 // that do not exist yet are made at once, on all cores. `gbuffer`: SET_GBUFFER of shaders that read stored
-// depth. `inputs` must outlive what is returned.
+// depth. `surface`: of keys with FEATURE_encoded_surface. `inputs` must outlive what is returned.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightBatch& batch = {},
-                                                 std::shared_ptr<const DescriptorSets> gbuffer = {});
+                                                 std::shared_ptr<const DescriptorSets> gbuffer = {},
+                                                 gpu::uint surface = gpu::SURFACE_DECODED);
 
 // One triangle that covers the screen, with the descriptor sets that are bound.
 void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);

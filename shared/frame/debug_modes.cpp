@@ -11,8 +11,8 @@ namespace diptych {
 namespace {
 
 constexpr DebugMode modes[] = {
-#define DIPTYCH_DEBUG_ROW(number, name, width, metric, kind, maker, shows) \
-    {number, #name, width, Metric::metric, ChannelKind::kind, MadeBy::maker, shows},
+#define DIPTYCH_DEBUG_ROW(number, name, width, metric, kind, domain, maker, shows) \
+    {number, #name, width, Metric::metric, ChannelKind::kind, Domain::domain, MadeBy::maker, shows},
     DEBUG_MODES(DIPTYCH_DEBUG_ROW)
 #undef DIPTYCH_DEBUG_ROW
 };

@@ -15,6 +15,8 @@ namespace diptych {
 
 enum class Metric { relative, absolute, angular, exact };
 enum class ChannelKind { color, vector, scalar, id };
+// What its numbers are: vectors of length 1, 0 to 1, 0 or more, or any.
+enum class Domain { unit, share, positive, any };
 enum class MadeBy { both, forward_only, paths_only };
 
 // How a channel is shown as a picture; usual: as its kind and metric determine.
@@ -26,6 +28,7 @@ struct DebugMode {
     int width;  // number of components
     Metric metric;
     ChannelKind kind;
+    Domain domain;
     MadeBy maker;
     std::string_view shows;
     Shown shown = Shown::usual;
@@ -42,6 +45,11 @@ inline constexpr std::array litModes{
     static_cast<int>(gpu::DEBUG_lit_specular), static_cast<int>(gpu::DEBUG_lit_ambient)};
 constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
+}
+
+// The one that is dark in a scene without ambient light and lightmaps.
+constexpr bool isAmbient(int mode) {
+    return mode == static_cast<int>(gpu::DEBUG_lit_ambient);
 }
 
 // The EXR channel names of a mode: R, G, B for lit, Z for depth, "albedo.R", "normals.X", "roughness.Y" for

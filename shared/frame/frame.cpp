@@ -6,7 +6,7 @@
 namespace diptych {
 
 void letGo(const Frame& frame, int mode) {
-    for (const auto* pictures : {&frame.channels, &frame.through_gbuffer})
+    for (const auto* pictures : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
         if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second.data);
 }
 

@@ -86,6 +86,9 @@ struct Frame {
     // as in settings.gbuffer and decoded again, as the deferred path shades them. Used to explain a
     // difference of lit.
     std::map<int, Image> through_gbuffer;
+    // Forward+ only, of the same channels: how far the bits of settings.gbuffer may move them at each pixel,
+    // W x H x 1, W/(sr m^2). A channel that this scene leaves dark has none.
+    std::map<int, Image> encoding_bound;
     std::array<float, 3> background{};  // colour of background pixels in pictures, W/(sr m^2)
     std::map<int, ChannelNoise> noise;  // of every channel, if the frame was drawn twice
     // Of the reference, if something was sampled: half the 95 % confidence interval of lit, W x H x 1, W/(sr

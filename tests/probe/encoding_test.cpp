@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The precision of the G-buffer's encodings, measured on the shipped GLSL.
+#include "compare/verdict/encoding_bits.h"
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -143,6 +144,53 @@ TEST(Encoding, F90InEightBits) {
         worst = std::max(worst, std::abs(double{output[i * 8 + 7]} - double{input[i * 3]}));
     EXPECT_LE(worst, 0.5 / 255 + 1e-7);
     EXPECT_GT(worst, 0.45 / 255);
+}
+
+// Decoding never leaves the unit sphere, whatever the code: also codes that no direction is encoded to.
+TEST(Encoding, EveryOctahedralCodeIsAUnitVector) {
+    Probes probes;
+    for (const int bits : {8, 12, 16}) {
+        std::vector<float> input;
+        std::mt19937 random(5);
+        for (int i = 0; i < 50'000; ++i) {
+            std::normal_distribution<float> normal;
+            const float x = normal(random), y = normal(random), z = normal(random),
+                        length = std::sqrt(x * x + y * y + z * z);
+            input.insert(input.end(), {x / length, y / length, z / length, static_cast<float>(bits)});
+        }
+        const std::vector<float> output = probes.run("octahedral", input, 4, 3);
+        double worst = 0;
+        for (std::size_t i = 0; i < output.size(); i += 3)
+            worst = std::max(
+                worst,
+                std::abs(std::hypot(double{output[i]}, double{output[i + 1]}, double{output[i + 2]}) - 1));
+        // A sum of three products, a root and a division, each rounded.
+        EXPECT_LE(worst, 10 * 0x1p-24) << bits << " bits";
+    }
+}
+
+// What shading propagates and what verdicts grant are the same bounds.
+TEST(Encoding, BoundsAreThoseOfTheVerdict) {
+    Probes probes;
+    std::vector<float> input;
+    for (const int bits : {6, 8, 12, 16})
+        for (const float x : {0.0f, 1e-9f, 1e-4f, 0.04f, 0.3f, 0.999f, 1.0f})
+            input.insert(input.end(), {x, static_cast<float>(bits)});
+    const std::vector<float> output = probes.run("encoding_bits", input, 2, 5);
+    for (std::size_t i = 0; i < input.size() / 2; ++i) {
+        const double x = input[2 * i];
+        const auto bits = static_cast<unsigned>(input[2 * i + 1]);
+        const float* row = &output[5 * i];
+        const bool own = x == 0 || x == 1;
+        EXPECT_NEAR(row[0], own ? 0 : unormBound(bits), 1e-6 * unormBound(bits)) << x << " " << bits;
+        EXPECT_NEAR(row[1], own ? 0 : squareBound(x, bits), 1e-6 * squareBound(bits)) << x << " " << bits;
+        EXPECT_NEAR(row[2], x == 0 ? 0 : std::max(x * radianceBound(), leastRadianceBound),
+                    1e-6 * radianceBound())
+            << x;
+        EXPECT_EQ(row[3], 0.0f) << "float32 loses nothing";
+        EXPECT_NEAR(row[4] * 180 / std::numbers::pi, octahedralBound(bits), 1e-6 * octahedralBound(bits))
+            << bits;
+    }
 }
 
 }  // namespace

@@ -65,9 +65,17 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
             Image& image = frame.channels[mode.number] = Image(4, 3, mode.width);
             if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
             for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;
+            if (mode.domain == Domain::unit) {
+                image.at(1, 2, 0) = 0.6f;
+                image.at(1, 2, 1) = 0;
+                image.at(1, 2, 2) = 0.8f;
+            }
         }
     }
-    for (const int mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+    for (const int mode : litModes) {
+        frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+        frames[1].encoding_bound[mode] = Image(4, 3, 1, 0.5f);
+    }
     return frames;
 }
 

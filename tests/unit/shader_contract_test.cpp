@@ -155,9 +155,9 @@ TEST(ShaderContract, AForgottenReaderOfAFeatureIsFound) {
         EXPECT_EQ(wrongReaders(without).size(), 1u) << feature;
     }
     EXPECT_EQ(wrongReaders([](const FeatureRow& row) {
-                  return row.id == gpu::FEATURE_quantise_surface ? row.passes | gpu::PASS_LISTS : row.passes;
+                  return row.id == gpu::FEATURE_encoded_surface ? row.passes | gpu::PASS_LISTS : row.passes;
               }),
-              (Faults{"quantise_surface is not read by the light lists pass, FEATURES says so"}));
+              (Faults{"encoded_surface is not read by the light lists pass, FEATURES says so"}));
 }
 
 TEST(ShaderContract, MasksAreTheColumnsOfTheTable) {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/domain.h"
+
+#include "compare/metrics/pixel.h"
+#include "compare/verdict/encoding_bits.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace diptych {
+namespace {
+
+// By how much a pixel is outside, and the number that is; 0: inside.
+struct Outside {
+    double by = 0, value = 0;
+};
+
+Outside outside(Domain domain, const float* p, int components) {
+    Outside worst;
+    const auto look = [&](double value, double by) {
+        if (by > worst.by) worst = {by, value};
+    };
+    if (domain == Domain::unit) {
+        const double length = std::hypot(double{p[0]}, double{p[1]}, double{p[2]});
+        look(length, std::abs(length - 1));
+        return worst;
+    }
+    for (int c = 0; c < components; ++c) {
+        look(p[c], -double{p[c]});
+        if (domain == Domain::share) look(p[c], double{p[c]} - 1);
+    }
+    return worst;
+}
+
+const char* faultOf(Domain domain) {
+    switch (domain) {
+        case Domain::unit:
+            return "no unit vectors, length";
+        case Domain::share:
+            return "not between 0 and 1:";
+        case Domain::positive:
+            return "negative:";
+        case Domain::any:
+            break;
+    }
+    return "";
+}
+
+}  // namespace
+
+std::string outsideDomain(const DebugMode& mode, const Image& image, const Coverage& coverage) {
+    if (mode.domain == Domain::any) return {};
+    std::uint64_t count = 0;
+    std::size_t place = 0;
+    Outside worst;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        if (!coverage.covered[i] || !metrics::finite(image.pixel(i), image.components)) continue;
+        const Outside here = outside(mode.domain, image.pixel(i), image.components);
+        if (here.by <= lengthBound) continue;
+        ++count;
+        if (here.by > worst.by) {
+            worst = here;
+            place = i;
+        }
+    }
+    if (count == 0) return {};
+    const auto width = static_cast<std::size_t>(image.width);
+    return fmt::format("{} pixel(s) are {} {:.6g} at {},{}", count, faultOf(mode.domain), worst.value,
+                       place % width, place / width);
+}
+
+}  // namespace diptych

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/frame_pair.h"
+
+namespace diptych {
+
+const Frame* FramePair::of(Path path) const {
+    const bool first = baseline.settings.path == path, second = test.settings.path == path;
+    if (first == second) return nullptr;
+    return first ? &baseline : &test;
+}
+
+}  // namespace diptych

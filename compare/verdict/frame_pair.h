@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What two Frames are judged with.
+#pragma once
+
+#include "compare/metrics/channel.h"
+#include "shared/frame/frame.h"
+#include "shared/scene/requirements.h"
+
+namespace diptych {
+
+// Two Frames of one scene and camera, the device they were drawn on, and what the scene needs.
+struct FramePair {
+    const Frame& baseline;
+    const Frame& test;
+    const Requirements& needs;
+    const Coverage& coverage;
+    bool cpu = true;  // a CPU device rounds alike in every pipeline; a GPU is granted gpuUlps
+    // In a comparison with the reference: the Frame of forward+ of the same view and Settings that has bounds
+    // of the encoding; or nullptr.
+    const Frame* explaining = nullptr;
+
+    const Frame* of(Path path) const;  // nullptr: neither, or both
+};
+
+}  // namespace diptych

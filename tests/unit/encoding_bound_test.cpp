@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// The bound of what an encoding may do to light: how it is gathered, what a verdict makes of it, and what is
+// outside of a channel's domain.
+#include "compare/render/encoding_bound.h"
+#include "compare/verdict/comparison.h"
+#include "compare/verdict/domain.h"
+#include "compare/verdict/encoding_use.h"
+#include "compare/verdict/measurement.h"
+#include "tests/unit/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+Image oneGrey(float value) {
+    return Image(1, 1, 3, value);
+}
+
+// |c - own| + r + n + n r / |c| with own 1, c 1.1, normals at most 0.3 and roughnesses at most 0.2 from it.
+TEST(EncodingBound, AddsWhatEachFieldMoves) {
+    const Image own = oneGrey(1);
+    EncodingBound bound(own);
+    bound.add(gpu::SURFACE_RAISED, oneGrey(1.1f));
+    for (const float normal : {1.0f, 0.8f, 1.2f, 1.3f})
+        bound.add(gpu::SURFACE_NORMAL + (normal > 1), oneGrey(normal));
+    bound.add(gpu::SURFACE_ROUGHNESS, oneGrey(0.9f));
+    bound.add(gpu::SURFACE_ROUGHNESS + 1, oneGrey(1.15f));
+    EXPECT_NEAR(*bound.take().pixel(0), 0.1 + 0.2 + 0.3 + 0.3 * 0.2 / 1.1, 1e-6);
+}
+
+// The largest component counts, wherever it is; and the second pixel is not the first.
+TEST(EncodingBound, IsOfEachPixelAndItsLargestComponent) {
+    Image own(2, 1, 3, 1.0f), raised = own, normal = own;
+    normal.pixel(0)[2] = 1.5f;
+    normal.pixel(1)[0] = 0.75f;
+    EncodingBound bound(own);
+    bound.add(gpu::SURFACE_RAISED, raised);
+    bound.add(gpu::SURFACE_NORMAL + 3, normal);
+    const Image all = bound.take();
+    EXPECT_FLOAT_EQ(*all.pixel(0), 0.5f);
+    EXPECT_FLOAT_EQ(*all.pixel(1), 0.25f);
+}
+
+TEST(EncodingBound, NeitherNanNorInfinityWidensIt) {
+    const Image own = oneGrey(1);
+    EncodingBound bound(own);
+    bound.add(gpu::SURFACE_RAISED, oneGrey(1));
+    bound.add(gpu::SURFACE_NORMAL, oneGrey(std::numeric_limits<float>::quiet_NaN()));
+    bound.add(gpu::SURFACE_ROUGHNESS, oneGrey(std::numeric_limits<float>::infinity()));
+    EXPECT_EQ(*bound.take().pixel(0), 0.0f);
+    EncodingBound dark(own);
+    EXPECT_THROW(dark.add(gpu::SURFACE_NORMAL, oneGrey(1)), std::logic_error) << "without what it moves from";
+}
+
+const ChannelDiff& firstOf(const Report& report) {
+    return report.comparisons.at(0).channels.at(0);
+}
+
+// What deferred reads back explains the whole difference, and is yet eleven times what the bits can do.
+TEST(EncodingUse, BeyondTheBitsFailsByName) {
+    std::vector<Frame> frames = bothFrames();
+    for (auto& [mode, bound] : frames[1].encoding_bound) bound = Image(4, 3, 1, 0.01f);
+    frames[0].channels[0].at(1, 2, 1) = frames[1].through_gbuffer[0].at(1, 2, 1) = 0.5f + 0.11f;
+    const Report report = reportOf(frames);
+    const ChannelDiff& lit = firstOf(report);
+    EXPECT_EQ(lit.unexplained_pixels, 0u);
+    EXPECT_EQ(lit.verdict, Verdict::fail);
+    EXPECT_NE(lit.reason.find("10.9 times what the bits of its G-buffer can do at 1,2"), std::string::npos)
+        << lit.reason;
+    EXPECT_NE(lit.reason.find("at 1 pixel(s)"), std::string::npos);
+    frames[1].encoding_bound[0] = Image(4, 3, 1, 0.12f);
+    EXPECT_EQ(firstOf(reportOf(frames)).verdict, Verdict::pass) << "the control";
+}
+
+// The bound is each pixel's own: a large one elsewhere excuses nothing here.
+TEST(EncodingUse, IsJudgedPixelByPixel) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames)
+        for (auto& [mode, image] : frame.channels)
+            for (int c = 0; c < image.components; ++c) image.at(2, 2, c) = image.at(1, 2, c);
+    frames[1].through_gbuffer[0] = frames[0].channels[0];
+    frames[1].encoding_bound[0].at(1, 2) = 0.01f;
+    frames[1].encoding_bound[0].at(2, 2) = 100;
+    frames[0].channels[0].at(1, 2, 0) = frames[1].through_gbuffer[0].at(1, 2, 0) = 0.52f;
+    const Report report = reportOf(frames);
+    EXPECT_EQ(firstOf(report).verdict, Verdict::fail);
+    EXPECT_EQ(firstOf(report).encoding_use->beyond, 1u);
+    EXPECT_GT(firstOf(report).tolerance.max, 100) << "which the largest difference is far below";
+}
+
+// Against the reference a packed path is granted its bits and float32's shading, 1e-4, and no more.
+TEST(EncodingUse, AgainstTheReferenceTheBitsAreGrantedAndNoMore) {
+    const auto verdictOf = [](float deferred, float bound, const char* camera = "") {
+        std::vector<Frame> frames = bothFrames();
+        frames.insert(frames.begin(), frames[1]);
+        frames[0].name = "reference";
+        frames[0].settings.path = Path::reference;
+        frames[0].through_gbuffer.clear();
+        frames[0].encoding_bound.clear();
+        frames[2].settings.camera = camera;
+        frames[2].encoding_bound[0] = Image(4, 3, 1, bound);
+        for (int c = 0; c < 3; ++c)
+            frames[1].channels[0].at(1, 2, c) = frames[2].through_gbuffer[0].at(1, 2, c) = deferred;
+        const Report report =
+            makeReferenceReport(frames, std::vector<Requirements>(3), {"a CPU", "1.0", "cpu"}, {}, {}, {{}});
+        return firstOf(report).verdict;
+    };
+    EXPECT_EQ(verdictOf(0.5f, 0), Verdict::pass);
+    EXPECT_EQ(verdictOf(0.5f * 1.00009f, 0), Verdict::pass) << "float32";
+    EXPECT_EQ(verdictOf(0.5f * 1.00012f, 0), Verdict::fail);
+    EXPECT_EQ(verdictOf(0.51f, 0.01f), Verdict::pass) << "its bits";
+    EXPECT_EQ(verdictOf(0.5102f, 0.01f), Verdict::fail)
+        << "the decoded surfaces explain it, their bits do not";
+    EXPECT_EQ(verdictOf(0.51f, 0.01f, "eye=1,2,3"), Verdict::fail) << "another camera's bits explain nothing";
+}
+
+std::string faultIn(gpu::uint mode, std::vector<float> values) {
+    const DebugMode& m = debugMode(static_cast<int>(mode));
+    Image image(static_cast<int>(values.size()) / m.width, 1, m.width);
+    std::ranges::copy(values, image.data.begin());
+    return outsideDomain(m, image, everyPixel(image.pixels()));
+}
+
+TEST(Domain, UnitVectorsAreUnit) {
+    EXPECT_EQ(faultIn(gpu::DEBUG_normals, {0, 0, 1, 0.6f, 0, 0.8f, 0, -1, 0}), "");
+    EXPECT_NE(faultIn(gpu::DEBUG_normals, {0, 0, 1, 0.6f, 0, 0.80001f}), "");
+    EXPECT_EQ(faultIn(gpu::DEBUG_geometric_normal, {0, 0, 1, 0, 0, 0.5f}),
+              "1 pixel(s) are no unit vectors, length 0.5 at 1,0");
+    EXPECT_EQ(faultIn(gpu::DEBUG_position, {5, 6, 7}), "") << "a vector of any length";
+}
+
+TEST(Domain, SharesAndRadianceStayWithin) {
+    for (const gpu::uint mode :
+         {gpu::DEBUG_metallic, gpu::DEBUG_roughness, gpu::DEBUG_occlusion, gpu::DEBUG_dielectric_f90}) {
+        EXPECT_EQ(faultIn(mode, {0, 1, 0.5f}), "");
+        EXPECT_EQ(faultIn(mode, {0, 1.25f, 2}), "2 pixel(s) are not between 0 and 1: 2 at 2,0");
+        EXPECT_EQ(faultIn(mode, {-0.5f}), "1 pixel(s) are not between 0 and 1: -0.5 at 0,0");
+    }
+    EXPECT_NE(faultIn(gpu::DEBUG_albedo, {0, 0, 1.01f}), "");
+    EXPECT_NE(faultIn(gpu::DEBUG_specular, {0, -0.01f, 1}), "");
+    EXPECT_NE(faultIn(gpu::DEBUG_emission, {0, -1, 1e9f}), "");
+    EXPECT_EQ(faultIn(gpu::DEBUG_emission, {0, 1, 1e9f}), "");
+}
+
+// A channel that both paths draw wrong alike shows no difference, and fails all the same.
+TEST(Domain, AFaultOfBothPathsFails) {
+    std::vector<Frame> frames = bothFrames();
+    EXPECT_TRUE(reportOf(frames).passed());
+    for (Frame& frame : frames)
+        for (int c = 0; c < 3; ++c) frame.channels[2].at(1, 2, c) *= 1.5f;
+    const Report report = reportOf(frames);
+    EXPECT_FALSE(report.passed());
+    for (const ChannelDiff& channel : report.comparisons.at(0).channels)
+        if (channel.mode->number == 2) {
+            EXPECT_EQ(channel.stats.max, 0);
+            EXPECT_EQ(channel.reason, "deferred: 1 pixel(s) are no unit vectors, length 1.5 at 1,2");
+        }
+    for (Frame& frame : frames) frame.origin.file = "theirs.exr";
+    EXPECT_TRUE(reportOf(frames).passed()) << "another renderer's file may hold what it likes";
+}
+
+// The angle does not see a length; the figure beside it does.
+TEST(Domain, LengthStandsBesideTheAngle) {
+    const Image unit(1, 1, 3, 0.0f);
+    Image reference = unit, test = unit;
+    reference.data = {0, 0, 1};
+    test.data = {0, 0, 0.25f};
+    const Coverage covered = everyPixel(1);
+    const Measurement measured({Metric::angular, ChannelKind::vector, false, &reference, &test, &covered});
+    EXPECT_EQ(measured({"angle_max", 0}), 0);
+    EXPECT_EQ(measured({"length_max", 0}), 0.75);
+}
+
+}  // namespace
+}  // namespace diptych
