@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 
+#include "shared/material/texture_probe.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +50,7 @@ int runDevices(const Options& options) {
         if (!device.usable()) continue;
         Device opened({std::to_string(device.index), options.validate});
         for (DeviceFact& fact : opened.probe()) device.facts.push_back(std::move(fact));
+        for (DeviceFact& fact : textureFacts(probeTextures(opened))) device.facts.push_back(std::move(fact));
         checkValidation(opened);
     }
     if (options.json)

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "shared/material/texture_probe.h"
+
+#include "shared/material/textures.h"
+#include "shared/scene/model/material_slots.h"
+#include "shared/vulkan/check.h"
+#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/pipelines.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+constexpr std::array probeTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+
+OwnedPipelineLayout layoutOf(Device& device, VkDescriptorSetLayout set) {
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    return {device.handle(), layout};
+}
+
+Sampler probeSampler(bool linear) {
+    Sampler sampler;
+    sampler.magnify_linear = sampler.minify_linear = linear;
+    sampler.mipmaps = sampler.mipmaps_linear = false;
+    return sampler;
+}
+
+// RGBA of the picture at `places`, texture coordinates in rows of `width`; the wrap mode is repeat.
+std::vector<float> sampled(Device& device, const TextureImage& picture, bool srgb, bool linear,
+                           std::span<const glm::vec2> places, int width) {
+    const int height = static_cast<int>(places.size()) / width;
+    TextureImage where{"places", width, height, {}};
+    for (const glm::vec2& place : places)
+        where.rgba32.insert(where.rgba32.end(), {place.x, place.y, 0.0f, 0.0f});
+    Uploader uploader(device);
+    const auto upload = [&](const TextureImage& image, bool colors) {
+        const TextureFormat format = textureFormat(image.deep(), colors, [](VkFormat) { return true; });
+        return uploadTexture(device, uploader, MipChain(image, colors, format.texels), format.format);
+    };
+    const GpuImage placesImage = upload(where, true), pictureImage = upload(picture, srgb);
+    uploader.flush();
+    const OwnedSampler fetch = makeNearestSampler(device),
+                       sampler = makeSampler(device, probeSampler(linear));
+    const OwnedDescriptorSetLayout setLayout = makeSetLayout(device, probeTypes);
+    DescriptorSets sets(device, setLayout, probeTypes, 1);
+    sets.image(0, 0, placesImage.view(), fetch, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    sets.image(0, 1, pictureImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+
+    const OwnedPipelineLayout layout = layoutOf(device, setLayout);
+    Pipelines pipelines(device, layout);
+    PassList passes(device, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    const ImageRef target = passes.image("probe", VK_FORMAT_R32G32B32A32_SFLOAT);
+    const VkPipeline pipeline = pipelines.get({.vertex = Shader::full_screen_vert,
+                                               .fragment = Shader::probe_texture_frag,
+                                               .variant = {},
+                                               .input = 0,
+                                               .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}});
+    passes.draw("probe").color(target, Load::clear).record([&](VkCommandBuffer commands) {
+        const VkDescriptorSet set = sets[0];
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0, nullptr);
+        vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+        vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        vkCmdDraw(commands, 3, 1, 0, 0);
+    });
+    passes.run();
+    return passes.readBack(std::array{PassList::ReadBack{target, 4}}).front();
+}
+
+// ---- filtering ---------------------------------------------------------------------------------------
+
+constexpr int noiseSide = 64;
+
+// In bands of eight rows, which differ in contrast: from one code to all.
+TextureImage noise(std::uint32_t& state) {
+    constexpr std::array contrasts{1u, 2u, 4u, 16u, 48u, 96u, 192u, 256u};
+    const auto random = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
+    TextureImage image{"noise", noiseSide, noiseSide, {}};
+    for (std::uint32_t band = 0; band < contrasts.size(); ++band)
+        for (int block = 0; block < noiseSide / 8; ++block) {
+            // Eight columns each; the darkest code of the block's.
+            const std::uint32_t least = random() % (257 - contrasts[band]);
+            for (int i = 0; i < 8 * 8 * 4; ++i)
+                image.rgba.push_back(static_cast<std::uint8_t>(least + random() % contrasts[band]));
+        }
+    // So far block after block, each of 8 x 8 texels: into rows.
+    std::vector<std::uint8_t> rows(image.rgba.size());
+    for (std::size_t y = 0; y < noiseSide; ++y)
+        for (std::size_t x = 0; x < noiseSide; ++x)
+            for (std::size_t c = 0; c < 4; ++c)
+                rows[4 * (y * noiseSide + x) + c] =
+                    image.rgba[4 * ((y / 8 * 8 + x / 8) * 64 + y % 8 * 8 + x % 8) + c];
+    image.rgba = std::move(rows);
+    return image;
+}
+
+struct Mixture {
+    std::array<double, 4> texels;
+    double x, y;  // shares of the right and of the lower two
+
+    double exact() const {
+        return (texels[0] * (1 - x) + texels[1] * x) * (1 - y) + (texels[2] * (1 - x) + texels[3] * x) * y;
+    }
+    double range() const {
+        const auto [least, most] = std::ranges::minmax(texels);
+        return most - least;
+    }
+};
+
+}  // namespace
+
+double exactSrgb(std::size_t code) {
+    const double encoded = static_cast<double>(code) / 255;
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double TextureSampling::srgbError(std::size_t code) const {
+    return std::abs(double{srgb[code]} - exactSrgb(code));
+}
+
+TexelDecode probeDecode(Device& device, bool srgb) {
+    TextureImage codes{"codes", 256, 1, {}};
+    std::vector<glm::vec2> places;
+    for (int code = 0; code < 256; ++code) {
+        codes.rgba.insert(codes.rgba.end(), 4, static_cast<std::uint8_t>(code));
+        places.emplace_back((static_cast<float>(code) + 0.5f) / 256, 0.5f);
+    }
+    const std::vector<float> rgba = sampled(device, codes, srgb, false, places, 256);
+    TexelDecode decode{};
+    for (std::size_t code = 0; code < 256; ++code) {
+        const double exact = srgb ? exactSrgb(code) : static_cast<double>(code) / 255;
+        decode[code] = *std::max_element(&rgba[4 * code], &rgba[4 * code + 3], [&](float a, float b) {
+            return std::abs(double{a} - exact) < std::abs(double{b} - exact);
+        });
+    }
+    return decode;
+}
+
+std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDecode& decode,
+                                      std::uint32_t seed) {
+    constexpr int side = 256;
+    std::uint32_t state = seed;
+    const TextureImage picture = noise(state);
+    std::vector<glm::vec2> places;
+    for (int i = 0; i < side * side; ++i) {
+        const auto random = [&] {
+            state = state * 1664525u + 1013904223u;
+            return static_cast<float>(state >> 8) * 0x1p-24f;
+        };
+        const float u = random();
+        places.emplace_back(u, random());
+    }
+    const std::vector<float> got = sampled(device, picture, srgb, true, places, side);
+    const auto texel = [&](int x, int y, std::size_t c) {
+        const auto wrapped = [](int i) { return static_cast<std::size_t>((i + noiseSide) % noiseSide); };
+        return double{decode[picture.rgba[4 * (wrapped(y) * noiseSide + wrapped(x)) + c]]};
+    };
+    std::vector<FilterSample> samples;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const glm::dvec2 at = glm::dvec2(places[i]) * double{noiseSide} - 0.5, first = glm::floor(at);
+        const int x = static_cast<int>(first.x), y = static_cast<int>(first.y);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Mixture mixture{
+                {texel(x, y, c), texel(x + 1, y, c), texel(x, y + 1, c), texel(x + 1, y + 1, c)},
+                at.x - first.x,
+                at.y - first.y};
+            samples.push_back({mixture.range(), std::abs(double{got[4 * i + c]} - mixture.exact())});
+        }
+    }
+    return samples;
+}
+
+// Of the convex hull above the samples, the side over their mean range; no side that falls is taken, since a
+// larger range permits no smaller error.
+FilterBound boundOf(std::span<const FilterSample> samples) {
+    if (samples.empty()) throw std::invalid_argument("a filter's bound of no samples");
+    std::vector<FilterSample> sorted(samples.begin(), samples.end());
+    std::ranges::sort(sorted, [](const FilterSample& a, const FilterSample& b) {
+        return std::pair(a.range, a.error) < std::pair(b.range, b.error);
+    });
+    double mean = 0, most = 0;
+    for (const FilterSample& s : sorted) {
+        mean += s.range / static_cast<double>(sorted.size());
+        most = std::max(most, s.error);
+    }
+    std::vector<FilterSample> hull{{0, 0}};
+    const auto isBelow = [](const FilterSample& a, const FilterSample& b, const FilterSample& c) {
+        return (b.error - a.error) * (c.range - a.range) <= (c.error - a.error) * (b.range - a.range);
+    };
+    for (const FilterSample& s : sorted) {
+        if (s.range == hull.back().range) hull.pop_back();
+        while (hull.size() > 1 && isBelow(hull[hull.size() - 2], hull.back(), s)) hull.pop_back();
+        hull.push_back(s);
+    }
+    for (std::size_t i = 1; i < hull.size(); ++i) {
+        const FilterSample &a = hull[i - 1], &b = hull[i];
+        if (b.error <= a.error) break;
+        if (b.range < mean && i + 1 < hull.size()) continue;
+        const double weight = (b.error - a.error) / (b.range - a.range);
+        return {a.error - weight * a.range, weight};
+    }
+    return {most, 0};
+}
+
+TextureSampling probeTextures(Device& device) {
+    TextureSampling result;
+    result.linear = probeDecode(device, false);
+    result.srgb = probeDecode(device, true);
+    const auto bound = [&](bool srgb) {
+        std::vector<FilterSample> samples;
+        for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+            const std::vector<FilterSample> more = probeFilter(device, srgb, result.decode(srgb), seed);
+            samples.insert(samples.end(), more.begin(), more.end());
+        }
+        return boundOf(samples);
+    };
+    result.linear_filter = bound(false);
+    result.srgb_filter = bound(true);
+    return result;
+}
+
+std::vector<DeviceFact> textureFacts(const TextureSampling& sampling) {
+    double most = 0;
+    std::size_t worst = 0;
+    for (std::size_t code = 1; code < 256; ++code) {
+        const double off = sampling.srgbError(code) / exactSrgb(code);
+        if (off > most) most = off, worst = code;
+    }
+    const auto filter = [](const char* what, const FilterBound& bound) {
+        return DeviceFact{what, bound.rounding < 0.1 / 255, false,
+                          fmt::format("off by up to {:.2f} of a code and {:.2f} % of the texels' difference",
+                                      bound.rounding * 255, 100 * bound.weight)};
+    };
+    return {{"decodes sRGB to a thousandth", most <= 1e-3, false,
+             fmt::format("off by up to {:.2g} %, at code {}", 100 * most, worst)},
+            filter("filters 8 bits without rounding", sampling.linear_filter),
+            filter("filters 8 bits of sRGB without rounding", sampling.srgb_filter)};
+}
+
+Scene withDecodedColors(Scene scene, const TexelDecode& srgb) {
+    std::map<int, int> decodedOf;  // texture -> the texture of its decoded image
+    const auto decoded = [&](int texture) {
+        const auto [entry, isNew] = decodedOf.try_emplace(texture, texture);
+        const Texture old = scene.textures[static_cast<std::size_t>(texture)];
+        const TextureImage& image = scene.images[static_cast<std::size_t>(old.image)];
+        if (!isNew || image.rgba.empty()) return entry->second;
+        TextureImage floats{image.name, image.width, image.height, {}};
+        for (std::size_t i = 0; i < image.rgba.size(); ++i)
+            floats.rgba32.push_back(i % 4 == 3 ? static_cast<float>(image.rgba[i]) / 255
+                                               : srgb[image.rgba[i]]);
+        entry->second = static_cast<int>(scene.textures.size());
+        scene.textures.push_back({static_cast<int>(scene.images.size()), old.sampler});
+        scene.images.push_back(std::move(floats));
+        return entry->second;
+    };
+    for (Material& material : scene.materials)
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+            if (materialSlots[slot].srgb && readsSlot(material, slot)) {
+                int& texture = (material.*materialSlots[slot].texture).texture;
+                texture = decoded(texture);
+            }
+    return scene;
+}
+
+}  // namespace diptych

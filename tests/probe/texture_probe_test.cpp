@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// What the probed device makes of texels of 8 bits, as shared/material measures it for tests and tool,
+// against what Vulkan promises and against samples that the measure has not seen.
+#include "shared/material/texture_probe.h"
+#include "tests/probe/probe.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+namespace diptych {
+namespace {
+
+const TextureSampling& sampling() {
+    static const TextureSampling measured = probeTextures(probeDevice());
+    return measured;
+}
+
+// How many codes of 256 an sRGB decoding turns into a value that would be encoded as another code.
+std::size_t ambiguousCodes(const TexelDecode& srgb) {
+    std::size_t count = 0;
+    for (std::size_t code = 0; code < 256; ++code) {
+        const double value = double{srgb[code]};
+        const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+        count += !(std::abs(encoded * 255 - static_cast<double>(code)) < 0.5);
+    }
+    return count;
+}
+
+// Vulkan 1.3, 3.10 "Fixed-Point Data Conversions": code / 255, to the precision of a float.
+TEST(TextureProbe, LinearCodesAreFractions) {
+    for (std::size_t code = 0; code < 256; ++code) {
+        const double exact = static_cast<double>(code) / 255;
+        EXPECT_NEAR(double{sampling().linear[code]}, exact, exact * 0x1p-23) << code;
+    }
+    EXPECT_EQ(sampling().linear[0], 0.0f);
+    EXPECT_EQ(sampling().linear[255], 1.0f);
+}
+
+// Vulkan asks of sRGB no more than that eight bits survive.
+TEST(TextureProbe, SrgbCodesStayApart) {
+    const TexelDecode& srgb = sampling().srgb;
+    EXPECT_EQ(ambiguousCodes(srgb), 0u);
+    for (std::size_t code = 1; code < 256; ++code) EXPECT_GT(srgb[code], srgb[code - 1]) << code;
+    EXPECT_EQ(srgb[0], 0.0f);
+    EXPECT_NEAR(double{srgb[255]}, 1, 1e-6);
+    TexelDecode linear = sampling().linear;
+    EXPECT_GT(ambiguousCodes(linear), 200u) << "the negative control: not decoded at all";
+    linear = srgb;
+    linear[40] = srgb[41];
+    EXPECT_EQ(ambiguousCodes(linear), 1u) << "the negative control: one code off by one";
+    for (const DeviceFact& fact : textureFacts(sampling()))
+        std::cout << fact.what << ": " << (fact.there ? "yes" : "no") << ", " << fact.note << "\n";
+}
+
+// The bound holds at other places of another picture, and half of it does not: it grants what the device
+// needs, and little more.
+TEST(TextureProbe, FiltersAreBoundedAsTightlyAsTheyErr) {
+    for (const bool srgb : {false, true}) {
+        const FilterBound& bound = srgb ? sampling().srgb_filter : sampling().linear_filter;
+        std::size_t beyond = 0, beyondHalf = 0;
+        double largest = 0;
+        const std::vector<FilterSample> samples =
+            probeFilter(probeDevice(), srgb, sampling().decode(srgb), 77);
+        for (const FilterSample& sample : samples) {
+            // Measured at 262144 places, the bound may miss the last few percent.
+            beyond += sample.error > 1.05 * bound.of(sample.range) + 1e-7;
+            beyondHalf += sample.error > 0.5 * bound.of(sample.range);
+            largest = std::max(largest, sample.error);
+        }
+        EXPECT_EQ(beyond, 0u) << srgb;
+        EXPECT_GT(beyondHalf, samples.size() / 1000) << srgb;
+        // Weights of four bits would be off by 1/32; a filter that does not mix at all by half a range.
+        EXPECT_LT(bound.weight, 1.0 / 128) << srgb;
+        EXPECT_LT(bound.rounding, 2.0 / 255) << srgb;
+        std::cout << (srgb ? "sRGB" : "linear") << ": " << bound.rounding * 255 << " of a code, and "
+                  << bound.weight << " of the range; at most " << largest << "\n";
+    }
+}
+
+TEST(TextureProbe, ABoundIsTheLowestLineAboveItsSamples) {
+    // Below 0.1 + 0.5 range, which three of them touch.
+    const std::vector<FilterSample> samples{{0, 0.1}, {0.2, 0.2}, {0.5, 0.3}, {1, 0.6}, {0.5, 0}};
+    const FilterBound bound = boundOf(samples);
+    EXPECT_NEAR(bound.rounding, 0.1, 1e-12);
+    EXPECT_NEAR(bound.weight, 0.5, 1e-12);
+    const FilterBound flat = boundOf(std::vector<FilterSample>{{0, 0.2}, {0.5, 0.2}, {1, 0.1}});
+    EXPECT_EQ(flat.rounding, 0.2) << "a larger range permits no smaller error";
+    EXPECT_EQ(flat.weight, 0);
+    EXPECT_THROW(boundOf({}), std::invalid_argument);
+}
+
+// What a colour slot reads becomes the device's floats; what others read stays as it is, even the same image.
+TEST(TextureProbe, ScenesWithDecodedColors) {
+    Scene scene;
+    scene.images = {{"one", 1, 1, {10, 100, 200, 51}}};
+    scene.textures = {{0, {}}};
+    scene.materials.resize(2);
+    Material& m = scene.materials[0];
+    m.base_color_texture.texture = m.occlusion_texture.texture = m.emissive_texture.texture = 0;
+    m.emissive = {1, 1, 1};
+    scene.materials[1].base_color_texture.texture = 0;
+    TexelDecode srgb{};
+    srgb[10] = 0.5f;
+    srgb[200] = 3;
+    const Scene decoded = withDecodedColors(scene, srgb);
+    const Material& after = decoded.materials[0];
+    EXPECT_EQ(after.occlusion_texture.texture, 0);
+    EXPECT_EQ(decoded.images[0].rgba, scene.images[0].rgba);
+    ASSERT_EQ(decoded.images.size(), 2u) << "one image for all colour slots";
+    EXPECT_EQ(decoded.textures[static_cast<std::size_t>(after.base_color_texture.texture)].image, 1);
+    EXPECT_EQ(after.emissive_texture.texture, after.base_color_texture.texture);
+    EXPECT_EQ(decoded.materials[1].base_color_texture.texture, after.base_color_texture.texture);
+    EXPECT_EQ(decoded.images[1].rgba32, (std::vector<float>{0.5f, 0, 3, 0.2f}));
+}
+
+}  // namespace
+}  // namespace diptych
