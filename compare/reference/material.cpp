@@ -23,6 +23,12 @@ glm::dvec3 unitOrZero(const glm::dvec3& v) {
     return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
 }
 
+// glTF 2.0, 3.9.4: what is at least the cutoff is opaque. The cutoff is a float. One that is meant to be a
+// texel's alpha, as 0.5019608 is 128 / 255, may have been rounded up, so that alpha is rounded as well.
+bool isCutOut(const Material& m, double alpha) {
+    return static_cast<float>(alpha) < m.alpha_cutoff;
+}
+
 }  // namespace
 
 const Material& Materials::material(const Hit& hit) const {
@@ -78,12 +84,12 @@ glm::dvec4 Materials::baseColor(const Hit& hit, const PixelRay* ray) const {
 bool Materials::isThere(const Hit& hit, const PixelRay* ray) const {
     const Material& m = material(hit);
     if (!hit.front && !m.double_sided) return false;
-    return m.alpha_mode != AlphaMode::mask || baseColor(hit, ray).a >= double{m.alpha_cutoff};
+    return m.alpha_mode != AlphaMode::mask || !isCutOut(m, baseColor(hit, ray).a);
 }
 
 bool Materials::throwsShadow(const Hit& hit) const {
     const Material& m = material(hit);
-    if (m.alpha_mode == AlphaMode::mask) return baseColor(hit, nullptr).a >= double{m.alpha_cutoff};
+    if (m.alpha_mode == AlphaMode::mask) return !isCutOut(m, baseColor(hit, nullptr).a);
     return m.alpha_mode != AlphaMode::blend;
 }
 

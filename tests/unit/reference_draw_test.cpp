@@ -162,6 +162,26 @@ TEST(ReferenceDraw, AMaskThrowsTheShadowOfItsHoles) {
     EXPECT_EQ(below(scene), 0);
 }
 
+// glTF 2.0, 3.9.4: alpha that equals the cutoff is opaque, whatever code it has and however a float rounds
+// that. Seen from above as by the light.
+TEST(ReferenceDraw, AlphaThatEqualsTheCutoffIsOpaque) {
+    Material m = matte();
+    m.alpha_mode = AlphaMode::mask;
+    m.base_color_texture.texture = 0;
+    Scene scene = roofed(m);
+    scene.textures = {{0, {}}};
+    for (int code = 1; code < 256; ++code) {
+        scene.images = {{"flat", 1, 1, {255, 255, 255, static_cast<std::uint8_t>(code)}}};
+        Material& roof = scene.materials.back();
+        roof.alpha_cutoff = static_cast<float>(code / 255.0);
+        EXPECT_EQ(below(scene), 0) << code;
+        EXPECT_NEAR(seenBelow(scene), 1 / pi, 1e-6) << code << ", the roof";
+        roof.alpha_cutoff = std::nextafter(roof.alpha_cutoff, 2.0f);
+        EXPECT_NEAR(below(scene), 0.25, 1e-6) << code;
+        EXPECT_NEAR(seenBelow(scene), 0.25 / pi, 1e-6) << code << ", the floor";
+    }
+}
+
 // With shadows, light from behind the triangle does not reach it; without them only the shading normal
 // decides.
 TEST(ReferenceDraw, LightFromBehindTheTriangle) {
