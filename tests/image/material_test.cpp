@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+// Surfaces that would be wrong in both paths alike: every property, texture slot and use of texture
+// coordinates of a glTF material, cameras and mirrored or turned geometry, of both paths and the reference,
+// against closed forms; and all light against the reference in mode scene, which has its own materials,
+// textures and camera.
+#include "compare/render/reference_frame.h"
+#include "shared/material/texture_probe.h"
+#include "shared/scene/model/material_slots.h"
+#include "shared/scene/scene_view.h"
+#include "tests/image/material_judge.h"
+#include "tests/image/scenes.h"
+
+#include <functional>
+#include <map>
+
+namespace diptych::tests {
+namespace {
+
+const std::vector<Cell>& cellsOf(const CellCamera& camera) {
+    return camera.all ? materialCells() : fewMaterialCells();
+}
+
+const Scene& sceneOf(const CellCamera& camera) {
+    static const Scene all = materialScene(materialCells()), few = materialScene(fewMaterialCells());
+    return camera.all ? all : few;
+}
+
+const TextureSampling& deviceSampling() {
+    static const TextureSampling sampling = probeTextures(device());
+    return sampling;
+}
+
+CellDecode deviceDecode() {
+    return {[](int code) { return double{deviceSampling().srgb[static_cast<std::size_t>(code)]}; },
+            [](int code) { return double{deviceSampling().linear[static_cast<std::size_t>(code)]}; }};
+}
+
+Settings materialPicture(const CellCamera& camera) {
+    Settings settings;
+    settings.gbuffer = GBufferEncoding::full;
+    settings.assign = Assignment::every;
+    settings.camera = camera.name;
+    settings.size = {camera.size.x, camera.size.y};
+    settings.ambient = {camera.ambient, 0.8f * camera.ambient, 1.5f * camera.ambient};
+    return settings;
+}
+
+Frame materialReference(const Scene& scene, const CellCamera& camera) {
+    SceneViews views(scene);
+    Settings settings = materialPicture(camera);
+    settings.path = Path::reference;
+    settings.reference_mode = ReferenceMode::scene;
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    return drawReferenceFrame(scene, views.at(viewRequest(settings)), settings, nullptr, options);
+}
+
+std::vector<Frame> materialFrames(const CellCamera& camera) {
+    pipelines();
+    static std::map<const Scene*, Renderer> renderers;
+    const Scene& scene = sceneOf(camera);
+    Renderer& renderer = renderers.try_emplace(&scene, device(), scene, pipelines()).first->second;
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    std::vector<Frame> frames;
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Settings settings = materialPicture(camera);
+        settings.path = path;
+        frames.push_back(renderer.draw(settings, options));
+    }
+    return frames;
+}
+
+// ---- pictures ----------------------------------------------------------------------------------------
+
+class MaterialPictures : public testing::TestWithParam<CellCamera> {
+protected:
+    // `channels`: how many it must have judged.
+    static void expectRight(const std::string& who, const Judgement& judgement, std::size_t channels) {
+        EXPECT_FALSE(anyWrong(judgement)) << who << "\n" << describe(judgement);
+        EXPECT_EQ(judgement.size(), channels) << who;
+        for (const auto& [mode, judged] : judgement)
+            EXPECT_GT(judged.values, 2000u) << who << ": " << debugMode(mode).name;
+        if (std::getenv("DIPTYCH_JUDGEMENTS")) std::cout << who << "\n" << describe(judgement);
+    }
+};
+
+TEST_P(MaterialPictures, AreWhatTheFileSays) {
+    const CellCamera& camera = GetParam();
+    EXPECT_EQ(sceneOf(camera).notes, std::vector<std::string>{});
+    expectRight(
+        "reference",
+        againstClosedForm(materialReference(sceneOf(camera), camera), cellsOf(camera), camera, exactDecode()),
+        14);
+    // sRGB as the device decodes it, and no other tolerance for that.
+    const Frame truth = materialReference(withDecodedColors(sceneOf(camera), deviceSampling().srgb), camera);
+    for (const Frame& frame : materialFrames(camera)) {
+        const std::size_t texcoords = frame.channels.contains(static_cast<int>(gpu::DEBUG_texcoords));
+        expectRight(frame.name, againstClosedForm(frame, cellsOf(camera), camera, deviceDecode()),
+                    13 + texcoords);
+        expectRight(frame.name + " against the reference",
+                    againstReference(frame, truth, cellsOf(camera), camera), 17 + texcoords);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cameras, MaterialPictures, testing::ValuesIn(cellCameras()),
+                         [](const auto& camera) { return std::string(camera.param.name); });
+
+// ---- planted faults ----------------------------------------------------------------------------------
+
+struct MaterialFault {
+    std::string name;
+    gpu::uint channel;  // where it must be seen
+    std::function<void(Scene&)> plant;
+};
+
+// Of the channel that shows a slot's texture.
+constexpr std::array<gpu::uint, gpu::SLOT_COUNT> channelOfSlot{
+    gpu::DEBUG_albedo,   gpu::DEBUG_roughness,      gpu::DEBUG_normals,  gpu::DEBUG_occlusion,
+    gpu::DEBUG_emission, gpu::DEBUG_dielectric_f90, gpu::DEBUG_specular, gpu::DEBUG_lightmap};
+
+TextureImage& imageOfSlot(Scene& scene, std::size_t slot) {
+    return scene.images[static_cast<std::size_t>(scene.textures[slot].image)];
+}
+
+// Changes every code of the three colour components.
+template <class Change>
+void recode(TextureImage& image, const Change& change) {
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        if (i % 4 < 3) image.rgba[i] = static_cast<std::uint8_t>(std::lround(255 * change(image.rgba[i])));
+}
+
+double encodedSrgb(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+void swapComponents(TextureImage& image, std::size_t a, std::size_t b) {
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) std::swap(image.rgba[i + a], image.rgba[i + b]);
+}
+
+void addSlotFaults(std::vector<MaterialFault>& faults) {
+    const auto add = [&](std::size_t slot, const char* what, const auto& change) {
+        faults.push_back(
+            {"slot " + std::to_string(slot) + ": " + what, channelOfSlot[slot], [slot, change](Scene& s) {
+                 for (Material& m : s.materials) change(m.*materialSlots[slot].texture);
+             }});
+    };
+    for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
+        add(slot, "second UV set ignored", [](TextureSlot& t) { t.texcoord = 0; });
+        add(slot, "first UV set ignored", [](TextureSlot& t) { t.texcoord = 1; });
+        add(slot, "no texture", [](TextureSlot& t) { t.texture = -1; });
+        const bool srgb = materialSlots[slot].srgb;
+        faults.push_back(
+            {"slot " + std::to_string(slot) + (srgb ? ": not decoded from sRGB" : ": decoded from sRGB"),
+             channelOfSlot[slot], [slot, srgb](Scene& s) {
+                 // Read through the other curve these codes give what the fault would.
+                 recode(imageOfSlot(s, slot), [srgb](int code) {
+                     return srgb ? encodedSrgb(code / 255.0) : exactSrgb(static_cast<std::size_t>(code));
+                 });
+                 if (!srgb && slot == gpu::SLOT_specular)  // its alpha is what is read
+                     for (std::size_t i = 3; i < imageOfSlot(s, slot).rgba.size(); i += 4) {
+                         std::uint8_t& code = imageOfSlot(s, slot).rgba[i];
+                         code = static_cast<std::uint8_t>(std::lround(255 * exactSrgb(code)));
+                     }
+             }});
+        if (slot == gpu::SLOT_lightmap) continue;
+        add(slot, "rotation the other way", [](TextureSlot& t) { t.u.y *= -1, t.v.x *= -1; });
+        add(slot, "offset ignored", [](TextureSlot& t) { t.u.z = t.v.z = 0; });
+        add(slot, "transform ignored", [](TextureSlot& t) { t.u = {1, 0, 0}, t.v = {0, 1, 0}; });
+    }
+    for (const auto& [slot, a, b, channel] : {std::tuple{gpu::SLOT_base_color, 0u, 2u, gpu::DEBUG_albedo},
+                                              {gpu::SLOT_metallic_roughness, 0u, 1u, gpu::DEBUG_roughness},
+                                              {gpu::SLOT_metallic_roughness, 0u, 2u, gpu::DEBUG_metallic},
+                                              {gpu::SLOT_normal, 0u, 1u, gpu::DEBUG_normals},
+                                              {gpu::SLOT_occlusion, 0u, 1u, gpu::DEBUG_occlusion},
+                                              {gpu::SLOT_occlusion, 0u, 3u, gpu::DEBUG_occlusion},
+                                              {gpu::SLOT_emissive, 1u, 2u, gpu::DEBUG_emission},
+                                              {gpu::SLOT_specular, 0u, 3u, gpu::DEBUG_dielectric_f90},
+                                              {gpu::SLOT_specular_color, 0u, 1u, gpu::DEBUG_specular},
+                                              {gpu::SLOT_lightmap, 0u, 1u, gpu::DEBUG_lightmap}})
+        faults.push_back(
+            {"slot " + std::to_string(slot) + ": another component", channel,
+             [slot = slot, a = a, b = b](Scene& s) { swapComponents(imageOfSlot(s, slot), a, b); }});
+}
+
+void addMaterialFaults(std::vector<MaterialFault>& faults) {
+    const auto add = [&](const char* what, gpu::uint channel, void (*change)(Material&)) {
+        faults.push_back({what, channel, [change](Scene& s) {
+                              for (Material& m : s.materials) change(m);
+                          }});
+    };
+    // Ignored where there is a texture.
+    const auto addFactor = [&](const char* what, std::size_t slot, gpu::uint channel,
+                               void (*change)(Material&)) {
+        faults.push_back({what, channel, [slot, change](Scene& s) {
+                              for (Material& m : s.materials)
+                                  if ((m.*materialSlots[slot].texture).texture >= 0) change(m);
+                          }});
+    };
+    addFactor("base colour factor ignored", gpu::SLOT_base_color, gpu::DEBUG_albedo,
+              [](Material& m) { m.base_color = glm::vec4(1, 1, 1, m.base_color.a); });
+    addFactor("alpha factor ignored", gpu::SLOT_base_color, gpu::DEBUG_material_id,
+              [](Material& m) { m.base_color.a = 1; });
+    addFactor("metallic factor ignored", gpu::SLOT_metallic_roughness, gpu::DEBUG_metallic,
+              [](Material& m) { m.metallic = 1; });
+    addFactor("roughness factor ignored", gpu::SLOT_metallic_roughness, gpu::DEBUG_roughness,
+              [](Material& m) { m.roughness = 1; });
+    addFactor("normal scale ignored", gpu::SLOT_normal, gpu::DEBUG_normals,
+              [](Material& m) { m.normal_scale = 1; });
+    addFactor("occlusion strength ignored", gpu::SLOT_occlusion, gpu::DEBUG_occlusion,
+              [](Material& m) { m.occlusion_strength = 1; });
+    addFactor("emissive factor ignored", gpu::SLOT_emissive, gpu::DEBUG_emission, [](Material& m) {
+        m.emissive = {1, 1, 1};
+    });
+    add("emissive strength ignored", gpu::DEBUG_emission, [](Material& m) { m.emissive *= 1 / 2.5f; });
+    addFactor("specular factor ignored", gpu::SLOT_specular, gpu::DEBUG_dielectric_f90,
+              [](Material& m) { m.specular = 1; });
+    addFactor("specular colour ignored", gpu::SLOT_specular_color, gpu::DEBUG_specular, [](Material& m) {
+        m.specular_color = {1, 1, 1};
+    });
+    addFactor("lightmap's intensity ignored", gpu::SLOT_lightmap, gpu::DEBUG_lightmap,
+              [](Material& m) { m.lightmap_intensity = 1; });
+    add("index of refraction ignored", gpu::DEBUG_specular, [](Material& m) { m.ior = 1.5f; });
+    add("unlit ignored", gpu::DEBUG_albedo, [](Material& m) { m.unlit = false; });
+    add("sides ignored", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = false; });
+    add("all are double-sided", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = true; });
+    add("mask ignored", gpu::DEBUG_material_id, [](Material& m) { m.alpha_mode = AlphaMode::opaque; });
+    // As <= for < would.
+    add("the cutoff itself is cut out", gpu::DEBUG_material_id,
+        [](Material& m) { m.alpha_cutoff = std::nextafter(m.alpha_cutoff, 2.0f); });
+}
+
+void addGeometryFaults(std::vector<MaterialFault>& faults) {
+    const auto add = [&](const char* what, gpu::uint channel, void (*change)(Primitive&)) {
+        faults.push_back({what, channel, [change](Scene& s) {
+                              for (Mesh& mesh : s.meshes)
+                                  for (Primitive& p : mesh.primitives) change(p);
+                          }});
+    };
+    add("vertex colours ignored", gpu::DEBUG_albedo, [](Primitive& p) { p.colors.clear(); });
+    add("vertex colours decoded from sRGB", gpu::DEBUG_albedo, [](Primitive& p) {
+        for (glm::vec4& c : p.colors)
+            for (int i = 0; i < 3; ++i)
+                c[i] = static_cast<float>(exactSrgb(static_cast<std::size_t>(std::lround(255 * c[i]))));
+    });
+    add("vertex alpha ignored", gpu::DEBUG_material_id, [](Primitive& p) {
+        for (glm::vec4& c : p.colors) c.a = 1;
+    });
+    add("the bitangent's sign ignored", gpu::DEBUG_normals, [](Primitive& p) {
+        for (glm::vec4& t : p.tangents) t.w = 1;
+    });
+    add("a bitangent of the other side", gpu::DEBUG_normals, [](Primitive& p) {
+        for (glm::vec4& t : p.tangents) t.w *= -1;
+    });
+    add("tangents ignored", gpu::DEBUG_normals, [](Primitive& p) {
+        for (glm::vec4& t : p.tangents) t = {1, 0, 0, t.w};
+    });
+    const auto mirrored = [&](const char* what, bool (*which)(const glm::dmat4&),
+                              void (*change)(Primitive&)) {
+        faults.push_back({what, gpu::DEBUG_normals, [which, change](Scene& s) {
+                              for (const Node& node : s.nodes)
+                                  if (node.mesh >= 0 && which(node.parent_from_node))
+                                      for (Primitive& p :
+                                           s.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+                                          change(p);
+                          }});
+    };
+    const auto isMirror = [](const glm::dmat4& node) { return glm::determinant(glm::dmat3(node)) < 0; };
+    const auto isBehind = [](const glm::dmat4& node) { return node[2].z < 0; };
+    mirrored("mirrored normals are not", isMirror, [](Primitive& p) {
+        for (glm::vec3& n : p.normals) n = -n;
+    });
+    mirrored("mirrored bitangents are not", isMirror, [](Primitive& p) {
+        for (glm::vec4& t : p.tangents) t.w *= -1;
+    });
+    mirrored("normals seen from behind are not turned", isBehind, [](Primitive& p) {
+        for (glm::vec3& n : p.normals) n = -n;
+    });
+    const auto camera = [&](const char* what, gpu::uint channel, void (*change)(Camera&)) {
+        faults.push_back({what, channel, [change](Scene& s) {
+                              for (Camera& c : s.cameras) change(c);
+                          }});
+    };
+    camera("height in place of width", gpu::DEBUG_material_id, [](Camera& c) { c.ymag *= 1.5; });
+    camera("perspective in place of parallels", gpu::DEBUG_position,
+           [](Camera& c) { c.orthographic = false; });
+}
+
+// The same checks find each fault, in the channel where it is, in a scene that differs from the file by it.
+TEST(MaterialNegativeControl, EveryFaultIsSeen) {
+    std::vector<MaterialFault> faults;
+    addSlotFaults(faults);
+    addMaterialFaults(faults);
+    addGeometryFaults(faults);
+    CellCamera camera =
+        *std::ranges::find(cellCameras(), std::string("OrthographicLandscape"), &CellCamera::name);
+    camera.size = {132, 72};
+    camera.ambient = 0;
+    const auto judged = [&](const Scene& scene) {
+        return againstClosedForm(materialReference(scene, camera), fewMaterialCells(), camera, exactDecode());
+    };
+    const Judgement sound = judged(sceneOf(camera));
+    EXPECT_FALSE(anyWrong(sound)) << describe(sound);
+    for (const MaterialFault& fault : faults) {
+        Scene scene = sceneOf(camera);
+        fault.plant(scene);
+        // Light from everywhere takes longest, and what it shows of materials other channels show.
+        if (fault.channel != gpu::DEBUG_lightmap)
+            for (Material& m : scene.materials) m.lightmap_texture.texture = -1;
+        const Judgement judgement = judged(scene);
+        EXPECT_GT(judgement.at(static_cast<int>(fault.channel)).wrong, 3u) << fault.name << "\n"
+                                                                           << describe(judgement);
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests

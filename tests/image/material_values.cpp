@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Closed forms of the cells: glTF 2.0 and its extensions, written from their texts alone.
+#include "shared/contract/debug_mode.h"
+#include "tests/image/material_cells.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace diptych::tests {
+namespace {
+
+struct CellSurface {
+    glm::dvec3 albedo{0}, normal{0, 0, 1}, emission{0}, f0{0}, lightmap{0};
+    double metallic = 0, roughness = 1, occlusion = 1, f90 = 0;
+};
+
+std::vector<double> components(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// glTF 2.0, 3.7.2.1 and 3.9.3: (T, w cross(N, T), N), to the world as normals and as directions are; a
+// mirroring node turns the cross product round. Seen from behind it is negated. MikkTSpace's tangent points
+// to where u grows, its bitangent to where v falls.
+glm::dvec3 cellNormal(const Cell& cell, const glm::dvec3& texel) {
+    glm::dvec3 tangent(std::cos(cell.tangent_angle), std::sin(cell.tangent_angle), 0);
+    double w = cell.tangent_w;
+    if (cell.tangents_made) {
+        // The second set is the first one transposed: u grows downwards, v to the right.
+        const bool second = cell.textures[gpu::SLOT_normal].texcoord == 1;
+        tangent = second ? glm::dvec3(0, -1, 0) : glm::dvec3(1, 0, 0);
+        const glm::dvec3 bitangent = second ? glm::dvec3(-1, 0, 0) : glm::dvec3(0, 1, 0);
+        w = glm::dot(glm::cross(glm::dvec3(0, 0, 1), tangent), bitangent);
+    }
+    const glm::dmat3 node = cell.node();
+    const glm::dvec3 n = glm::normalize(glm::transpose(glm::inverse(node)) * glm::dvec3(0, 0, 1)),
+                     t = glm::normalize(node * tangent);
+    const double hand = glm::determinant(node) < 0 ? -w : w;
+    const glm::dvec3 scaled = texel * glm::dvec3(cell.normal_scale, cell.normal_scale, 1);
+    const glm::dvec3 world =
+        glm::normalize(t * scaled.x + glm::cross(n, t) * (hand * scaled.y) + n * scaled.z);
+    return cell.fromBehind() ? -world : world;
+}
+
+// Of the square in its object space, seen from its front: (0, 0) in the upper left corner.
+glm::dvec2 firstTexcoord(const Cell& cell, const glm::dvec2& at) {
+    const glm::dmat3 node = cell.node();
+    return {node[0][0] > 0 ? at.x : 1 - at.x, node[1][1] > 0 ? at.y : 1 - at.y};
+}
+
+}  // namespace
+
+// Normals lean by 14 to 48 degrees in every direction. Of metallic and roughness none is small, so that no
+// highlight magnifies rounding. Other components of a texel are at least 55 codes apart, and the texels of a
+// picture at least 9.
+glm::ivec4 codesAt(int picture, int column, int row) {
+    const int texel = 4 * row + column;
+    glm::ivec4 codes;
+    for (int c = 0; c < 4; ++c) codes[c] = (texel * 53 + c * 67 + picture * 29) % 256;
+    if (picture == gpu::SLOT_metallic_roughness)
+        for (int c = 0; c < 4; ++c) codes[c] = 100 + codes[c] * 150 / 255;
+    if (picture == gpu::SLOT_normal) {
+        const double around = texel * 2.4, lean = 0.25 + 0.5 * texel / 15;
+        const glm::dvec3 n(std::sin(lean) * std::cos(around), std::sin(lean) * std::sin(around),
+                           std::cos(lean));
+        for (int c = 0; c < 3; ++c) codes[c] = static_cast<int>(std::lround((n[c] + 1) / 2 * 255));
+    }
+    return codes;
+}
+
+CellDecode exactDecode() {
+    return {[](int code) {
+                const double s = code / 255.0;
+                return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+            },
+            [](int code) { return code / 255.0; }};
+}
+
+// A camera's field of view is the picture's height, however wide that is.
+CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, const glm::dvec2& pixel) {
+    const glm::dvec2 size(camera.size);
+    const glm::dvec2 screen = glm::dvec2(pixel.x - size.x / 2, size.y / 2 - pixel.y) / (size.y / 2);
+    const glm::dmat3 axes = camera.axes();
+    glm::dvec3 origin = camera.eye, direction = -axes[2];
+    if (camera.orthographic)
+        origin += (axes[0] * screen.x + axes[1] * screen.y) * camera.half;
+    else
+        direction += (axes[0] * screen.x + axes[1] * screen.y) * (camera.half / camera.eye.z);
+    CellPlace place;
+    place.depth = -origin.z / direction.z;  // directions are one metre of depth long
+    const glm::dvec3 hit = origin + direction * place.depth;
+    place.position = hit - camera.eye;
+    const glm::dvec2 at(hit.x + cellsAcross / 2, cellsAcross / 2 - hit.y), cell = glm::floor(at);
+    const int column = static_cast<int>(cell.x), row = static_cast<int>(cell.y);
+    const int number = row * cellsAcross + column;
+    const bool inside =
+        column >= 0 && column < cellsAcross && row >= 0 && number < static_cast<int>(cells.size());
+    place.cell = inside ? number : -1;
+    place.at = at - cell;
+    return place;
+}
+
+// KHR_texture_transform: scaled, then turned counter-clockwise as the picture shows it (v grows downwards),
+// then moved. Repeated beyond the picture.
+glm::ivec2 texelAt(const Cell& cell, std::size_t slot, const glm::dvec2& at) {
+    const CellTexture& use = cell.textures[slot];
+    const glm::dvec2 first = firstTexcoord(cell, at);
+    const int set = use.transform && use.transform->texcoord ? *use.transform->texcoord : use.texcoord;
+    glm::dvec2 uv = set == 1 ? glm::dvec2(first.y, first.x) : first;
+    if (use.transform) {
+        uv *= use.transform->scale;
+        const double c = std::cos(use.transform->rotation), s = std::sin(use.transform->rotation);
+        uv = glm::dvec2(uv.x * c + uv.y * s, uv.y * c - uv.x * s) + use.transform->offset;
+    }
+    const glm::dvec2 texel = glm::floor((uv - glm::floor(uv)) * 4.0);
+    return glm::min(glm::ivec2(texel), glm::ivec2(3));
+}
+
+std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
+                                                             const CellDecode& decode) {
+    const auto texel = [&](std::size_t slot, bool srgb) {
+        const int picture = cell.textures[slot].picture;
+        glm::dvec4 value(1);
+        if (picture < 0) return value;
+        const glm::ivec2 at = texelAt(cell, slot, place.at);
+        const glm::ivec4 codes = codesAt(picture, at.x, at.y);
+        for (int c = 0; c < 4; ++c)
+            value[c] = srgb && c < 3 ? decode.srgb(codes[c]) : decode.linear(codes[c]);
+        return value;
+    };
+    const glm::dvec4 color = cell.base_color * texel(gpu::SLOT_base_color, true) *
+                             (cell.colors == CellColors::none ? glm::dvec4(1) : cell.color);
+    // Files and floats hold seven digits of a cutoff that is a texel's alpha; codes are 4e-3 apart.
+    if (cell.masked && color.a < cell.alpha_cutoff.value_or(0.5) - 1e-7) return std::nullopt;
+    if (cell.fromBehind() && !cell.double_sided) return std::nullopt;
+
+    CellSurface s;
+    s.albedo = glm::dvec3(color);
+    if (cell.unlit) {
+        s.emission = s.albedo;
+        s.albedo = glm::dvec3(0);
+    } else {
+        const glm::dvec4 orm = texel(gpu::SLOT_metallic_roughness, false);
+        s.metallic = cell.metallic * orm.b;
+        s.roughness = cell.roughness * orm.g;
+        if (cell.textures[gpu::SLOT_normal].picture >= 0)
+            s.normal = cellNormal(cell, glm::dvec3(texel(gpu::SLOT_normal, false)) * 2.0 - 1.0);
+        s.occlusion = 1 + cell.occlusion_strength * (texel(gpu::SLOT_occlusion, false).r - 1);
+        if (cell.textures[gpu::SLOT_occlusion].picture < 0) s.occlusion = 1;
+        s.emission =
+            cell.emissive * cell.emissive_strength.value_or(1) * glm::dvec3(texel(gpu::SLOT_emissive, true));
+        if (cell.textures[gpu::SLOT_lightmap].picture >= 0)
+            s.lightmap = cell.lightmap_intensity * glm::dvec3(texel(gpu::SLOT_lightmap, true));
+        const double ior = cell.ior.value_or(1.5);
+        const double r = ior == 0 ? 1 : (ior - 1) / (ior + 1);
+        s.f90 = cell.specular * texel(gpu::SLOT_specular, false).a;
+        const glm::dvec3 tint = cell.specular_color * glm::dvec3(texel(gpu::SLOT_specular_color, true));
+        s.f0 = glm::mix(glm::min(r * r * tint, glm::dvec3(1)) * s.f90, s.albedo, s.metallic);
+    }
+    const glm::dvec2 texcoord = firstTexcoord(cell, place.at);
+    const std::pair<gpu::uint, std::vector<double>> values[] = {
+        {gpu::DEBUG_albedo, components(s.albedo)},
+        {gpu::DEBUG_normals, components(s.normal)},
+        {gpu::DEBUG_metallic, {s.metallic}},
+        {gpu::DEBUG_roughness, {s.roughness}},
+        {gpu::DEBUG_emission, components(s.emission)},
+        {gpu::DEBUG_occlusion, {s.occlusion}},
+        {gpu::DEBUG_specular, components(s.f0)},
+        {gpu::DEBUG_material_id, {static_cast<double>(place.cell)}},
+        {gpu::DEBUG_texcoords, {texcoord.x, texcoord.y}},
+        {gpu::DEBUG_depth, {place.depth}},
+        {gpu::DEBUG_position, components(place.position)},
+        {gpu::DEBUG_geometric_normal, {0, 0, 1}},
+        {gpu::DEBUG_dielectric_f90, {s.f90}},
+        {gpu::DEBUG_lightmap, components(s.lightmap)},
+    };
+    std::map<int, std::vector<double>> byChannel;
+    for (const auto& [mode, value] : values) byChannel[static_cast<int>(mode)] = value;
+    return byChannel;
+}
+
+}  // namespace diptych::tests
