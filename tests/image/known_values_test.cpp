@@ -135,7 +135,8 @@ TEST(KnownValues, GgxPeak) {
         expectColor(colorAt(frame, lit, 0, 0), glm::vec3(expected), 5e-6f, frame.name);
 }
 
-// Occlusion only applies to ambient light: direct light is not attenuated.
+// Occlusion only applies to ambient light, and leaves direct light as it is whether there is ambient light or
+// not.
 TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     Scene scene = square();
     Light sun;
@@ -144,9 +145,18 @@ TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     scene.lights = {sun};
     const glm::vec3 open = colorAt(draw(scene)[0], lit, 3, 0);
     scene.materials[0].occlusion_texture.texture = 0;
-    for (const Frame& frame : draw(scene)) {
-        EXPECT_EQ(colorAt(frame, occlusion, 3, 0).x, 0.0f);
-        EXPECT_EQ(colorAt(frame, lit, 3, 0), open);
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {4, 4};
+    for (const float ambient : {0.0f, 0.5f}) {
+        settings.ambient = {ambient, ambient, ambient};
+        for (const Frame& frame : bothPaths(renderer, settings)) {
+            EXPECT_EQ(colorAt(frame, occlusion, 3, 0).x, 0.0f);
+            EXPECT_EQ(colorAt(frame, lit, 3, 0), open) << frame.name << ambient;
+            EXPECT_EQ(colorAt(frame, occlusion, 0, 0).x, 1.0f);
+            EXPECT_GE(colorAt(frame, lit, 0, 0).x, open.x + 0.3f * ambient)
+                << frame.name << ": the control, which light from everywhere reaches";
+        }
     }
 }
 
