@@ -56,11 +56,13 @@ glm::dvec2 firstTexcoord(const Cell& cell, const glm::dvec2& at) {
 
 // Normals lean by 14 to 48 degrees in every direction. Of metallic and roughness none is small, so that no
 // highlight magnifies rounding. Other components of a texel are at least 55 codes apart, and the texels of a
-// picture at least 9.
+// picture at least 9. One texel is opaque: 255 is a float on every device, so that its products with halves
+// equal a cutoff exactly.
 glm::ivec4 codesAt(int picture, int column, int row) {
     const int texel = 4 * row + column;
     glm::ivec4 codes;
     for (int c = 0; c < 4; ++c) codes[c] = (texel * 53 + c * 67 + picture * 29) % 256;
+    if (picture == gpu::SLOT_base_color && texel == 11) codes.a = 255;
     if (picture == gpu::SLOT_metallic_roughness)
         for (int c = 0; c < 4; ++c) codes[c] = 100 + codes[c] * 150 / 255;
     if (picture == gpu::SLOT_normal) {
@@ -134,8 +136,9 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
     };
     const glm::dvec4 color = cell.base_color * texel(gpu::SLOT_base_color, true) *
                              (cell.colors == CellColors::none ? glm::dvec4(1) : cell.color);
-    // Files and floats hold seven digits of a cutoff that is a texel's alpha; codes are 4e-3 apart.
-    if (cell.masked && color.a < cell.alpha_cutoff.value_or(0.5) - 1e-7) return std::nullopt;
+    // In floats, in which a cutoff that is a texel's alpha equals it.
+    if (cell.masked && static_cast<float>(color.a) < static_cast<float>(cell.alpha_cutoff.value_or(0.5)))
+        return std::nullopt;
     if (cell.fromBehind() && !cell.double_sided) return std::nullopt;
 
     CellSurface s;
