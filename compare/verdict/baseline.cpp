@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -32,9 +33,25 @@ std::string differing(const Settings& a, const Settings& b) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-bool sameView(const FrameCamera& a, const FrameCamera& b) {
-    return std::equal(a.eye, a.eye + 3, b.eye) && std::equal(a.target, a.target + 3, b.target) &&
-           std::equal(a.up, a.up + 3, b.up) && a.fov_degrees == b.fov_degrees && a.ymag == b.ymag;
+std::string textOf(const double (&place)[3]) {
+    return fmt::format("({}, {}, {})", place[0], place[1], place[2]);
+}
+
+// Every member of the camera by its name, as the user is told it.
+std::vector<std::pair<const char*, std::string>> namedMembers(const FrameCamera& camera) {
+    return {{"camera", camera.name.empty() ? "without a name" : camera.name},
+            {"camera eye", textOf(camera.eye)},
+            {"camera target", textOf(camera.target)},
+            {"camera up", textOf(camera.up)},
+            {"camera fov, degrees", fmt::format("{}", camera.fov_degrees)},
+            {"camera ymag, m", fmt::format("{}", camera.ymag)},
+            {"camera near, m", fmt::format("{}", camera.near)},
+            {"camera far, m", fmt::format("{}", camera.far)}};
+}
+
+// Files of old have no camera: it would have one of the two.
+bool isKnown(const FrameCamera& camera) {
+    return camera.fov_degrees != 0 || camera.ymag != 0;
 }
 
 }  // namespace
@@ -56,8 +73,12 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
     say("device", origin.device, device.name);
     say("driver", origin.driver, device.driver);
     say("scene", baseline.scene, frame.scene);
-    if (!sameView(baseline.camera, frame.camera))
-        lines.push_back("baseline: seen from another place or with another lens");
+    if (isKnown(baseline.camera)) {
+        const auto then = namedMembers(baseline.camera), now = namedMembers(frame.camera);
+        for (std::size_t i = 0; i < then.size(); ++i) say(then[i].first, then[i].second, now[i].second);
+    } else {
+        say("camera", "", "known");
+    }
     Settings now = frame.settings;
     // Of what a path is drawn with, the reference depends on these alone.
     if (isReferenceFrame(baseline)) now = withReferenceOf(referenceSettings(now), baseline.settings);
