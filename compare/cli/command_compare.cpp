@@ -24,6 +24,7 @@ CompareOptions compareOptions(const Options& options) {
     compare.baseline = options.baseline;
     compare.selection = options.selection;
     compare.allow_noise = options.allow_noise;
+    compare.strict = options.strict;
     compare.words = wordsOfWhatCounts(options);
     if (!options.tolerances.empty()) compare.rules = readRules(options.tolerances);
     return compare;

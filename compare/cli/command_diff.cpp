@@ -17,6 +17,7 @@ int runDiff(const Options& options) {
         options.out.empty() ? std::nullopt : std::optional(outputOf(options.out));
     if (output) checkReplaceable(*output, "report.json", options.force);
     PictureDiffOptions settings = options.diff;
+    settings.strict = options.strict;
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
     Progress progress(progressOutput(options));
     const Stage stage(progress, options.scenes.at(1));

@@ -122,6 +122,7 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& par
 
 void addTolerances(CLI::App& app, Options& options) {
     app.option_defaults()->group(selection_group);
+    app.add_flag("--strict", options.strict, "a channel that only one side has is a failure, not a note");
     app.add_option("--tolerances", options.tolerances,
                    "rules of what may differ, see compare/verdict/tolerances.schema.json")
         ->type_name("FILE.json");

@@ -39,6 +39,7 @@ struct Options {
     bool allow_noise = false;             // compare
     std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
     bool update_baseline = false;
+    bool strict = false;               // compare, diff
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
     bench::BenchOptions bench;

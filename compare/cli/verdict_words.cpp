@@ -66,11 +66,13 @@ std::vector<std::string> wordsOfWhatCounts(const Options& options) {
         words.add("--stop-exposure", diff.flip.stop_exposure);
         words.add("--exposures", diff.flip.exposures);
         addSelection(words, diff.selection);
+        if (options.strict) words.words.emplace_back("--strict");
         return words.words;
     }
     words.add("--baseline", options.baseline_file.string(), std::string());
     addSelection(words, options.selection);
     if (options.allow_noise) words.words.emplace_back("--allow-noise");
+    if (options.strict) words.words.emplace_back("--strict");
     return words.words;
 }
 

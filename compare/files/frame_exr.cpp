@@ -14,7 +14,6 @@
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <charconv>
 #include <map>
@@ -93,19 +92,15 @@ Frame frameFromExr(const std::filesystem::path& path) {
             frame.settings.path = Path::reference;
         if (isReferenceFrame(frame)) readUncertainty(file, frame);
         frame.settings.size = {file.width, file.height};
-        std::vector<std::string> others;
         for (PictureChannel& channel : channelsOf(std::move(file), {})) {
             const DebugMode* mode = findDebugMode(channel.name);
             if (mode && mode->name == channel.name && mode->width == channel.image.components)
                 frame.channels[mode->number] = std::move(channel.image);
             else
-                others.push_back(channel.name);
+                frame.origin.left_out.push_back(oneLine(channel.name));
         }
         if (frame.channels.empty())
             throw std::runtime_error("holds no channel that is called as one of ours");
-        if (!others.empty())
-            frame.notes.push_back(fmt::format("{} of the baseline: not one of our channels, left out",
-                                              oneLine(fmt::format("{}", fmt::join(others, ", ")))));
         return frame;
     });
 }

@@ -51,7 +51,8 @@ struct MatchedChannel {
 
 struct MatchedChannels {
     std::vector<MatchedChannel> channels;  // in the reference's order
-    std::vector<std::string> notes;        // channels that only one file has, or that have two types
+    std::vector<std::string> notes;        // channels that have two types
+    std::vector<std::string> one_sided;    // channels that only one file has, a line each
 };
 
 // `wanted`: patterns of names (* and ?), empty: all. Throws std::runtime_error where a pattern names nothing

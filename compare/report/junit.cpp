@@ -55,7 +55,7 @@ public:
                 testCase(comparison_.channels[i].mode->name, outcome(comparison_.channels[i], pictures_[i]));
         std::string whole;
         for (const std::string& text : comparison_.failures) whole += text + "\n";
-        if (broken()) out += testCase("frames", failure("frames", "a Frame cannot be trusted", whole));
+        if (broken()) out += testCase("frames", failure("frames", comparison_.failures.front(), whole));
         return out + notes() + "  </testsuite>\n";
     }
 

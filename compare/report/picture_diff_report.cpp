@@ -92,6 +92,7 @@ void writeFolder(PictureDiff& diff, const Output& output, const ReportOptions& o
     Comparison& comparison = report.comparisons.emplace_back();
     comparison.test = 1;
     comparison.coverage = *diff.coverage;
+    comparison.failures = diff.failures;
     comparison.notes = diff.notes;
     comparison.command = withWords({"diff", diff.reference, diff.test}, words);
     for (std::size_t i = 0; i < modes.size(); ++i)

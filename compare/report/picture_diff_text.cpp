@@ -149,7 +149,10 @@ std::string pictureDiffTable(const PictureDiff& diff) {
         if (channel->decision.level == Level::pass && !channel->rule.origin.starts_with("command"))
             out += fmt::format("  {}: {}: {}\n", channel->pair.name, channel->rule.origin,
                                conditionText(channel->rule.fail));
+    for (const std::string& failure : diff.failures) out += "  FAIL " + failure + "\n";
     for (const std::string& note : diff.notes) out += "  note: " + note + "\n";
+    if (failed.empty() && !diff.failures.empty())
+        return out + fmt::format("FAIL: {}\n", diff.failures.front());
     if (!failed.empty()) return out + "FAIL: " + failed + "\n";
     return out + fmt::format("pass: {} channel{} within tolerance\n", diff.channels.size(),
                              diff.channels.size() == 1 ? "" : "s");
@@ -167,6 +170,7 @@ std::string pictureDiffJson(const PictureDiff& diff) {
               {"size", {diff.width, diff.height}},
               {"pixels", diff.coverage->count},
               {"metrics", metricsJson(first)},
+              {"failures", diff.failures},
               {"notes", diff.notes}};
     Json channels = Json::array();
     for (const PictureChannelDiff* channel : failuresFirst(diff)) channels.push_back(channelJson(*channel));

@@ -56,10 +56,12 @@ std::string checksLine(const Comparison& comparison) {
 }
 
 std::string verdictLine(const Report& report) {
-    std::size_t compared = 0, failedFrames = 0;
+    std::size_t compared = 0;
+    std::vector<std::string> others;
     std::vector<std::string_view> failed;
     for (const Comparison& comparison : report.comparisons) {
-        failedFrames += !comparison.failures.empty();
+        for (const std::string& failure : comparison.failures)
+            if (std::ranges::count(others, failure) == 0) others.push_back(failure);
         for (const ChannelDiff& channel : comparison.channels) {
             compared += channel.verdict != Verdict::forward_only;
             if (channel.verdict == Verdict::fail && std::ranges::count(failed, channel.mode->name) == 0)
@@ -71,7 +73,8 @@ std::string verdictLine(const Report& report) {
     if (report.passed())
         return fmt::format("pass: all {} channels{} are within tolerance", compared, pictures);
     if (failed.empty())
-        return fmt::format("FAIL: {} comparison(s) of Frames that cannot be trusted", failedFrames);
+        return fmt::format("FAIL: {}{}", others.front(),
+                           others.size() > 1 ? fmt::format("; and {} more", others.size() - 1) : "");
     return fmt::format("FAIL: {}{} beyond tolerance", fmt::join(failed, ", "), pictures);
 }
 

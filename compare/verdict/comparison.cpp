@@ -8,6 +8,7 @@
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -218,6 +219,11 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     const FramePair pair{left, right, needs, comparison.coverage, cpu, explaining(report, left, right)};
 
     bool shared = false;
+    auto& oneSided = options.strict ? comparison.failures : comparison.notes;
+    for (const Frame* frame : {&left, &right})
+        if (frame->requested.empty() && !frame->origin.left_out.empty())
+            oneSided.push_back(fmt::format("{} of {}: none of our channels, not compared",
+                                           fmt::join(frame->origin.left_out, ", "), frame->name));
     for (const DebugMode& mode : debugModes()) {
         const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
                    onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
@@ -232,15 +238,14 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         } else if (onLeft || onRight) {
             const std::string& one = onLeft ? left.name : right.name;
             const Path lacking = onLeft ? right.settings.path : left.settings.path;
-            if (paths && lacking == Path::reference) continue;
+            if (paths && isReferenceFrame(onLeft ? right : left)) continue;
             if (mode.maker == MadeBy::forward_only && lacking == Path::deferred) {
                 ChannelDiff& channel = comparison.channels.emplace_back();
                 channel.mode = &mode;
                 channel.tolerance = {0, "the G-buffer does not carry it, so only forward+ shows it"};
                 channel.verdict = Verdict::forward_only;
             } else {
-                comparison.notes.push_back(
-                    fmt::format("{} is in {} alone and was not compared", mode.name, one));
+                oneSided.push_back(fmt::format("{} is in {} alone and was not compared", mode.name, one));
             }
         }
     }

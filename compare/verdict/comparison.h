@@ -82,6 +82,7 @@ struct CompareOptions {
     SelectionOptions selection;      // pixels
     std::vector<std::string> words;  // of the command line that set the above; repeated commands contain them
     bool allow_noise = false;  // on a GPU: the difference of two runs of one path is added to tolerances
+    bool strict = false;       // a channel that only one of a pair has is a failure
     Stage progress{};          // of comparing
 };
 

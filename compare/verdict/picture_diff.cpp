@@ -153,7 +153,8 @@ DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff&
 }
 
 bool PictureDiff::passed() const {
-    return std::ranges::none_of(channels, [](const auto& c) { return c->decision.level == Level::fail; });
+    return failures.empty() &&
+           std::ranges::none_of(channels, [](const auto& c) { return c->decision.level == Level::fail; });
 }
 
 PictureDiff diffPictures(const std::string& reference, const std::string& test,
@@ -188,6 +189,8 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
                    diff.notes);
     MatchedChannels matched = matchChannels(std::move(left), std::move(right), options.channels);
     diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
+    auto& oneSided = options.strict ? diff.failures : diff.notes;
+    oneSided.insert(oneSided.end(), matched.one_sided.begin(), matched.one_sided.end());
     for (MatchedChannel& pair : matched.channels) {
         auto channel = std::make_unique<PictureChannelDiff>();
         channel->pair = std::move(pair);

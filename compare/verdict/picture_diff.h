@@ -26,8 +26,9 @@ struct PictureDiffOptions {
     std::vector<std::string> channels;  // patterns of names; empty: all
     std::vector<std::string> names;     // --map
     SelectionOptions selection;
-    double blur = 0;  // standard deviation, pixels
-    int shift = 0;    // pixels
+    bool strict = false;  // a channel that only one picture has is a failure
+    double blur = 0;      // standard deviation, pixels
+    int shift = 0;        // pixels
     HdrFlipOptions flip;
     Stage progress{};
 };
@@ -59,6 +60,7 @@ struct PictureDiff {
     bool display = false;                // both hold display colours
     std::unique_ptr<Coverage> coverage;  // on the heap, because measurements refer to it
     std::vector<std::unique_ptr<PictureChannelDiff>> channels;
+    std::vector<std::string> failures;  // in addition to the channels'
     std::vector<std::string> notes;
 
     bool passed() const;

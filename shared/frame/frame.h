@@ -53,6 +53,7 @@ struct ChannelNoise {
 struct FrameOrigin {
     std::string file;  // empty: drawn by this program run
     std::string device, driver, commit;
+    std::vector<std::string> left_out = {};  // the file's channels that are none of ours
 };
 
 // The device that a Frame was drawn on, as reports name it.

@@ -85,7 +85,7 @@ TEST(Layers, OurUncertaintyIsNoChannel) {
     EXPECT_EQ(namesOf(channelsOf(ours, {"known=uncertainty.Y"})), (std::vector<std::string>{"known", "lit"}));
     const auto matched =
         matchChannels(channelsOf(ours, {}), channelsOf(file({layer("", {"R", "G", "B"})}), {}), {});
-    EXPECT_TRUE(matched.notes.empty()) << "nor is it said to be missing";
+    EXPECT_TRUE(matched.notes.empty() && matched.one_sided.empty()) << "nor is it said to be missing";
 
     PictureFile taken = ours;
     EXPECT_EQ(takeUncertainty(taken).data, (PixelData{0, 1}));
@@ -99,9 +99,9 @@ TEST(Layers, WhatOnlyOneHasIsSaid) {
                       channelsOf(file({layer("b", {"b.Y"}, "half"), layer("c", {"c.Y"})}), {}), {});
     ASSERT_EQ(matched.channels.size(), 1u);
     EXPECT_EQ(matched.channels[0].name, "b");
-    EXPECT_EQ(matched.notes, (std::vector<std::string>{"a is in the reference alone and was not compared",
-                                                       "b: float in the reference, half in the test",
-                                                       "c is in the test alone and was not compared"}));
+    EXPECT_EQ(matched.one_sided, (std::vector<std::string>{"a is in the reference alone and was not compared",
+                                                           "c is in the test alone and was not compared"}));
+    EXPECT_EQ(matched.notes, std::vector<std::string>{"b: float in the reference, half in the test"});
 }
 
 // Grey, with or without alpha, counts as light and can be compared with colour.

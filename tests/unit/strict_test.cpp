@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// A channel that only one side has is said by name, and fails where the same channels on both sides are asked
+// for.
+#include "compare/cli/command_line.h"
+#include "compare/cli/verdict_words.h"
+#include "compare/files/frame_exr.h"
+#include "compare/report/json.h"
+#include "compare/report/picture_diff_text.h"
+#include "compare/report/report.h"
+#include "compare/verdict/picture_diff.h"
+#include "shared/image/exr.h"
+#include "tests/unit/files.h"
+#include "tests/unit/modes.h"
+#include "tests/unit/report_maker.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+using Lines = std::vector<std::string>;
+const ReportDevice strictDevice{"a CPU", "1.0", "cpu"};
+
+// Both paths with a few channels of every kind.
+std::vector<Frame> fewChannels() {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames)
+        std::erase_if(frame.channels, [](const auto& channel) {
+            const DebugMode& mode = debugMode(channel.first);
+            return mode.maker == MadeBy::both && mode.name != "lit" && mode.name != "albedo" &&
+                   mode.name != "metallic" && mode.name != "material_id";
+        });
+    return frames;
+}
+
+CompareOptions strictly(bool strict) {
+    CompareOptions options;
+    options.strict = strict;
+    return options;
+}
+
+// Both paths against an earlier deferred Frame with `without` fewer channels and, where `more`, one of its
+// own.
+Report againstBaseline(const std::vector<gpu::uint>& without, const std::string& more, bool strict) {
+    Frame baseline = fewChannels()[0];
+    baseline.name = "baseline";
+    baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
+    if (!more.empty()) baseline.origin.left_out = {more};
+    for (const gpu::uint mode : without) baseline.channels.erase(static_cast<int>(mode));
+    return makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
+}
+
+TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
+    for (const bool strict : {false, true}) {
+        const Report report = againstBaseline({gpu::DEBUG_albedo}, "", strict);
+        EXPECT_EQ(report.passed(), !strict);
+        for (const std::size_t pair : {0u, 1u}) {
+            const Comparison& c = report.comparisons.at(pair);
+            const std::string name = pair == 0 ? "deferred" : "forward_plus";
+            const Lines said{"albedo is in " + name + " alone and was not compared"};
+            EXPECT_EQ(c.failures, strict ? said : Lines{}) << pair;
+            EXPECT_EQ(c.notes, strict ? Lines{} : said) << pair;
+        }
+        EXPECT_TRUE(report.comparisons.at(2).passed()) << "the paths have the same channels";
+        // In what users and CI read.
+        const std::string table = reportTable(report);
+        const std::string line = "albedo is in forward_plus alone and was not compared\n";
+        EXPECT_NE(table.find((strict ? "  FAIL " : "  note: ") + line), std::string::npos) << table;
+        EXPECT_EQ(table.find((strict ? "  note: " : "  FAIL ") + line), std::string::npos) << table;
+        EXPECT_EQ(table.ends_with("FAIL: albedo is in deferred alone and was not compared; and 1 more\n"),
+                  strict);
+        const auto json = nlohmann::json::parse(reportJson(report, nullptr));
+        EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
+        EXPECT_EQ(json["comparisons"][0][strict ? "failures" : "notes"].size(), 1u);
+        const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
+        EXPECT_EQ(countOf(junit, "<failure "), strict ? 2u : 0u);
+        EXPECT_EQ(countOf(junit, "message=\"albedo is in deferred alone and was not compared\""),
+                  strict ? 1u : 0u);
+        EXPECT_NE(junit.find("albedo is in deferred alone and was not compared"), std::string::npos) << junit;
+    }
+}
+
+TEST(Strict, EitherSideMayLackIt) {
+    std::vector<Frame> frames = fewChannels();
+    frames[1].channels.erase(gpu::DEBUG_metallic);
+    const Report report = makeReport(frames, std::vector<Requirements>(2), strictDevice, strictly(true));
+    EXPECT_EQ(report.comparisons[0].failures, Lines{"metallic is in deferred alone and was not compared"});
+    EXPECT_FALSE(report.passed());
+}
+
+// Of two paths alike: what forward+ alone can make is no difference.
+TEST(Strict, ForwardOnlyIsNoFailure) {
+    const Report report =
+        makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, strictly(true));
+    EXPECT_TRUE(report.passed());
+    EXPECT_TRUE(againstBaseline({}, "", true).passed()) << "an earlier deferred Frame lacks it by nature";
+}
+
+// Our reference has no lists of lights by nature; another renderer's file lacks them like anything else.
+TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
+    for (const bool ours : {true, false}) {
+        Frame baseline = fewChannels()[0];
+        baseline.name = "baseline";
+        baseline.settings.path = Path::reference;
+        baseline.origin = {"b.exr", ours ? "a CPU" : "", "", ""};
+        for (const DebugMode& mode : debugModes())
+            if (mode.maker == MadeBy::paths_only) baseline.channels.erase(mode.number);
+        const Report report =
+            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(true), {});
+        Lines said, pathsOnly;
+        for (const DebugMode& mode : debugModes())
+            if (mode.maker == MadeBy::paths_only) pathsOnly.emplace_back(mode.name);
+        EXPECT_GT(pathsOnly.size(), 1u);
+        for (const DebugMode& mode : debugModes()) {
+            const std::string line = std::string(mode.name) + " is in deferred alone and was not compared";
+            if (std::ranges::count(report.comparisons[0].failures, line) > 0) said.emplace_back(mode.name);
+        }
+        EXPECT_EQ(said, ours ? Lines{} : pathsOnly) << nlohmann::json(report.comparisons[0].failures);
+    }
+}
+
+TEST(Strict, OnlyChannelsThatWereAskedForCount) {
+    for (const bool asked : {false, true}) {
+        Frame baseline = fewChannels()[0];
+        baseline.origin = {"b.exr", "a CPU", "1.0", "abc", {"mystery"}};
+        baseline.channels.erase(gpu::DEBUG_albedo);
+        std::vector<Frame> frames = fewChannels();
+        baseline.requested = frames[0].requested = frames[1].requested = {litMode};
+        if (asked)
+            for (Frame* frame : {&baseline, &frames[0], &frames[1]})
+                frame->requested.push_back(gpu::DEBUG_albedo);
+        const Report report = makeBaselineReport(baseline, frames, {}, strictDevice, strictly(true), {});
+        EXPECT_EQ(report.passed(), !asked);
+    }
+}
+
+// A baseline's own channels are read, and named.
+TEST(Strict, AChannelOfTheBaselineThatWeDoNotKnowIsSaid) {
+    const std::filesystem::path file = folder() / "b.exr";
+    const Image lit(4, 3, 3, 0.5f), other(4, 3, 1, 1.0f);
+    writeExr(file, {{{"R", "G", "B"}, &lit}, {{"mystery.Y"}, &other}});
+    Frame baseline = frameFromExr(file);
+    EXPECT_EQ(baseline.origin.left_out, Lines{"mystery"});
+    for (const bool strict : {false, true}) {
+        const Report report =
+            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
+        const Comparison& c = report.comparisons[0];
+        EXPECT_EQ(std::ranges::count(strict ? c.failures : c.notes,
+                                     "mystery of baseline: none of our channels, not compared"),
+                  1);
+    }
+    EXPECT_FALSE(againstBaseline({}, "mystery", true).passed());
+    EXPECT_TRUE(againstBaseline({}, "mystery", false).passed());
+}
+
+// ---- Two files ----
+
+PictureDiff diffOf(const std::vector<std::string>& left, const std::vector<std::string>& right, bool strict,
+                   const std::vector<std::string>& channels = {}) {
+    const std::filesystem::path here = folder();
+    const Image grey(4, 3, 1, 0.5f);
+    for (const auto& [file, names] : {std::pair{"a.exr", left}, {"b.exr", right}}) {
+        std::vector<ExrLayerView> layers;
+        for (const std::string& name : names) layers.push_back({{name + ".Y"}, &grey});
+        writeExr(here / file, layers);
+    }
+    PictureDiffOptions options;
+    options.strict = strict;
+    options.channels = channels;
+    return diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+}
+
+TEST(Strict, DiffSaysWhichFileLacksWhat) {
+    for (const bool strict : {false, true}) {
+        const PictureDiff diff = diffOf({"metallic", "one"}, {"metallic", "other"}, strict);
+        const Lines said{"one is in the reference alone and was not compared",
+                         "other is in the test alone and was not compared"};
+        EXPECT_EQ(diff.passed(), !strict);
+        EXPECT_EQ(strict ? diff.failures : Lines{}, strict ? said : Lines{});
+        EXPECT_TRUE((strict ? diff.failures : diff.notes).size() >= 2);
+        const std::string table = pictureDiffTable(diff);
+        for (const std::string& line : said)
+            EXPECT_NE(table.find((strict ? "  FAIL " : "  note: ") + line + "\n"), std::string::npos)
+                << table;
+        EXPECT_EQ(table.ends_with("FAIL: one is in the reference alone and was not compared\n"), strict)
+            << table;
+        const auto json = nlohmann::json::parse(pictureDiffJson(diff));
+        EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
+        EXPECT_EQ(json["failures"].size(), strict ? 2u : 0u);
+    }
+    EXPECT_TRUE(diffOf({"metallic"}, {"metallic"}, true).passed());
+    EXPECT_TRUE(diffOf({"metallic", "one"}, {"metallic"}, true, {"metallic"}).passed())
+        << "one was not asked for";
+    EXPECT_FALSE(diffOf({"metallic", "one"}, {"metallic"}, true).passed());
+    EXPECT_FALSE(diffOf({"metallic"}, {"metallic", "one"}, true).passed());
+}
+
+// The option reaches both commands, and the command that a report prints.
+TEST(Strict, IsAnOptionOfCompareAndDiff) {
+    for (const Lines& words :
+         {Lines{"compare", "builtin:points", "--strict"}, Lines{"diff", "a.exr", "b.exr", "--strict"}}) {
+        const cli::Options options = cli::parseCommandLine(words);
+        EXPECT_TRUE(options.strict);
+        EXPECT_EQ(cli::wordsOfWhatCounts(options).back(), "--strict");
+        EXPECT_NE(cli::parseCommandLine({words[0], "--help"}).help.find("--strict"), std::string::npos);
+    }
+    EXPECT_FALSE(cli::parseCommandLine({"compare"}).strict);
+    EXPECT_THROW(cli::parseCommandLine({"render", "--strict"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace diptych
