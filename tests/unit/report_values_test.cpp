@@ -2,6 +2,7 @@
 // The values beside the page come back as the Frames' numbers: exactly, or as near as the file says.
 #include "compare/report/html.h"
 #include "compare/report/values.h"
+#include "tests/unit/base64.h"
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
 
@@ -19,19 +20,6 @@ namespace diptych {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string fromBase64(const std::string& text) {
-    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    unsigned bits = 0;
-    int have = 0;
-    for (const char c : text) {
-        if (c == '=') break;
-        bits = bits << 6 | static_cast<unsigned>(letters.find(c));
-        if ((have += 6) >= 8) out += static_cast<char>(bits >> (have -= 8) & 255);
-    }
-    return out;
-}
 
 struct Decoded {
     Json head;
