@@ -202,9 +202,9 @@ void PassList::prepare(std::size_t first, std::size_t last) {
 
 std::vector<DeclaredUse> PassList::declarations() const {
     std::vector<DeclaredUse> all;
-    for (const auto& pass : passes_)
-        for (const Use& use : usesOf(*pass))
-            all.push_back({pass->name_, tracker_.name(use.resource), use.access});
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+        for (const Use& use : usesOf(*passes_[i]))
+            all.push_back({passes_[i]->name_, tracker_.name(use.resource), use.access, use.part, i});
     return all;
 }
 
@@ -225,7 +225,7 @@ std::vector<RecordedBarrier> PassList::plannedBarriers(int runs, const std::set<
                 if (!without.contains(declaration++)) uses.push_back(use);
             for (const Barrier& barrier : tracker.before(passes_[p]->name_, uses))
                 planned.push_back({passes_[p]->name_, tracker.name(barrier.resource), barrier.part,
-                                   barrier.from, barrier.to});
+                                   barrier.from, barrier.to, p});
         }
     }
     return planned;

@@ -28,13 +28,17 @@ struct RecordedBarrier {
     std::string pass, resource;  // it stands before the pass
     Part part;
     Access from, to;
+    std::size_t number;  // of the pass in the list; no_pass: it stands before a copy to the host
     bool operator==(const RecordedBarrier&) const = default;
+    static constexpr std::size_t no_pass = ~std::size_t{0};
 };
 
 // One use that a pass declares, its attachments among them.
 struct DeclaredUse {
     std::string pass, resource;
     Access access;
+    Part part;
+    std::size_t number;  // of the pass in the list
 };
 
 class PassList {
@@ -129,7 +133,7 @@ private:
     std::vector<Use> usesOf(const Pass& pass) const;
     VkExtent2D extentOf(const Pass& pass) const;
     VkImageView attachmentView(ImageRef image, const Slice& slice);
-    void barriersBefore(const std::string& pass, const std::vector<Use>& uses, VkCommandBuffer commands);
+    void barriersBefore(std::size_t pass, const std::vector<Use>& uses, VkCommandBuffer commands);
     void beginLives(BarrierTracker& tracker, std::size_t pass) const;
     void prepare(std::size_t first, std::size_t last);
     std::vector<Span> spans(std::size_t first, std::size_t last) const;

@@ -66,7 +66,7 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
             {request.image.index, {request.slice.level, 1, request.slice.layer, 1}, access::copiedFromImage});
     }
     device_.submit([&](VkCommandBuffer commands) {
-        barriersBefore("read back", uses, commands);
+        barriersBefore(RecordedBarrier::no_pass, uses, commands);
         for (std::size_t i = 0; i < requests.size(); ++i) {
             const GpuImage& image = *resource(requests[i].image).image;
             const Slice& slice = requests[i].slice;

@@ -49,13 +49,14 @@ VkImageView PassList::attachmentView(ImageRef image, const Slice& slice) {
     return view(image, {slice.level, 1, slice.layer, 1});
 }
 
-void PassList::barriersBefore(const std::string& pass, const std::vector<Use>& uses,
-                              VkCommandBuffer commands) {
+void PassList::barriersBefore(std::size_t pass, const std::vector<Use>& uses, VkCommandBuffer commands) {
+    const std::string name = pass == RecordedBarrier::no_pass ? "read back" : passes_[pass]->name_;
     std::vector<VkImageMemoryBarrier2> images;
     std::vector<VkBufferMemoryBarrier2> buffers;
     std::vector<VkMemoryBarrier2> memory;
-    for (const Barrier& barrier : tracker_.before(pass, uses)) {
-        recorded_.push_back({pass, tracker_.name(barrier.resource), barrier.part, barrier.from, barrier.to});
+    for (const Barrier& barrier : tracker_.before(name, uses)) {
+        recorded_.push_back(
+            {name, tracker_.name(barrier.resource), barrier.part, barrier.from, barrier.to, pass});
         const Resource& found = *resources_[barrier.resource];
         if (found.image) {
             auto of = scopesOf<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, barrier);
@@ -104,12 +105,12 @@ void PassList::runPiece(const Piece& piece, VkCommandBuffer commands) {
     last_run_ = piece.pass;
     if (piece.band == 0) {
         beginLives(tracker_, piece.pass);
-        barriersBefore(pass.name_, usesOf(pass), commands);
+        barriersBefore(piece.pass, usesOf(pass), commands);
     } else {
         // What the bands before it have drawn stays.
         std::vector<Use> uses = usesOf(pass);
         for (Use& use : uses) use.discards = false;
-        barriersBefore(pass.name_, uses, commands);
+        barriersBefore(piece.pass, uses, commands);
     }
     device_.beginLabel(commands, pass.name_);
     if (pass.kind_ == Pass::Kind::draw)
