@@ -17,7 +17,7 @@
 namespace diptych::tests {
 namespace {
 
-constexpr Size cut{213, 119};  // of neither a whole number of tiles
+constexpr Size cutOff{213, 119};  // of neither a whole number of tiles
 constexpr double tangent = 0.5;
 
 // A white wall across the view at this distance; the camera stands at the origin and looks along -Z.
@@ -50,7 +50,7 @@ gpu::uint sliceAt(const gpu::LightGrid& grid, double depth) {
 }
 gpu::LightGrid froxelsOf(const Scene& scene) {
     const Pose pose = poseAt(scene, 0);
-    const View view = makeView(scene, pose, "", cut.width, cut.height);
+    const View view = makeView(scene, pose, "", cutOff.width, cutOff.height);
     const GpuLights lights = gpuLights(pose.lights, view.eye());
     return makeLightGrid(gpu::LISTS_CLUSTERED, view, lights, lightBounds(lights, view),
                          device().profile().costs, std::uint64_t{128} << 20);
@@ -62,7 +62,7 @@ struct DrawnLights {
 DrawnLights drawnWith(Renderer& renderer, Path path, Assignment assign, LightKernel kernel) {
     Settings settings;
     settings.path = path;
-    settings.size = cut;
+    settings.size = cutOff;
     settings.assign = assign;
     settings.light_kernel = kernel;
     settings.gbuffer = GBufferEncoding::full;
@@ -122,7 +122,7 @@ TEST(LightCells, TheLastSliceOfFroxelsIsUsed) {
         // The light ends in the last slice: there is none behind it that nothing needs.
         EXPECT_EQ(sliceAt(grid, wall + 0.02 * range), grid.slices - 1);
         const std::size_t lit = expectLitAlike(scene).size();
-        const double side = 2 * tangent * wall / cut.height,
+        const double side = 2 * tangent * wall / cutOff.height,
                      radius = std::sqrt(1 - 0.98 * 0.98) * range / side;
         EXPECT_NEAR(static_cast<double>(lit), std::numbers::pi * radius * radius, 4 * radius + 2) << range;
         EXPECT_GT(lit, 2u);
@@ -145,19 +145,19 @@ TEST(LightCells, TheFirstSliceIsUsed) {
 // Lights that reach one pixel each, of every corner and edge of the picture: 0.3 pixels before the wall, with
 // a range of 0.8, the next pixels are 1.04 away.
 TEST(LightCells, TheOutermostTilesAreUsed) {
-    constexpr double wall = 10, side = 2 * tangent * wall / cut.height;
+    constexpr double wall = 10, side = 2 * tangent * wall / cutOff.height;
     Scene scene = wallAt(wall, 0.1);
     std::set<std::pair<int, int>> expected;
-    for (const int x : {0, cut.width / 2, cut.width - 1})
-        for (const int y : {0, cut.height / 2, cut.height - 1}) {
-            const glm::dvec3 at((x + 0.5 - cut.width / 2.0) * side, (cut.height / 2.0 - y - 0.5) * side,
+    for (const int x : {0, cutOff.width / 2, cutOff.width - 1})
+        for (const int y : {0, cutOff.height / 2, cutOff.height - 1}) {
+            const glm::dvec3 at((x + 0.5 - cutOff.width / 2.0) * side, (cutOff.height / 2.0 - y - 0.5) * side,
                                 -wall + 0.3 * side);
             scene.lights.push_back(lampOf(at, 0.8 * side));
             expected.insert({x, y});
         }
     const gpu::LightGrid grid = froxelsOf(scene);
-    EXPECT_NE(cut.width % (1 << grid.tile_shift), 0) << "the last column is cut off";
-    EXPECT_NE(cut.height % (1 << grid.tile_shift), 0);
+    EXPECT_NE(cutOff.width % (1 << grid.tile_shift), 0) << "the last column is cut off";
+    EXPECT_NE(cutOff.height % (1 << grid.tile_shift), 0);
     EXPECT_EQ(expectLitAlike(scene), expected);
 }
 

@@ -3,8 +3,8 @@
 // told them as they were planned: no source stage or access is lost on the way.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
-#include "tests/image/hazards.h"
 #include "tests/image/scenes.h"
+#include "tests/unit/hazards.h"
 
 #include <dlfcn.h>
 

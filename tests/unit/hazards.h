@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-namespace diptych::tests {
+namespace diptych {
 
 class Hazards {
 public:
@@ -124,4 +124,4 @@ private:
     std::vector<std::string> found_;
 };
 
-}  // namespace diptych::tests
+}  // namespace diptych
