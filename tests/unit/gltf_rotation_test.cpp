@@ -2,6 +2,7 @@
 // Quaternions of any length turn as their direction says: of nodes, of nodes that something else moves, of
 // keys of every interpolation and component type. Exporters write float32 that is not quite unit, and
 // normalised integers.
+#include "shared/scene/motion/animation.h"
 #include "shared/scene/motion/pose.h"
 #include "tests/unit/gltf_maker.h"
 
@@ -87,6 +88,13 @@ TEST(GltfRotation, OfKeysIsMadeUnit) {
                  {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
             const Scene scene = f.load();
             const std::string what = fmt::format("{}, length {}", interpolation, length);
+            // What the loader keeps of keys between which nothing is added up is unit already.
+            const std::vector<float>& stored = scene.animations.at(0).keyframes.at(0).values;
+            for (std::size_t i = 0; i + 3 < stored.size() && !cubic; i += 4)
+                EXPECT_NEAR(std::hypot(std::hypot(stored[i], stored[i + 1]),
+                                       std::hypot(stored[i + 2], stored[i + 3])),
+                            1, 2e-7)
+                    << what;
             // The keys are float32: half of a quaternion's rounding is that of the angle.
             constexpr double rounding = 5e-7;
             expectTurned(scene, 0, 20 * degrees, rounding, what);
@@ -94,6 +102,20 @@ TEST(GltfRotation, OfKeysIsMadeUnit) {
             if (interpolation == "LINEAR") expectTurned(scene, 0.25, 35 * degrees, rounding, what);
             expectTurned(scene, 2, 80 * degrees, rounding, what);
         }
+}
+
+// Sampling does not rely on the loader: two keys of different lengths turn evenly, too.
+TEST(GltfRotation, SamplingMakesKeysUnit) {
+    for (const double length : lengths) {
+        Keyframes keys{Interpolation::linear, {0, 1}, {}, 4};
+        for (const auto& [angle, size] : {std::pair{20.0, length}, {80.0, 1 / length}})
+            for (const double q : xyzw(angle * degrees, size)) keys.values.push_back(static_cast<float>(q));
+        for (const double u : {0.25, 0.5}) {
+            const std::vector<double> q = sampled(keys, AnimatedPart::rotation, u);
+            const std::array<double, 4> expected = xyzw((20 + 60 * u) * degrees, 1);
+            for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(q[c], expected[c], 2e-7) << length << " at " << u;
+        }
+    }
 }
 
 // Of signed bytes a component is off by up to 1/254, so that hardly any such quaternion is unit.
