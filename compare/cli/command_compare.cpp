@@ -8,6 +8,7 @@
 #include "compare/report/report.h"
 #include "compare/verdict/baseline.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/material/texture_probe.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,7 @@ struct Drawn {
     // Per scene and camera: what a person must look at, and the materials' names by id.
     std::vector<std::vector<FeatureChecks>> visual_checks;
     std::vector<std::vector<std::string>> materials;
+    std::optional<TextureSampling> texels;  // with a reference in mode scene
 };
 
 bool againstReference(const Options& options) {
@@ -75,6 +77,16 @@ Shares sharesOf(const RenderOptions& render) {
     return {frames / (frames + 4), (frames + 1) / (frames + 4)};
 }
 
+// What a reference in mode scene grants the device, if some scene has textures.
+std::optional<TextureSampling> texelsFor(const Options& options, const std::vector<Settings>& settings,
+                                         Device& device, bool textures) {
+    const bool scenes = std::ranges::any_of(settings, [](const Settings& s) {
+        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+    });
+    if (!textures || !againstReference(options) || !scenes) return {};
+    return probeTextures(device);
+}
+
 Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device,
            KeptReferences& kept, Progress& progress) {
     RenderOptions render = bothOptions(options);
@@ -84,6 +96,7 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Device
     const std::size_t together = pathsOf(options).size();
     const double drawing = sharesOf(render).drawn;
     Drawn drawn;
+    bool textures = false;
     const auto scenes = static_cast<double>(options.scenes.size());
     for (std::size_t i = 0; i < options.scenes.size(); ++i) {
         const std::string& name = options.scenes[i];
@@ -94,6 +107,7 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Device
         const double loading = loadingShare(name, render, settings.size());
         const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
         render.progress = stage.part(loading, 1);
+        textures = textures || !scene.textures.empty();
         SceneViews views(scene);
         for (const Settings& of : settings) drawn.needs.push_back(views.at(viewRequest(of)).needs);
         std::vector<Frame> frames = renderAll(device, views, settings, render);
@@ -106,6 +120,7 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Device
         }
         std::ranges::move(frames, std::back_inserter(drawn.frames));
     }
+    drawn.texels = texelsFor(options, settings, device, textures);
     checkValidation(device);
     return drawn;
 }
@@ -132,6 +147,7 @@ Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> basel
                 const ReportDevice& device, const Stage& progress) {
     CompareOptions compare = compareOptions(options);
     compare.progress = progress;
+    compare.texels = drawn.texels;
     if (againstReference(options))
         return makeReferenceReport(std::move(drawn.frames), drawn.needs, device, compare,
                                    std::move(drawn.visual_checks), drawn.materials);

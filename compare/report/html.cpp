@@ -155,12 +155,7 @@ std::string usedText(const ChannelDiff& channel) {
         return fmt::format("<span class=\"soft\">the encoding leaves {} pixels unexplained</span>",
                            *channel.unexplained_pixels);
     if (!channel.rule.empty()) return fmt::format("<span class=\"soft\">{}</span>", markup(channel.rule));
-    const double error =
-        channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
-    const double used = channel.encoding_use        ? channel.encoding_use->used
-                        : channel.tolerance.max > 0 ? error / channel.tolerance.max
-                                                    : 1.0,
-                 share = std::min(used, 1.0);
+    const double share = std::min(usedShare(channel), 1.0);
     return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
                        nameOf(channel.verdict), 100 * share);
 }

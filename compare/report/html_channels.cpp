@@ -201,6 +201,12 @@ private:
         row("pixels that differ", fmt::format("{}", s.different));
         if (channel_.unexplained_pixels)
             row("not explained by encoding", fmt::format("{}", *channel_.unexplained_pixels));
+        if (const auto& f = channel_.footprints) {
+            row("smooth around, held tightly", fmt::format("{} px, {:.3g} of it used", f->smooth, f->used));
+            if (f->detailed > 0)
+                row("with detail, by FLIP", fmt::format("{} px, {:.3g}", f->detailed, f->flip));
+            if (f->edges > 0) row("at edges, not judged", fmt::format("{} px", f->edges));
+        }
         if (const auto& use = channel_.encoding_use; use && use->x >= 0)
             row("of what the bits allow there",
                 fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));

@@ -16,19 +16,6 @@ using page::number;
 
 namespace {
 
-// The share of its tolerance that a channel uses; infinite if the tolerance is 0 and the channel differs.
-double usedShare(const ChannelDiff& channel) {
-    if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
-    if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0)
-        return std::numeric_limits<double>::infinity();
-    if (channel.encoding_use) return channel.encoding_use->used;
-    const double error =
-        channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
-    if (error == 0) return 0;
-    return channel.tolerance.max > 0 ? error / channel.tolerance.max
-                                     : std::numeric_limits<double>::infinity();
-}
-
 // The failing channel that uses most of its tolerance; if none fails, the passing one that does, except
 // channels judged by what the encoding explains, whose tolerance is each pixel's own.
 const ChannelDiff* worstOf(const Comparison& comparison) {

@@ -43,6 +43,10 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
     json["unexplained_pixels"] =
         channel.unexplained_pixels ? Json(*channel.unexplained_pixels) : Json(nullptr);
+    if (const auto& f = channel.footprints)
+        json["footprints"] = {{"smooth", f->smooth},   {"beyond", f->beyond}, {"used", finiteOrNull(f->used)},
+                              {"pixel", {f->x, f->y}}, {"most", f->most},     {"detailed", f->detailed},
+                              {"flip", f->flip},       {"edges", f->edges}};
     if (channel.encoding_use)
         json["encoding"] = {{"used", finiteOrNull(channel.encoding_use->used)},
                             {"beyond_pixels", channel.encoding_use->beyond},

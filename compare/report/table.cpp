@@ -23,6 +23,10 @@ using TableRow = std::array<std::string, 7>;
 // another pixel says little beside it, so the outcome is shown instead.
 std::string toleranceOf(const ChannelDiff& channel) {
     if (!channel.rule.empty() && !std::isfinite(channel.tolerance.max)) return "rule";
+    if (const auto& f = channel.footprints) {
+        const auto all = static_cast<double>(f->smooth + f->detailed + f->edges);
+        return fmt::format("tight {:.0f} %", all > 0 ? 100 * static_cast<double>(f->smooth) / all : 100);
+    }
     if (!channel.unexplained_pixels) return number(channel.tolerance.max);
     if (*channel.unexplained_pixels > 0) return fmt::format("{} px left", *channel.unexplained_pixels);
     if (const auto& use = channel.encoding_use; use && use->beyond > 0)

@@ -34,6 +34,18 @@ std::string faultOf(const ChannelDiff& channel) {
             "and more than they can at {} pixel(s)",
             channel.encoding_use->used, channel.encoding_use->x, channel.encoding_use->y,
             channel.encoding_use->beyond);
+    if (const auto& f = channel.footprints) {
+        if (!(f->used <= 1))
+            return fmt::format(
+                "over 0.1 % of the {} pixels whose surroundings are smooth are beyond what they are held to: "
+                "p99.9 "
+                "is {:.3g} times it, most at {},{}",
+                f->smooth, f->used, f->x, f->y);
+        if (!(f->flip <= detailFlip))
+            return fmt::format("FLIP is {:.3g} over the {} pixels with detail, which exceeds {}", f->flip,
+                               f->detailed, detailFlip);
+        return {};
+    }
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     if (channel.tolerance.most_pixels) {
         const double p999 = channel.certain_p999.value_or(channel.stats.p999);
@@ -70,14 +82,18 @@ void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     }
     channel.unexplained_pixels = unexplainedPixels(mode, pair);
     channel.encoding_use = encodingUse(mode, pair);
+    channel.footprints = footprints(mode, pair);
+    if (channel.footprints) channel.tolerance = footprintTolerance(*channel.footprints);
     channel.certain_p999 = certainP999(mode, pair);
     channel.reason = faultOf(channel);
     // What this program drew must be what it may be at all, whatever it is compared with.
-    for (const Frame* frame : {&pair.baseline, &pair.test})
-        if (channel.reason.empty() && frame->origin.file.empty())
-            if (const std::string fault = outsideDomain(mode, frame->channels.at(mode.number), pair.coverage);
-                !fault.empty())
-                channel.reason = frame->name + ": " + fault;
+    for (const Frame* frame : {&pair.baseline, &pair.test}) {
+        if (!channel.reason.empty() || !frame->origin.file.empty()) continue;
+        const auto ids = frame->channels.find(static_cast<int>(gpu::DEBUG_material_id));
+        const std::string fault = outsideDomain(mode, frame->channels.at(mode.number), pair.coverage,
+                                                ids == frame->channels.end() ? nullptr : &ids->second);
+        if (!fault.empty()) channel.reason = frame->name + ": " + fault;
+    }
 }
 
 // Judges by a rule of the user.
@@ -192,6 +208,18 @@ bool Comparison::passed() const {
            std::ranges::none_of(channels, [](const ChannelDiff& c) { return c.verdict == Verdict::fail; });
 }
 
+double usedShare(const ChannelDiff& channel) {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
+    if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0) return endless;
+    if (channel.footprints) return std::max(channel.footprints->used, channel.footprints->flip / detailFlip);
+    if (channel.encoding_use) return channel.encoding_use->used;
+    const double error =
+        channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
+    if (error == 0) return 0;
+    return channel.tolerance.max > 0 ? error / channel.tolerance.max : endless;
+}
+
 bool Report::passed() const {
     return std::ranges::all_of(comparisons, &Comparison::passed);
 }
@@ -216,7 +244,13 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     comparison.coverage = coverage(left, right);
     applySelection(comparison.coverage, left.settings.size.width, left.settings.size.height,
                    options.selection, objectsOf(left, right), comparison.notes);
-    const FramePair pair{left, right, needs, comparison.coverage, cpu, explaining(report, left, right)};
+    const FramePair pair{left,
+                         right,
+                         needs,
+                         comparison.coverage,
+                         cpu,
+                         explaining(report, left, right),
+                         options.texels ? &*options.texels : nullptr};
 
     bool shared = false;
     auto& oneSided = options.strict ? comparison.failures : comparison.notes;

@@ -7,6 +7,7 @@
 #include "compare/run/progress.h"
 #include "compare/verdict/closer_path.h"
 #include "compare/verdict/encoding_use.h"
+#include "compare/verdict/footprint.h"
 #include "compare/verdict/rules.h"
 #include "compare/verdict/selection.h"
 #include "compare/verdict/tolerance.h"
@@ -34,6 +35,7 @@ struct ChannelDiff {
     Tolerance tolerance;
     std::optional<std::uint64_t>
         unexplained_pixels;  // lit channels: pixels whose difference the encoding does not explain
+    std::optional<Footprints> footprints;     // of a reference in mode scene
     std::optional<EncodingUse> encoding_use;  // of what the G-buffer's bits allow a lit channel
     std::optional<double>
         certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
@@ -48,6 +50,9 @@ struct ChannelDiff {
     std::vector<std::pair<std::string, double>> figures;  // all that are defined
     std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
 };
+
+// The share of its tolerance that a channel uses; infinite where it differs although nothing is granted.
+double usedShare(const ChannelDiff& channel);
 
 struct Comparison {
     std::size_t baseline = 0, test = 0;  // into Report::frames
@@ -83,7 +88,9 @@ struct CompareOptions {
     std::vector<std::string> words;  // of the command line that set the above; repeated commands contain them
     bool allow_noise = false;  // on a GPU: the difference of two runs of one path is added to tolerances
     bool strict = false;       // a channel that only one of a pair has is a failure
-    Stage progress{};          // of comparing
+    // What the device makes of texels of 8 bits, which a reference in mode scene grants it.
+    std::optional<TextureSampling> texels{};
+    Stage progress{};  // of comparing
 };
 
 // frames[test] against frames[baseline] of the report, over the requested channels that both have. A channel

@@ -50,13 +50,15 @@ const char* faultOf(Domain domain) {
 
 }  // namespace
 
-std::string outsideDomain(const DebugMode& mode, const Image& image, const Coverage& coverage) {
+std::string outsideDomain(const DebugMode& mode, const Image& image, const Coverage& coverage,
+                          const Image* ids) {
     if (mode.domain == Domain::any) return {};
     std::uint64_t count = 0;
     std::size_t place = 0;
     Outside worst;
     for (std::size_t i = 0; i < image.pixels(); ++i) {
-        if (!coverage.covered[i] || !metrics::finite(image.pixel(i), image.components)) continue;
+        if (!coverage.covered[i] || (ids && *ids->pixel(i) < 0)) continue;
+        if (!metrics::finite(image.pixel(i), image.components)) continue;
         const Outside here = outside(mode.domain, image.pixel(i), image.components);
         if (here.by <= lengthBound) continue;
         ++count;

@@ -12,7 +12,9 @@ namespace diptych {
 
 // The pixels of a channel that are outside of its domain (DebugMode::domain), beyond float32's rounding:
 // "3 pixel(s) are no unit vectors, length 1.02 at 5,7"; empty where there are none. Only covered pixels
-// count, and NaN and infinity are left to the metrics.
-std::string outsideDomain(const DebugMode& mode, const Image& image, const Coverage& coverage);
+// count, of them those that are no background of the picture (`ids`: its material_id; nullptr: none is), and
+// NaN and infinity are left to the metrics.
+std::string outsideDomain(const DebugMode& mode, const Image& image, const Coverage& coverage,
+                          const Image* ids = nullptr);
 
 }  // namespace diptych

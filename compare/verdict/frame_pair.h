@@ -4,6 +4,7 @@
 
 #include "compare/metrics/channel.h"
 #include "shared/frame/frame.h"
+#include "shared/material/texture_probe.h"
 #include "shared/scene/requirements.h"
 
 namespace diptych {
@@ -18,6 +19,10 @@ struct FramePair {
     // In a comparison with the reference: the Frame of forward+ of the same view and Settings that has bounds
     // of the encoding; or nullptr.
     const Frame* explaining = nullptr;
+
+    // Against a reference in mode scene: what the device makes of texels of 8 bits, where the scene has
+    // textures.
+    const TextureSampling* texels = nullptr;
 
     const Frame* of(Path path) const;  // nullptr: neither, or both
 };

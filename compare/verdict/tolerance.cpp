@@ -167,13 +167,19 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
     return 0;
 }
 
+// Both paths quantise it.
+double geometricNormalBound(const Frame& path) {
+    return octahedralBound(path.settings.gbuffer == GBufferEncoding::compact
+                               ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
+                               : gpu::STANDARD_NORMAL_BITS);
+}
+
 // A path compared with the reference may differ by what its encoding and its float32 arithmetic lose.
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     const bool packed =
         path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
-    const bool own = reference.settings.reference_mode == ReferenceMode::scene;
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
@@ -190,17 +196,8 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
         result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
                         : Tolerance{0, "float32, nothing is packed"};
         if (mode.number == gpu::DEBUG_geometric_normal && path.settings.gbuffer != GBufferEncoding::full)
-            result = {octahedralBound(path.settings.gbuffer == GBufferEncoding::compact
-                                          ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
-                                          : gpu::STANDARD_NORMAL_BITS),
-                      "both paths pack it alike, octahedral"};
-        if (own && mode.metric != Metric::exact) {
-            result.max += mode.metric == Metric::angular ? shadingRounding * degrees : shadingRounding;
-            result.because += "; and float32 on the way to the pixel, 1e-4";
-        }
+            result = {geometricNormalBound(path), "both paths pack it alike, octahedral"};
     }
-    if (own)
-        result.because += "; rasterisation and texture filtering are judged, so nothing is granted for them";
     result.most_pixels = true;
     return result;
 }
@@ -230,13 +227,19 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     return result;
 }
 
+double encodingBound(const DebugMode& mode, const FramePair& pair) {
+    const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
+    if (isLit(mode.number) || path.settings.gbuffer == GBufferEncoding::full) return 0;
+    if (mode.number == static_cast<int>(gpu::DEBUG_geometric_normal)) return geometricNormalBound(path);
+    return path.settings.path == Path::deferred ? encodingTolerance(mode, pair, path.settings.gbuffer).max
+                                                : 0;
+}
+
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Image* const bits = allowedByBits(mode, pair);
     if (reference.uncertainty.empty() && !bits) return {};
-    // Student's t of 7 degrees of freedom, 99.9 % against the 95 % that is stated: 5.41 / 2.36.
-    constexpr double surer = 2.29;
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const Image& test = pair.test.channels.at(mode.number);
     const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
@@ -245,7 +248,7 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
         double open = bits ? double{*bits->pixel(i)} : 0;
-        if (!reference.uncertainty.empty()) open += surer * double{reference.uncertainty.pixel(i)[0]};
+        if (!reference.uncertainty.empty()) open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
         const double e = error(test.pixel(i), p);
         errors.push_back(e > open ? e - open : std::isnan(e) ? std::numeric_limits<double>::infinity() : 0);

@@ -20,6 +20,14 @@ struct Tolerance {
 // The tolerance of `mode`, a channel of both Frames.
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair);
 
+// From a confidence of 95 %, which a reference states, to 99.9 %: Student's t of 7 degrees of freedom, 5.41 /
+// 2.36.
+inline constexpr double surerThan95 = 2.29;
+
+// What the bits of a packed path that is compared with the reference allow a channel of its surfaces, in the
+// channel's metric; 0 for forward+, a full G-buffer and lit channels.
+double encodingBound(const DebugMode& mode, const FramePair& pair);
+
 // In a comparison with the reference: the 99.9th percentile of the errors less the reference's uncertainty
 // and what the bits of a packed G-buffer allow at each pixel (allowedByBits()). Empty where there is neither,
 // and for channels other than lit ones.

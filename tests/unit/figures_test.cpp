@@ -84,11 +84,26 @@ TEST(Figures, OfAChannelFollowTheirDefinitions) {
     }
 }
 
+// The largest difference of two covered vectors' lengths.
+double longestApart(const Spread& s) {
+    double most = 0;
+    for (std::size_t i = 0; i < s.reference.pixels(); ++i) {
+        const float *r = s.reference.pixel(i), *t = s.test.pixel(i);
+        const double apart =
+            std::abs(std::sqrt(double{r[0]} * r[0] + double{r[1]} * r[1] + double{r[2]} * r[2]) -
+                     std::sqrt(double{t[0]} * t[0] + double{t[1]} * t[1] + double{t[2]} * t[2]));
+        if (s.covered.covered[i] && std::isfinite(apart)) most = std::max(most, apart);
+    }
+    return most;
+}
+
 TEST(Figures, AreGivenByTheirNames) {
     const Spread s = spread();
     const Errors e = errorsOf(s);
     Figures vectors = plainFigures(e);
-    vectors.merge(Figures{{"angle_max", errorOfRank(e.angles, counted)}, {"angle_mean", meanOf(e.angles)}});
+    vectors.merge(Figures{{"angle_max", errorOfRank(e.angles, counted)},
+                          {"angle_mean", meanOf(e.angles)},
+                          {"length_max", longestApart(s)}});
     vectors.merge(ofPixels(e.angles));
     const Measurement angular(
         {Metric::angular, ChannelKind::vector, false, &s.reference, &s.test, &s.covered});

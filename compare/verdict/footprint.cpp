@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/footprint.h"
+
+#include "compare/metrics/flip.h"
+#include "compare/metrics/pixel.h"
+#include "compare/verdict/encoding_bits.h"
+#include "compare/verdict/encoding_use.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+constexpr double degreesPerRadian = 180 / std::numbers::pi;
+
+// The rasterizer snaps corners to 1/256 of a pixel, so that a pixel shows what is up to 1/128 of the way to a
+// neighbour.
+constexpr double snap = 1.0 / 128;
+
+// Mip levels of 8 bits are rounded to codes, and made of levels that were.
+constexpr double mipCode = 1.0 / 255;
+
+// By how much two surfaces of one light may differ, of 1 or of a radian.
+constexpr double sameSurface = 1e-5;
+
+// Channels of where a surface is; nothing is filtered in them.
+bool isGeometry(const DebugMode& mode) {
+    switch (static_cast<gpu::uint>(mode.number)) {
+        case gpu::DEBUG_depth:
+        case gpu::DEBUG_position:
+        case gpu::DEBUG_texcoords:
+            return true;
+        default:
+            return false;
+    }
+}
+
+const Image* find(const Frame& frame, gpu::uint mode) {
+    const auto found = frame.channels.find(static_cast<int>(mode));
+    return found == frame.channels.end() ? nullptr : &found->second;
+}
+
+// Visits the pixels around (x, y), itself left out.
+template <class Visit>
+void around(const Image& image, int x, int y, const Visit& visit) {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
+            if (u != x || v != y) visit(u, v);
+}
+
+std::size_t indexOf(const Image& image, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+}
+
+// The distance of two values in what a range is measured in: degrees of unit vectors, else the largest
+// component's difference.
+double apart(const DebugMode& mode, const float* a, const float* b) {
+    return mode.domain == Domain::unit ? metrics::angle(a, b) : metrics::distance(a, b, mode.width);
+}
+
+// How far the value changes within one pixel around (x, y).
+double rangeAt(const DebugMode& mode, const Image& image, int x, int y) {
+    const float* const here = image.pixel(indexOf(image, x, y));
+    double range = 0;
+    around(image, x, y, [&](int u, int v) {
+        range = std::max(range, apart(mode, image.pixel(indexOf(image, u, v)), here));
+    });
+    return range;
+}
+
+class Judge {
+public:
+    Judge(const DebugMode& mode, const FramePair& pair)
+        : mode_(mode),
+          pair_(pair),
+          baseline_(pair.baseline.channels.at(mode.number)),
+          test_(pair.test.channels.at(mode.number)),
+          error_(mode.metric, mode.kind, baseline_, pair.coverage) {
+        if (pair.texels)
+            for (std::size_t code = 0; code < 256; ++code) shares_[code] = srgbShare(code);
+    }
+
+    Footprints operator()() {
+        Footprints result;
+        std::vector<std::uint8_t> detailed(baseline_.pixels(), 0);
+        std::vector<double> used;
+        double largest = 0;
+        for (int y = 0; y < baseline_.height; ++y)
+            for (int x = 0; x < baseline_.width; ++x) {
+                const std::size_t i = indexOf(baseline_, x, y);
+                if (!pair_.coverage.covered[i]) continue;
+                const double bound = isInside(x, y) ? boundAt(x, y) : -1;
+                if (bound < 0) {
+                    detailed[i] = 1;
+                    continue;
+                }
+                result.most = std::max(result.most, bound);
+                const double error = error_(test_.pixel(i), baseline_.pixel(i));
+                const double share = error == 0 ? 0 : error / bound;
+                used.push_back(std::isnan(share) ? std::numeric_limits<double>::infinity() : share);
+                result.beyond += !(share <= 1);
+                if (share > largest) {
+                    largest = share;
+                    result.x = x;
+                    result.y = y;
+                }
+            }
+        result.smooth = used.size();
+        if (!used.empty()) {
+            // Where holes are cut by a filtered alpha, whole pixels of them may show what is behind.
+            const double most = pair_.needs.alpha_mask ? 0.99 : 0.999;
+            const auto rank =
+                static_cast<std::size_t>(std::ceil(most * static_cast<double>(used.size()))) - 1;
+            std::ranges::nth_element(used, used.begin() + static_cast<std::ptrdiff_t>(rank));
+            result.used = used[rank];
+        }
+        const auto others = static_cast<std::uint64_t>(std::ranges::count(detailed, 1));
+        if (isGeometry(mode_) || mode_.kind == ChannelKind::id)
+            result.edges = others;
+        else if (others > 0)
+            judgeDetail(detailed, others, result);
+        return result;
+    }
+
+private:
+    // Whether both pictures show one material all around, and the same.
+    bool isInside(int x, int y) const {
+        const Image *a = find(pair_.baseline, gpu::DEBUG_material_id),
+                    *b = find(pair_.test, gpu::DEBUG_material_id);
+        if (!a || !b) return true;
+        const float id = *a->pixel(indexOf(*a, x, y));
+        bool same = id >= 0 && *b->pixel(indexOf(*b, x, y)) == id;
+        around(*a, x, y, [&](int u, int v) {
+            const std::size_t i = indexOf(*a, u, v);
+            same = same && *a->pixel(i) == id && *b->pixel(i) == id;
+        });
+        return same;
+    }
+
+    // Whether both pictures show one surface, so that what its light differs by is not its textures'.
+    bool isSameSurface(std::size_t i) const {
+        for (const DebugMode& mode : debugModes()) {
+            if (mode.maker != MadeBy::both || isLit(mode.number) || isGeometry(mode)) continue;
+            const Image *a = find(pair_.baseline, static_cast<gpu::uint>(mode.number)),
+                        *b = find(pair_.test, static_cast<gpu::uint>(mode.number));
+            if (!a || !b) return false;
+            const double size =
+                mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
+            const double same = (mode.domain == Domain::unit ? degreesPerRadian : size) * sameSurface +
+                                (mode.metric == Metric::relative ? size : 1) * encodingBound(mode, pair_);
+            if (!(apart(mode, a->pixel(i), b->pixel(i)) <= same)) return false;
+        }
+        return true;
+    }
+
+    // What the device's decoding and filtering of 8-bit texels may change, in the channel's unit.
+    double texels(const float* value) const {
+        if (!pair_.texels) return 0;
+        const double code = pair_.texels->linear_filter.rounding + mipCode;
+        switch (static_cast<gpu::uint>(mode_.number)) {
+            case gpu::DEBUG_metallic:
+            case gpu::DEBUG_roughness:
+            case gpu::DEBUG_occlusion:
+            case gpu::DEBUG_dielectric_f90:
+                return code;
+            case gpu::DEBUG_normals:
+                // Three components of 2 t - 1.
+                return 2 * std::sqrt(3.0) * code * degreesPerRadian;
+            case gpu::DEBUG_albedo:
+            case gpu::DEBUG_specular: {
+                double most = 0;
+                for (int c = 0; c < mode_.width; ++c) most = std::max(most, srgbBound(value[c]));
+                // F0 is albedo's mix by metallic.
+                return most + (mode_.number == static_cast<int>(gpu::DEBUG_specular) ? code : 0);
+            }
+            case gpu::DEBUG_emission:
+            case gpu::DEBUG_lightmap:
+                return srgbShare(1) * metrics::largestFinite(value, mode_.width);
+            default:
+                return 0;
+        }
+    }
+
+    // The largest share by which the device's value of a code is off, of codes from `first` on: a factor may
+    // have darkened the texel, never brightened it.
+    double srgbShare(std::size_t first) const {
+        double most = 0;
+        for (std::size_t code = std::max<std::size_t>(first, 1); code < 256; ++code)
+            most = std::max(most, pair_.texels->srgbError(code) / exactSrgb(code));
+        return most;
+    }
+    // Of a decoded colour; a code more for mip levels.
+    double srgbBound(double value) const {
+        std::size_t code = 0;
+        while (code < 254 && exactSrgb(code + 1) <= value) ++code;
+        return value * shares_[code] + exactSrgb(code + 1) - exactSrgb(code) +
+               pair_.texels->srgb_filter.rounding;
+    }
+
+    // The largest error of a smooth pixel, in the channel's metric; negative where it is not smooth.
+    double boundAt(int x, int y) const {
+        if (mode_.kind == ChannelKind::id) return 0;
+        const std::size_t i = indexOf(baseline_, x, y);
+        const double range = std::max(rangeAt(mode_, baseline_, x, y), rangeAt(mode_, test_, x, y));
+        const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
+        const double unit = mode_.metric == Metric::relative ? size : 1;  // of the metric, in the channel's
+        if (isGeometry(mode_)) return (range * 2 * snap + shadingRounding * std::max(size, 1e-9)) / unit;
+        // A fiftieth of what the channel can hold; of a direction two degrees.
+        const double smooth = mode_.domain == Domain::unit ? 2 : 0.02 * unit;
+        if (!(range <= smooth)) return -1;
+        if (isLit(mode_.number) && !isSameSurface(i)) return -1;
+        const double rounding =
+            mode_.domain == Domain::unit ? shadingRounding * degreesPerRadian : shadingRounding * unit;
+        // A device's mip level may be a step coarser than the pixel, which sees two pixels far.
+        return (2 * range + rounding + texels(baseline_.pixel(i))) / unit + encoding(i, unit) +
+               uncertainty(i) / unit;
+    }
+
+    // To what a sampled reference knows light, with 99.9 % confidence.
+    double uncertainty(std::size_t i) const {
+        const Image& known =
+            isReferenceFrame(pair_.baseline) ? pair_.baseline.uncertainty : pair_.test.uncertainty;
+        return isLit(mode_.number) && !known.empty() ? surerThan95 * double{*known.pixel(i)} : 0;
+    }
+
+    // What the bits of a packed path allow, in the channel's metric.
+    double encoding(std::size_t i, double unit) const {
+        if (!isLit(mode_.number)) return encodingBound(mode_, pair_);
+        const Image* const bits = allowedByBits(mode_, pair_);
+        return (bits ? double{*bits->pixel(i)} : 0) / unit;
+    }
+
+    // FLIP of the pixels with detail.
+    void judgeDetail(const std::vector<std::uint8_t>& detailed, std::uint64_t count,
+                     Footprints& result) const {
+        result.detailed = count;
+        FlipOptions options;
+        options.covered = detailed;
+        const double scale = mode_.metric == Metric::relative ? exposure(detailed) : 0;
+        result.flip = ldrFlip(pictureOf(baseline_, scale), pictureOf(test_, scale), options).mean;
+    }
+
+    // Which maps the mean of the baseline's detail to 0.18 (Reinhard et al. 2002); 1 where it is black.
+    double exposure(const std::vector<std::uint8_t>& detailed) const {
+        double sum = 0, count = 0;
+        for (std::size_t i = 0; i < baseline_.pixels(); ++i)
+            if (detailed[i] && metrics::finite(baseline_.pixel(i), mode_.width)) {
+                sum += metrics::largestFinite(baseline_.pixel(i), mode_.width);
+                ++count;
+            }
+        return sum > 0 ? 0.18 * count / sum : 1;
+    }
+
+    // The channel as a picture of display values: radiance, where there is a `scale`, by Reinhard's curve and
+    // a display's, all else as its numbers are.
+    Image pictureOf(const Image& image, double scale) const {
+        Image picture(image.width, image.height, 3);
+        for (std::size_t i = 0; i < image.pixels(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const double value = image.pixel(i)[std::min(c, image.components - 1)],
+                             exposed = scale * value;
+                picture.pixel(i)[c] =
+                    static_cast<float>(scale > 0 ? std::pow(exposed / (1 + exposed), 1 / 2.2)
+                                       : mode_.domain == Domain::unit ? 0.5 * value + 0.5
+                                                                      : value);
+            }
+        return picture;
+    }
+
+    const DebugMode& mode_;
+    const FramePair& pair_;
+    const Image &baseline_, &test_;
+    PixelError error_;
+    std::array<double, 256> shares_{};  // srgbShare() of each code
+};
+
+}  // namespace
+
+Tolerance footprintTolerance(const Footprints& footprints) {
+    std::string because = fmt::format(
+        "{} pixels whose surroundings are smooth in both pictures are held to what changes there within two "
+        "pixels, "
+        "to what the device makes of texels of 8 bits, to a packed path's bits and to 1e-4",
+        footprints.smooth);
+    if (footprints.detailed > 0)
+        because += fmt::format("; the other {} to a mean FLIP of {}, and have {:.3g}", footprints.detailed,
+                               detailFlip, footprints.flip);
+    if (footprints.edges > 0) because += fmt::format("; {} at edges to nothing", footprints.edges);
+    return {footprints.most, because, true};
+}
+
+std::optional<Footprints> footprints(const DebugMode& mode, const FramePair& pair) {
+    if (isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
+    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    if (reference.settings.reference_mode != ReferenceMode::scene) return {};
+    return Judge(mode, pair)();
+}
+
+}  // namespace diptych

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Which pixels of a comparison with a reference in mode scene are held tightly and which by FLIP, and that
+// either can fail.
+#include "compare/verdict/footprint.h"
+#include "compare/verdict/comparison.h"
+#include "tests/unit/report_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+namespace {
+
+constexpr int side = 32;
+
+// The reference in mode scene and forward+, a picture of one material; every channel even.
+std::vector<Frame> evenFrames() {
+    std::vector<Frame> frames(2);
+    for (const Path path : {Path::reference, Path::forward_plus}) {
+        Frame& frame = frames[path == Path::forward_plus];
+        frame.name = std::string(nameOf(path));
+        frame.scene = "builtin:one";
+        frame.settings.path = path;
+        frame.settings.size = {side, side};
+        frame.settings.reference_mode =
+            path == Path::reference ? ReferenceMode::scene : ReferenceMode::surface;
+        for (const DebugMode& mode : debugModes()) {
+            if (mode.maker == MadeBy::paths_only) continue;
+            Image& image = frame.channels[mode.number] =
+                Image(side, side, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
+            if (mode.domain == Domain::unit)
+                for (std::size_t i = 0; i < image.pixels(); ++i)
+                    std::ranges::copy(std::array{0.6f, 0.0f, 0.8f}, image.pixel(i));
+        }
+    }
+    return frames;
+}
+
+Image& channelIn(Frame& frame, gpu::uint mode) {
+    return frame.channels.at(static_cast<int>(mode));
+}
+
+ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptions& options = {}) {
+    Report report;
+    report.device = {"a CPU", "1.0", "cpu"};
+    report.frames = std::move(frames);
+    const Comparison comparison = compareFrames(report, 0, 1, {}, options);
+    for (const ChannelDiff& channel : comparison.channels)
+        if (channel.mode->number == static_cast<int>(mode)) return channel;
+    throw std::runtime_error("no such channel");
+}
+
+// A checkerboard of two values, in the left half.
+void addDetail(Image& image, float low, float high, int phase = 0) {
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side / 2; ++x)
+            for (int c = 0; c < image.components; ++c) image.at(x, y, c) = (x + y + phase) % 2 ? low : high;
+}
+
+TEST(Footprint, EvenPixelsAreHeldTightly) {
+    std::vector<Frame> frames = evenFrames();
+    const ChannelDiff even = judged(frames, gpu::DEBUG_roughness);
+    ASSERT_TRUE(even.footprints.has_value());
+    EXPECT_EQ(even.footprints->smooth, std::uint64_t{side * side});
+    EXPECT_EQ(even.footprints->detailed, 0u);
+    EXPECT_EQ(even.verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 0.9e-4f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 1.2e-4f;
+    const ChannelDiff off = judged(frames, gpu::DEBUG_roughness);
+    EXPECT_EQ(off.verdict, Verdict::fail);
+    EXPECT_NE(off.reason.find("1.2 times it"), std::string::npos) << off.reason;
+}
+
+// Of 1,024 pixels one may be beyond its bound and two may not: p99.9.
+TEST(Footprint, OnePixelInAThousandMayBeBeyond) {
+    for (const int count : {1, 2}) {
+        std::vector<Frame> frames = evenFrames();
+        for (int i = 0; i < count; ++i) channelIn(frames[1], gpu::DEBUG_depth).at(4 + 8 * i, 8) = 0.5f * 1.1f;
+        // Its own range makes up for a sixty-fourth of the error.
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, count == 1 ? Verdict::pass : Verdict::fail);
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).footprints->beyond, static_cast<std::uint64_t>(count));
+    }
+}
+
+TEST(Footprint, DetailIsJudgedByFlip) {
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames) addDetail(channelIn(frame, gpu::DEBUG_albedo), 0.2f, 0.8f);
+    const ChannelDiff alike = judged(frames, gpu::DEBUG_albedo);
+    EXPECT_EQ(alike.footprints->detailed, std::uint64_t{side * (side / 2 + 1)})
+        << "the board, and the even column beside it";
+    EXPECT_EQ(alike.footprints->flip, 0);
+    EXPECT_EQ(alike.verdict, Verdict::pass);
+    // Another mean is another texture; the right half stays as it is.
+    addDetail(channelIn(frames[1], gpu::DEBUG_albedo), 0.0f, 0.1f);
+    const ChannelDiff other = judged(frames, gpu::DEBUG_albedo);
+    EXPECT_EQ(other.footprints->beyond, 0u);
+    EXPECT_GT(other.footprints->flip, detailFlip);
+    EXPECT_EQ(other.verdict, Verdict::fail);
+    EXPECT_NE(other.reason.find("FLIP is"), std::string::npos) << other.reason;
+    EXPECT_NE(other.tolerance.because.find("to a mean FLIP"), std::string::npos);
+}
+
+// An edge between two materials is nobody's fault in geometry; a moved camera is, everywhere else.
+TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames)
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side / 2; ++x) {
+                channelIn(frame, gpu::DEBUG_material_id).at(x, y) = 4;
+                channelIn(frame, gpu::DEBUG_depth).at(x, y) = 7;
+            }
+    channelIn(frames[1], gpu::DEBUG_depth).at(side / 2 - 1, 5) = 0.5f;
+    const ChannelDiff edge = judged(frames, gpu::DEBUG_depth);
+    EXPECT_EQ(edge.verdict, Verdict::pass);
+    EXPECT_EQ(edge.footprints->edges, std::uint64_t{2 * side});
+    for (float& v : channelIn(frames[1], gpu::DEBUG_depth).data) v *= 1.001f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail);
+}
+
+// Light is held tightly where both have one surface: elsewhere the surface's own channel fails.
+TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
+    std::vector<Frame> frames = evenFrames();
+    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v *= 1.01f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_metallic).data) v += 0.01f;
+    const ChannelDiff light = judged(frames, gpu::DEBUG_lit);
+    EXPECT_EQ(light.footprints->smooth, 0u);
+    EXPECT_EQ(light.verdict, Verdict::pass) << "a hundredth is no FLIP of 0.25";
+    EXPECT_EQ(judged(frames, gpu::DEBUG_metallic).verdict, Verdict::fail);
+}
+
+// What the device makes of texels is granted as it is measured: at this code and no more.
+TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
+    CompareOptions options;
+    TextureSampling& texels = options.texels.emplace();
+    for (std::size_t code = 0; code < 256; ++code) {
+        texels.linear[code] = static_cast<float>(code) / 255;
+        texels.srgb[code] = static_cast<float>(exactSrgb(code));
+    }
+    std::vector<Frame> frames = evenFrames();
+    // A code at a half is 0.006 wide, which mip levels may be off by.
+    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.005f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.012f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail);
+    texels.srgb[220] = static_cast<float>(exactSrgb(220) * 1.02);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::pass) << "2 % at a brighter code";
+    texels.srgb[220] = static_cast<float>(exactSrgb(220));
+    texels.srgb[100] = static_cast<float>(exactSrgb(100) * 1.02);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail)
+        << "no factor brightens a darker code to a half";
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 0.9f / 255;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 1.1f / 255;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::fail);
+}
+
+TEST(Footprint, OtherComparisonsHaveNone) {
+    std::vector<Frame> frames = evenFrames();
+    frames[0].settings.reference_mode = ReferenceMode::surface;
+    EXPECT_FALSE(judged(frames, gpu::DEBUG_roughness).footprints.has_value());
+}
+
+}  // namespace
+}  // namespace diptych
