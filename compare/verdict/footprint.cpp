@@ -209,13 +209,15 @@ private:
     double boundAt(int x, int y) const {
         if (mode_.kind == ChannelKind::id) return 0;
         const std::size_t i = indexOf(baseline_, x, y);
-        const double range = std::max(rangeAt(mode_, baseline_, x, y), rangeAt(mode_, test_, x, y));
+        // The reference's alone: what is judged must not widen what it is held to.
+        const bool first = isReferenceFrame(pair_.baseline);
+        const double range = rangeAt(mode_, first ? baseline_ : test_, x, y);
         const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
         const double unit = mode_.metric == Metric::relative ? size : 1;  // of the metric, in the channel's
         if (isGeometry(mode_)) return (range * 2 * snap + shadingRounding * std::max(size, 1e-9)) / unit;
         // A fiftieth of what the channel can hold; of a direction two degrees.
         const double smooth = mode_.domain == Domain::unit ? 2 : 0.02 * unit;
-        if (!(range <= smooth)) return -1;
+        if (!(std::max(range, rangeAt(mode_, first ? test_ : baseline_, x, y)) <= smooth)) return -1;
         if (isLit(mode_.number) && !isSameSurface(i)) return -1;
         const double rounding =
             mode_.domain == Domain::unit ? shadingRounding * degreesPerRadian : shadingRounding * unit;
@@ -286,9 +288,8 @@ private:
 
 Tolerance footprintTolerance(const Footprints& footprints) {
     std::string because = fmt::format(
-        "{} pixels whose surroundings are smooth in both pictures are held to what changes there within two "
-        "pixels, "
-        "to what the device makes of texels of 8 bits, to a packed path's bits and to 1e-4",
+        "{} pixels whose surroundings are smooth in both pictures are held to twice the change in the "
+        "reference, to what the device makes of texels of 8 bits, to a packed path's bits and to 1e-4",
         footprints.smooth);
     if (footprints.detailed > 0)
         because += fmt::format("; the other {} to a mean FLIP of {}, and have {:.3g}", footprints.detailed,

@@ -146,7 +146,7 @@ TEST(Encoding, F90InEightBits) {
     EXPECT_GT(worst, 0.45 / 255);
 }
 
-// Decoding never leaves the unit sphere, whatever the code: also codes that no direction is encoded to.
+// Decoding never leaves the unit sphere.
 TEST(Encoding, EveryOctahedralCodeIsAUnitVector) {
     Probes probes;
     for (const int bits : {8, 12, 16}) {
@@ -167,6 +167,20 @@ TEST(Encoding, EveryOctahedralCodeIsAUnitVector) {
         // A sum of three products, a root and a division, each rounded.
         EXPECT_LE(worst, 10 * 0x1p-24) << bits << " bits";
     }
+}
+
+// Decoded numbers are within [0, 1], also of numbers that are not.
+TEST(Encoding, PackedNumbersStayWithinTheirDomain) {
+    Probes probes;
+    std::vector<float> input;
+    for (const float x : {0.0f, 1.0f, 0.5f, 1e-30f, std::nextafter(1.0f, 0.0f), 1.5f, -0.5f, 1e30f, -1e30f})
+        input.insert(input.end(), {x, x, x});
+    const std::vector<float> output = probes.run("packing", input, 3, 8);
+    for (std::size_t row = 0; row < input.size() / 3; ++row)
+        for (std::size_t i = 3; i < 8; ++i) {
+            EXPECT_GE(output[row * 8 + i], 0.0f) << input[row * 3];
+            EXPECT_LE(output[row * 8 + i], 1.0f) << input[row * 3];
+        }
 }
 
 // What shading propagates and what verdicts grant are the same bounds.

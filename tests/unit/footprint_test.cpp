@@ -128,7 +128,7 @@ TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     for (float& v : channelIn(frames[1], gpu::DEBUG_metallic).data) v += 0.01f;
     const ChannelDiff light = judged(frames, gpu::DEBUG_lit);
     EXPECT_EQ(light.footprints->smooth, 0u);
-    EXPECT_EQ(light.verdict, Verdict::pass) << "a hundredth is no FLIP of 0.25";
+    EXPECT_EQ(light.verdict, Verdict::pass) << "a hundredth is no FLIP of 0.3";
     EXPECT_EQ(judged(frames, gpu::DEBUG_metallic).verdict, Verdict::fail);
 }
 
