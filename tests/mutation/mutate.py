@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Breaks the product on purpose, edit by edit, and says which test notices.
 
-    mutate.py --check              every edit still applies to exactly one place; every test that it names is there
-    mutate.py --list               the edits, one a line
-    mutate.py WORK                 copies what is committed into WORK, builds it, and tries every edit in the copy
-    mutate.py WORK --table FILE    writes what WORK/results.jsonl has as a Markdown table; tries nothing
+    mutate.py --check            every edit still applies to exactly one place; the tests that it names are there
+    mutate.py --list             the edits, one a line
+    mutate.py WORK               copies what is committed into WORK, builds it, and tries every edit in the copy
+    mutate.py WORK --table FILE  writes what WORK/results.jsonl has as a Markdown table; tries nothing
 
 The edits are in edits/, a file a room: edits/shared/scene.txt is of files under shared/scene. A block an edit:
 
@@ -16,13 +16,14 @@ The edits are in edits/, a file a room: edits/shared/scene.txt is of files under
     run: unit View.*
     run: image MaterialPictures.*
 
-What follows a | is text as it stands in the file; further lines of it begin with a | of their own, after spaces.
-`old` occurs once in its file. `run` says what should notice: unit, probe, image or tool, and a filter of GoogleTest,
-the cheapest first. `equivalent: PROOF` in the place of `run` says why no test can notice. # begins a comment.
+What follows a | is text as it stands in the file; further lines of it begin with a | of their own, after
+spaces. `old` occurs once in its file. `run` says what should notice: unit, probe, image or tool, and a filter
+of GoogleTest, the cheapest first. `equivalent: PROOF` in the place of `run` says why no test can notice. #
+begins a comment.
 
-Tests are run until one fails. Where none of those that an edit names does, WIDE below is run before the edit is
-called survived. What fails without any edit is found first and left out. Results are added to WORK/results.jsonl as
-they are known; an edit that has one is not tried again.
+Tests are run until one fails. Where none of those that an edit names does, WIDE below is run before the edit
+is called survived. What fails without any edit is found and left out. Results are added to
+WORK/results.jsonl as they are known; an edit that has one is not tried again.
 """
 import argparse
 import collections
@@ -41,8 +42,8 @@ KEYS = ("file", "old", "new", "means", "run", "equivalent")
 
 # What is run before an edit is called survived: a push runs more, but nothing that is cheaper.
 WIDE = (("probe", "*"), ("unit", "*"),
-        ("image", "MaterialPictures*:*/MaterialPictures.*:KnownValues.*:FrameOf.*:AmbientReference.*:LightCells.*:"
-                  "LightLists.*:PerObject.*:RecordedBarriers.*:Unlit.*:BoundOfPictures.*:*/gallery:*/points"),
+        ("image", "*/MaterialPictures.*:KnownValues.*:FrameOf.*:Ambient.*:AreaLightPictures.*:LightCells.*:"
+                  "LightLists.*:PerObject.*:RecordedBarriers.*:SkippedWork.*:Unlit.*:*/gallery:*/points"),
         ("tool", "Command.*:Baseline.*:Diff*:Strict*:Selection.*:Noise.*:Bench*"))
 LONGEST = 1800  # seconds that one run of tests may take; longer is a hang
 
@@ -69,7 +70,7 @@ class Edit:
         return f"{self.file}: {self.means}"
 
 
-# --- the lists -------------------------------------------------------------------------------------------------------
+# --- the lists -----------------------------------------------------------------------------------------------
 
 def finished(edit, root):
     for key in ("file", "old", "new", "means"):
@@ -151,7 +152,7 @@ def tests_of(root):
 
 
 def has_test(names, pattern):
-    """Whether a pattern of GoogleTest may match: PREFIX/SUITE.TEST/PARAMETER, all but SUITE.TEST left aside"""
+    """Whether a pattern of GoogleTest may match: of PREFIX/SUITE.TEST/PARAMETER, SUITE.TEST is looked at"""
     suite, dot, test = pattern.partition(".")
     wanted = suite.split("/")[-1] + dot + test.split("/")[0] + ("" if dot else "*")
     return any(fnmatch.fnmatchcase(name, wanted) for name in names)
@@ -174,7 +175,7 @@ def read_lists(root):
     return edits, stale
 
 
-# --- the copy that is edited -----------------------------------------------------------------------------------------
+# --- the copy that is edited ---------------------------------------------------------------------------------
 
 class Product:
     """A clone in a folder of its own, the product's sources compiled one by one (sources_alone.cmake)."""
@@ -236,7 +237,7 @@ class Product:
         return self.copy / edit.file
 
 
-# --- trying ----------------------------------------------------------------------------------------------------------
+# --- trying --------------------------------------------------------------------------------------------------
 
 def targets_of(edit, kind, quick):
     if quick and kind == "probe" and edit.file.startswith("shaders/"):
@@ -249,11 +250,13 @@ def without(tests, broken):
     return tests + (("" if "-" in tests else "-") + (":" if "-" in tests else "") + names if names else "")
 
 
-def outcome_of(edit, product, broken, wide):
+def outcome_of(edit, product, broken, kinds):
     """caught by, seconds of building, seconds of testing"""
     building = testing = 0.0
-    steps = [(run, True) for run in edit.runs] + [(run, False) for run in (WIDE if wide else ())]
+    steps = [(run, True) for run in edit.runs] + [(run, False) for run in WIDE if set(kinds) == set(KINDS)]
     for (kind, tests), named in steps:
+        if kind not in kinds:
+            continue
         start = time.monotonic()
         said = product.build(targets_of(edit, kind, named))
         building += time.monotonic() - start
@@ -264,15 +267,16 @@ def outcome_of(edit, product, broken, wide):
         testing += time.monotonic() - start
         if failed:
             return {"by": kind, "test": failed[0], "named": named}, building, testing
-    return {"by": "nothing", "wide": wide}, building, testing
+    return {"by": "nothing"}, building, testing
 
 
-def find_broken(product, edits, known):
-    """kind -> tests that fail without any edit, of those that these edits name and of WIDE"""
+def find_broken(product, edits, known, kinds):
+    """kind -> tests that fail without any edit, of those that these edits name"""
     wanted = collections.defaultdict(set)
     for edit in edits:
         for kind, tests in edit.runs:
-            wanted[kind].add(tests)
+            if kind in kinds:
+                wanted[kind].add(tests)
     broken = {kind: set(known.get(kind, {}).get("broken", [])) for kind in KINDS}
     for kind in sorted(wanted, key=KINDS.index):
         looked = set(known.get(kind, {}).get("looked", []))
@@ -289,13 +293,13 @@ def find_broken(product, edits, known):
 
 def words_of(outcome):
     if outcome["by"] == "nothing":
-        return "survived" if outcome["wide"] else "not caught by the tests that it names"
+        return "survived"
     if outcome["by"] == "compiler":
         return "caught by the compiler: replace it"
     return f"caught by {outcome['by']} {outcome['test']}" + ("" if outcome["named"] else " (not named)")
 
 
-def try_edit(edit, product, broken, wide=True):
+def try_edit(edit, product, broken, kinds):
     path = product.path(edit)
     original = path.read_bytes()
     text = original.decode("utf-8")
@@ -305,7 +309,7 @@ def try_edit(edit, product, broken, wide=True):
     while True:
         path.write_bytes(text.replace(edit.old, edit.new).encode("utf-8"))
         try:
-            outcome, build_s, test_s = outcome_of(edit, product, broken, wide)
+            outcome, build_s, test_s = outcome_of(edit, product, broken, kinds)
         finally:
             path.write_bytes(original)
         building, testing = building + build_s, testing + test_s
@@ -329,35 +333,37 @@ def results_in(path):
     return {result["key"]: result for result in map(json.loads, lines)}
 
 
-def try_all(edits, make_product, work, again, wide=True):
+def try_all(edits, make_product, work, again, kinds):
     work.mkdir(parents=True, exist_ok=True)
     file = work / "results.jsonl"
     done = results_in(file)
-    edits = [e for e in edits if e.equivalent is None and (again or e.key not in done)]
+    edits = [e for e in edits if any(kind in kinds for kind, _ in e.runs) and (again or e.key not in done)]
     if not edits:
         return 0
     product = make_product()
-    kinds = [kind for kind in KINDS if any(kind == k for e in edits for k, _ in e.runs)]
-    said = product.build(["diptych"] + [f"{kind}_tests" for kind in kinds])
+    said = product.build([f"{kind}_tests" for kind in kinds] + ["diptych"] * ("tool" in kinds))
     if said is not None:
         print(f"{product.commit} does not build without an edit:\n{said}")
         return 2
     known_file = work / f"unedited-{product.commit}.json"
     known = json.loads(known_file.read_text(encoding="utf-8")) if known_file.exists() else {}
-    broken = find_broken(product, edits, known)
+    broken = find_broken(product, edits, known, kinds)
     known_file.write_text(json.dumps(known, indent=1), encoding="utf-8")
     survived = 0
     for number, edit in enumerate(edits, 1):
-        result = try_edit(edit, product, broken, wide)
-        with file.open("a", encoding="utf-8") as out:
-            out.write(json.dumps(result) + "\n")
-        survived += result["by"] == "nothing"
-        print(f"{number}/{len(edits)} {edit}: {words_of(result)}"
+        result = try_edit(edit, product, broken, kinds)
+        known_by_all = result["by"] != "nothing" or set(kinds) == set(KINDS)
+        if known_by_all:
+            with file.open("a", encoding="utf-8") as out:
+                out.write(json.dumps(result) + "\n")
+            survived += result["by"] == "nothing"
+        said = words_of(result) if known_by_all else f"not caught by {', '.join(kinds)}"
+        print(f"{number}/{len(edits)} {edit}: {said}"
               f" [{result['build_s']:.0f} s + {result['test_s']:.0f} s]", flush=True)
     return 1 if survived else 0
 
 
-# --- what is written -------------------------------------------------------------------------------------------------
+# --- what is written -----------------------------------------------------------------------------------------
 
 def cell(text):
     return text.replace("|", "\\|").replace("\n", " ")
@@ -371,12 +377,11 @@ def summary(edits, results):
         if edit.equivalent is not None:
             counts["equivalent"] += 1
         elif edit.key in results:
-            by = results[edit.key]["by"]
-            counts["unclear" if by == "nothing" and not results[edit.key]["wide"] else by] += 1
+            counts[results[edit.key]["by"]] += 1
         else:
             counts["not run"] += 1
-    heads = ("edits", *KINDS, "compiler", "nothing", "unclear", "equivalent", "not run")
-    lines = ["| room | edits | unit | probe | image | tool | compiler | survived | not by those named | equivalent | not run |",
+    heads = ("edits", *KINDS, "compiler", "nothing", "equivalent", "not run")
+    lines = ["| room | edits | unit | probe | image | tool | compiler | survived | equivalent | not run |",
              "|---|" + "---|" * len(heads)]
     for room, counts in [*rooms.items(), ("all", sum(rooms.values(), collections.Counter()))]:
         lines.append(f"| {room} | " + " | ".join(str(counts[h] or "") for h in heads) + " |")
@@ -385,7 +390,7 @@ def summary(edits, results):
 
 def table(edits, results):
     lines = ["# What catches the edits of edits/", "",
-             "Written by `mutate.py WORK --table results.md`; each line was run at the commit that it names.", "",
+             "Written by `mutate.py WORK --table`; each edit was tried at the commit that its line names.", "",
              summary(edits, results), ""]
     room = None
     for edit in edits:
@@ -393,10 +398,16 @@ def table(edits, results):
             room = edit.room
             lines += ["", f"## {room}", "", "| file | edit | what notices | at |", "|---|---|---|---|"]
         result = results.get(edit.key)
-        said = f"equivalent: {edit.equivalent}" if edit.equivalent else words_of(result) if result else "not run"
+        said = words_of(result) if result else "not run"
+        if edit.equivalent:
+            said = f"equivalent: {edit.equivalent}"
         lines.append(f"| {edit.file.removeprefix(room + '/')} | {cell(edit.means)} | {cell(said)} | "
                      f"{result['commit'] if result else ''} |")
     return "\n".join(lines) + "\n"
+
+
+def words_in(edit):
+    return " ".join([edit.place, str(edit), *(f"{kind} {tests}" for kind, tests in edit.runs)])
 
 
 def main(arguments, root=ROOT, make=Product):
@@ -405,11 +416,13 @@ def main(arguments, root=ROOT, make=Product):
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--table", type=pathlib.Path)
-    parser.add_argument("--only", default="", help="edits whose list, file, meaning or tests have this, a regular expression")
+    parser.add_argument("--only", default="",
+                        help="a regular expression: of an edit's list, file, meaning or tests")
     parser.add_argument("--shard", default="1/1", help="I/N: every N-th edit from the I-th on")
     parser.add_argument("--commit", default="HEAD", help="what is copied")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--named", action="store_true", help="run no other tests than those that an edit names")
+    parser.add_argument("--kinds", default=",".join(KINDS),
+                        help="run tests of these alone; what they do not catch is left for a later run")
     parser.add_argument("--again", action="store_true", help="try also what has a result")
     options = parser.parse_args(arguments)
 
@@ -424,11 +437,11 @@ def main(arguments, root=ROOT, make=Product):
         results = results_in(options.work / "results.jsonl")
         options.table.write_text(table(edits, results), encoding="utf-8")
         return 0
+    kinds = tuple(kind for kind in KINDS if kind in options.kinds.split(","))
     first, every = map(int, options.shard.split("/"))
     if not 1 <= first <= every:
         parser.error("--shard I/N, I from 1 to N")
-    edits = [e for e in edits
-             if re.search(options.only, f"{e.place} {e} {' '.join(k + ' ' + t for k, t in e.runs)}")][first - 1::every]
+    edits = [edit for edit in edits if re.search(options.only, words_in(edit))][first - 1::every]
     if options.list:
         for edit in edits:
             print(f"{edit.place}: {edit}" + (" (equivalent)" if edit.equivalent else ""))
@@ -437,7 +450,7 @@ def main(arguments, root=ROOT, make=Product):
         parser.error("a folder to work in")
     try:
         code = try_all(edits, lambda: make(root, options.work.resolve(), options.jobs, options.commit),
-                       options.work, options.again, not options.named)
+                       options.work, options.again, kinds)
     except Stale as wrong:
         print(wrong)
         return 2

@@ -22,6 +22,8 @@ new: |return 3 * x;
 means: three times
 run: unit Twice.*
 """
+# Which no test can notice.
+COMMENT = EDIT.replace("|return 2 * x;", "|2 is two").replace("|return 3 * x;", "|two")
 
 
 class Folder(unittest.TestCase):
@@ -137,7 +139,7 @@ class Trying(Folder):
         self.assertIn("three times: caught by unit Twice.OfThreeIsSix", said)
 
     def test_what_no_test_notices_survived(self):
-        code, said = self.try_all(EDIT.replace("|return 2 * x;", "|2 is two").replace("|return 3 * x;", "|two"))
+        code, said = self.try_all(COMMENT)
         self.assertEqual(code, 1)
         self.assertIn("three times: survived", said)
 
@@ -149,9 +151,8 @@ class Trying(Folder):
         class Broken(FakeProduct):
             broken = ("Twice.OfNoneIsNone",)
 
-        text = EDIT.replace("|return 2 * x;", "|2 is two").replace("|return 3 * x;", "|two")
         for named in ("Twice.*", "Twice.OfThreeIsSix"):  # by the edit, and by those that are run at last
-            code, said = self.try_all(text.replace("Twice.*", named), Broken)
+            code, said = self.try_all(COMMENT.replace("Twice.*", named), Broken)
             self.assertEqual(code, 1)
             self.assertIn("left out: unit Twice.OfNoneIsNone", said)
             self.assertIn("three times: survived", said)
@@ -160,8 +161,8 @@ class Trying(Folder):
 
     def test_results_add_up_and_are_tabled(self):
         self.try_all(EDIT)
-        equivalent = EDIT.replace("|return 2 * x;", "|2 is two").replace("|return 3 * x;", "|two").replace(
-            "run: unit Twice.*", "equivalent: a comment").replace("three times", "another comment")
+        equivalent = COMMENT.replace("run: unit Twice.*", "equivalent: a comment")
+        equivalent = equivalent.replace("three times", "another comment")
         code, said = self.try_all(EDIT + "\n" + equivalent)
         self.assertNotIn("caught by unit", said)  # not tried again
         table = pathlib.Path(self.folder.name) / "table.md"
@@ -170,6 +171,12 @@ class Trying(Folder):
         self.assertIn("| shared | 2 | 1 |", text)
         self.assertIn("| twice.cpp | three times | caught by unit Twice.OfThreeIsSix | 0000000 |", text)
         self.assertIn("| twice.cpp | another comment | equivalent: a comment |", text)
+
+    def test_what_other_kinds_may_catch_is_left_for_them(self):
+        self.edits(COMMENT)
+        code, said = self.run_with(self.work, "--kinds", "unit,probe", make=FakeProduct)
+        self.assertIn("three times: not caught by unit, probe", said)
+        self.assertFalse((self.work / "results.jsonl").exists())
 
     def test_a_shard_is_every_nth(self):
         other = EDIT.replace("3 * x", "4 * x").replace("three", "four")
