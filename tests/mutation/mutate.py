@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Breaks the product on purpose, edit by edit, and says which test notices.
 
-    mutate.py --check            every edit still applies to exactly one place; the tests that it names are there
+    mutate.py --check            every edit applies to exactly one place; the tests that it names are there
     mutate.py --list             the edits, one a line
-    mutate.py WORK               copies what is committed into WORK, builds it, and tries every edit in the copy
+    mutate.py WORK               copies what is committed into WORK, builds it, tries every edit in it
     mutate.py WORK --table FILE  writes what WORK/results.jsonl has as a Markdown table; tries nothing
 
-The edits are in edits/, a file a room: edits/shared/scene.txt is of files under shared/scene. A block an edit:
+The edits are in edits/, a file a room: edits/shared/scene.txt is of files under shared/scene. Of an edit:
 
     file: shared/scene/view.cpp
     old: |const double half = camera.ymag;
@@ -70,7 +70,7 @@ class Edit:
         return f"{self.file}: {self.means}"
 
 
-# --- the lists -----------------------------------------------------------------------------------------------
+# --- the lists --------------------------------------------------------------------------------------------
 
 def finished(edit, root):
     for key in ("file", "old", "new", "means"):
@@ -175,7 +175,7 @@ def read_lists(root):
     return edits, stale
 
 
-# --- the copy that is edited ---------------------------------------------------------------------------------
+# --- the copy that is edited ------------------------------------------------------------------------------
 
 class Product:
     """A clone in a folder of its own, the product's sources compiled one by one (sources_alone.cmake)."""
@@ -237,7 +237,7 @@ class Product:
         return self.copy / edit.file
 
 
-# --- trying --------------------------------------------------------------------------------------------------
+# --- trying -----------------------------------------------------------------------------------------------
 
 def targets_of(edit, kind, quick):
     if quick and kind == "probe" and edit.file.startswith("shaders/"):
@@ -363,7 +363,7 @@ def try_all(edits, make_product, work, again, kinds):
     return 1 if survived else 0
 
 
-# --- what is written -----------------------------------------------------------------------------------------
+# --- what is written --------------------------------------------------------------------------------------
 
 def cell(text):
     return text.replace("|", "\\|").replace("\n", " ")
@@ -390,7 +390,7 @@ def summary(edits, results):
 
 def table(edits, results):
     lines = ["# What catches the edits of edits/", "",
-             "Written by `mutate.py WORK --table`; each edit was tried at the commit that its line names.", "",
+             "Written by `mutate.py WORK --table`; each edit was tried at the commit beside it.", "",
              summary(edits, results), ""]
     room = None
     for edit in edits:
