@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Each number of a Frame stands under its own key of report.json.
+#include "compare/files/frame_json.h"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+TEST(FrameJson, EveryNumberStandsUnderItsKey) {
+    Frame frame;
+    frame.time.median = 2;
+    frame.time.min = 1;
+    frame.time.max = 3;
+    frame.time.runs = 4;
+    frame.time.record = 5;
+    frame.time.object_lists = 6;
+    frame.made_in_ms = 7;
+    frame.relative_uncertainty = 8;
+    frame.bytes.images = 9;
+    frame.bytes.buffers = 10;
+    frame.bytes.gbuffer_per_pixel = 11;
+    frame.counters.nonfinite_pixels = 12;
+    frame.counters.overflowed_lists = 13;
+    frame.counters.lights = 14;
+    frame.counters.unreproduced_pixels = 15;
+    frame.counters.energy_cut = 16;
+    frame.settings.size = {17, 18};
+    const auto json = jsonOf(frame);
+    EXPECT_EQ(json["ms"]["median"], 2);
+    EXPECT_EQ(json["ms"]["min"], 1);
+    EXPECT_EQ(json["ms"]["max"], 3);
+    EXPECT_EQ(json["ms"]["runs"], 4);
+    EXPECT_EQ(json["host_ms"]["record"], 5);
+    EXPECT_EQ(json["host_ms"]["object_lists"], 6);
+    EXPECT_EQ(json["made_in_ms"], 7);
+    EXPECT_EQ(json["uncertainty"], 8);
+    EXPECT_EQ(json["bytes"]["images"], 9);
+    EXPECT_EQ(json["bytes"]["buffers"], 10);
+    EXPECT_EQ(json["bytes"]["gbuffer_per_pixel"], 11);
+    EXPECT_EQ(json["counters"]["nonfinite_pixels"], 12);
+    EXPECT_EQ(json["counters"]["overflowed_lists"], 13);
+    EXPECT_EQ(json["counters"]["lights"], 14);
+    EXPECT_EQ(json["counters"]["unreproduced_pixels"], 15);
+    EXPECT_EQ(json["counters"]["energy_cut"], 16);
+    EXPECT_EQ(json["size"], (nlohmann::ordered_json{17, 18}));
+}
+
+}  // namespace
+}  // namespace diptych

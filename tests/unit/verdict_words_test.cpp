@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The command that a report prints has every option that decides what counts, as it was given.
+#include "compare/cli/verdict_words.h"
+#include "compare/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+using VerdictWordList = std::vector<std::string>;
+
+VerdictWordList wordsAgain(VerdictWordList command, const VerdictWordList& said) {
+    command.insert(command.end(), said.begin(), said.end());
+    return cli::wordsOfWhatCounts(cli::parseCommandLine(command));
+}
+
+TEST(VerdictWords, OfDiffAreThoseThatWereGiven) {
+    for (const VerdictWordList& said : {
+             VerdictWordList{"--tolerances", "t.json"},
+             {"--metric", "mae", "--tolerance", "0.25", "--warn", "0.125"},
+             {"--tolerance", "0.25", "--failing", "0.5"},
+             {"--map", "albedo=a.R,a.G,a.B", "--map", "depth=d.Z"},
+             {"--blur", "1.5", "--shift", "2"},
+             {"--ppd", "30", "--start-exposure=-3", "--stop-exposure", "4", "--exposures", "5"},
+             {"--mask", "m.png", "--ids", "1,3", "--ignore-edges", "2", "--crop", "1,2,30x40"},
+             {"--strict"},
+         })
+        EXPECT_EQ(wordsAgain({"diff", "a.exr", "b.exr"}, said), said);
+}
+
+TEST(VerdictWords, OfCompareAreThoseThatWereGiven) {
+    for (const VerdictWordList& said : {
+             VerdictWordList{"--tolerances", "t.json", "--baseline", "b.exr"},
+             {"--mask", "m.png", "--ids", "1,3", "--ignore-edges", "2", "--crop", "1,2,30x40"},
+             {"--allow-noise", "--strict"},
+         })
+        EXPECT_EQ(wordsAgain({"compare", "builtin:points"}, said), said);
+}
+
+TEST(VerdictWords, DefaultsNeedNone) {
+    EXPECT_EQ(wordsAgain({"compare"}, {}), VerdictWordList{});
+    EXPECT_EQ(wordsAgain({"diff", "a.exr", "b.exr"}, {}), VerdictWordList{});
+    EXPECT_EQ(wordsAgain({"diff", "a.exr", "b.exr"}, {"--ignore-edges", "0", "--blur", "0"}),
+              VerdictWordList{});
+}
+
+}  // namespace
+}  // namespace diptych
