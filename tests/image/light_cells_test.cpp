@@ -18,7 +18,7 @@ namespace diptych::tests {
 namespace {
 
 constexpr Size cutOff{213, 119};  // of neither a whole number of tiles
-constexpr double tangent = 0.5;
+constexpr double halfFieldTangent = 0.5;
 
 // A white wall across the view at this distance; the camera stands at the origin and looks along -Z.
 Scene wallAt(double distance, double near) {
@@ -27,7 +27,7 @@ Scene wallAt(double distance, double near) {
     scene.nodes[0].parent_from_node = glm::dmat4(20 * distance);
     scene.nodes[0].parent_from_node[3] = {0, 0, -distance, 1};
     scene.materials[0].metallic = 0;
-    scene.cameras[0].yfov = 2 * std::atan(tangent);
+    scene.cameras[0].yfov = 2 * std::atan(halfFieldTangent);
     scene.cameras[0].near = near;
     scene.cameras[0].world_from_camera[3] = {0, 0, 0, 1};
     return scene;
@@ -122,7 +122,7 @@ TEST(LightCells, TheLastSliceOfFroxelsIsUsed) {
         // The light ends in the last slice: there is none behind it that nothing needs.
         EXPECT_EQ(sliceAt(grid, wall + 0.02 * range), grid.slices - 1);
         const std::size_t lit = expectLitAlike(scene).size();
-        const double side = 2 * tangent * wall / cutOff.height,
+        const double side = 2 * halfFieldTangent * wall / cutOff.height,
                      radius = std::sqrt(1 - 0.98 * 0.98) * range / side;
         EXPECT_NEAR(static_cast<double>(lit), std::numbers::pi * radius * radius, 4 * radius + 2) << range;
         EXPECT_GT(lit, 2u);
@@ -145,7 +145,7 @@ TEST(LightCells, TheFirstSliceIsUsed) {
 // Lights that reach one pixel each, of every corner and edge of the picture: 0.3 pixels before the wall, with
 // a range of 0.8, the next pixels are 1.04 away.
 TEST(LightCells, TheOutermostTilesAreUsed) {
-    constexpr double wall = 10, side = 2 * tangent * wall / cutOff.height;
+    constexpr double wall = 10, side = 2 * halfFieldTangent * wall / cutOff.height;
     Scene scene = wallAt(wall, 0.1);
     std::set<std::pair<int, int>> expected;
     for (const int x : {0, cutOff.width / 2, cutOff.width - 1})
