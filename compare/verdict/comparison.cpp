@@ -301,6 +301,13 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         readCounters(*frame, comparison);
         readNoise(*frame, cpu, options.allow_noise, comparison);
     }
+    if (std::ranges::any_of(comparison.channels,
+                            [](const ChannelDiff& c) { return c.footprints.has_value(); }))
+        comparison.notes.push_back(
+            fmt::format("mode scene: tight is the share of pixels whose surroundings are smooth in both "
+                        "pictures, which are held "
+                        "to a bound each; the others are held to a mean FLIP of {}",
+                        detailFlip));
     std::vector<std::string> names;
     for (const ChannelDiff& channel : comparison.channels) names.emplace_back(channel.mode->name);
     for (const std::string& line : idleRules(options.rules, names)) comparison.notes.push_back(line);

@@ -50,9 +50,9 @@ const Image* find(const Frame& frame, gpu::uint mode) {
 
 // Visits the pixels around (x, y), itself left out.
 template <class Visit>
-void around(const Image& image, int x, int y, const Visit& visit) {
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
+void around(const Image& image, int x, int y, const Visit& visit, int radius = 1) {
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
+        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u)
             if (u != x || v != y) visit(u, v);
 }
 
@@ -66,13 +66,14 @@ double apart(const DebugMode& mode, const float* a, const float* b) {
     return mode.domain == Domain::unit ? metrics::angle(a, b) : metrics::distance(a, b, mode.width);
 }
 
-// How far the value changes within one pixel around (x, y).
-double rangeAt(const DebugMode& mode, const Image& image, int x, int y) {
+// How far the value changes within so many pixels around (x, y).
+double rangeAt(const DebugMode& mode, const Image& image, int x, int y, int radius = 1) {
     const float* const here = image.pixel(indexOf(image, x, y));
     double range = 0;
-    around(image, x, y, [&](int u, int v) {
-        range = std::max(range, apart(mode, image.pixel(indexOf(image, u, v)), here));
-    });
+    around(
+        image, x, y,
+        [&](int u, int v) { range = std::max(range, apart(mode, image.pixel(indexOf(image, u, v)), here)); },
+        radius);
     return range;
 }
 
@@ -156,16 +157,18 @@ private:
                 mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
             const double same = (mode.domain == Domain::unit ? degreesPerRadian : size) * sameSurface +
                                 (mode.metric == Metric::relative ? size : 1) * encodingBound(mode, pair_);
-            if (!(apart(mode, a->pixel(i), b->pixel(i)) <= same)) return false;
+            // Colours may be off by what the device decodes, which colours() grants light.
+            const double decoded = mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) : 0;
+            if (!(apart(mode, a->pixel(i), b->pixel(i)) <= same + decoded)) return false;
         }
         return true;
     }
 
     // What the device's decoding and filtering of 8-bit texels may change, in the channel's unit.
-    double texels(const float* value) const {
+    double texels(const DebugMode& mode, const float* value) const {
         if (!pair_.texels) return 0;
         const double code = pair_.texels->linear_filter.rounding + mipCode;
-        switch (static_cast<gpu::uint>(mode_.number)) {
+        switch (static_cast<gpu::uint>(mode.number)) {
             case gpu::DEBUG_metallic:
             case gpu::DEBUG_roughness:
             case gpu::DEBUG_occlusion:
@@ -177,16 +180,30 @@ private:
             case gpu::DEBUG_albedo:
             case gpu::DEBUG_specular: {
                 double most = 0;
-                for (int c = 0; c < mode_.width; ++c) most = std::max(most, srgbBound(value[c]));
+                for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
                 // F0 is albedo's mix by metallic.
-                return most + (mode_.number == static_cast<int>(gpu::DEBUG_specular) ? code : 0);
+                return most + (mode.number == static_cast<int>(gpu::DEBUG_specular) ? code : 0);
             }
             case gpu::DEBUG_emission:
             case gpu::DEBUG_lightmap:
-                return srgbShare(1) * metrics::largestFinite(value, mode_.width);
+                return srgbShare(1) * metrics::largestFinite(value, mode.width);
             default:
                 return 0;
         }
+    }
+
+    // What light of `size` may be off by where the device's colours are: all of it is multiplied by one of
+    // them.
+    double colours(std::size_t i, double size) const {
+        if (!isLit(mode_.number) || !pair_.texels) return 0;
+        double share = 0;
+        for (const gpu::uint number : {gpu::DEBUG_albedo, gpu::DEBUG_emission, gpu::DEBUG_lightmap}) {
+            const DebugMode& mode = debugMode(static_cast<int>(number));
+            const Image* const image = find(pair_.baseline, number);
+            const double value = image ? metrics::largestFinite(image->pixel(i), mode.width) : 0;
+            if (value > 0) share = std::max(share, texels(mode, image->pixel(i)) / value);
+        }
+        return share * size;
     }
 
     // The largest share by which the device's value of a code is off, of codes from `first` on: a factor may
@@ -221,9 +238,11 @@ private:
         if (isLit(mode_.number) && !isSameSurface(i)) return -1;
         const double rounding =
             mode_.domain == Domain::unit ? shadingRounding * degreesPerRadian : shadingRounding * unit;
-        // A device's mip level may be a step coarser than the pixel, which sees two pixels far.
-        return (2 * range + rounding + texels(baseline_.pixel(i))) / unit + encoding(i, unit) +
-               uncertainty(i) / unit;
+        // A device's mip level may be a step coarser than the pixel, which sees two pixels far; no further
+        // than an even slope of what is still smooth, for beside an edge nothing else is.
+        const double filtered = std::min(rangeAt(mode_, first ? baseline_ : test_, x, y, 2), 2 * smooth);
+        return (filtered + rounding + texels(mode_, baseline_.pixel(i)) + colours(i, size)) / unit +
+               encoding(i, unit) + uncertainty(i) / unit;
     }
 
     // To what a sampled reference knows light, with 99.9 % confidence.
@@ -288,7 +307,8 @@ private:
 
 Tolerance footprintTolerance(const Footprints& footprints) {
     std::string because = fmt::format(
-        "{} pixels whose surroundings are smooth in both pictures are held to twice the change in the "
+        "{} pixels whose surroundings are smooth in both pictures are held to what changes within two pixels "
+        "of the "
         "reference, to what the device makes of texels of 8 bits, to a packed path's bits and to 1e-4",
         footprints.smooth);
     if (footprints.detailed > 0)

@@ -47,6 +47,10 @@ ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptio
     report.device = {"a CPU", "1.0", "cpu"};
     report.frames = std::move(frames);
     const Comparison comparison = compareFrames(report, 0, 1, {}, options);
+    const bool traced = report.frames[0].settings.reference_mode == ReferenceMode::scene;
+    EXPECT_EQ(
+        std::ranges::any_of(comparison.notes, [](const auto& n) { return n.starts_with("mode scene: "); }),
+        traced);
     for (const ChannelDiff& channel : comparison.channels)
         if (channel.mode->number == static_cast<int>(mode)) return channel;
     throw std::runtime_error("no such channel");
