@@ -305,8 +305,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                             [](const ChannelDiff& c) { return c.footprints.has_value(); }))
         comparison.notes.push_back(
             fmt::format("mode scene: tight is the share of pixels whose surroundings are smooth in both "
-                        "pictures, which are held "
-                        "to a bound each; the others are held to a mean FLIP of {}",
+                        "pictures, which are held to a bound each; the others are held to a mean FLIP of {}",
                         detailFlip));
     std::vector<std::string> names;
     for (const ChannelDiff& channel : comparison.channels) names.emplace_back(channel.mode->name);

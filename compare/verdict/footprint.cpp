@@ -98,14 +98,15 @@ public:
             for (int x = 0; x < baseline_.width; ++x) {
                 const std::size_t i = indexOf(baseline_, x, y);
                 if (!pair_.coverage.covered[i]) continue;
+                const double error = error_(test_.pixel(i), baseline_.pixel(i));
                 const double bound = isInside(x, y) ? boundAt(x, y) : -1;
-                if (bound < 0) {
+                // A number against none is a fault wherever it is.
+                if (bound < 0 && std::isfinite(error)) {
                     detailed[i] = 1;
                     continue;
                 }
                 result.most = std::max(result.most, bound);
-                const double error = error_(test_.pixel(i), baseline_.pixel(i));
-                const double share = error == 0 ? 0 : error / bound;
+                const double share = error == 0 ? 0 : error / std::max(bound, 0.0);
                 used.push_back(std::isnan(share) ? std::numeric_limits<double>::infinity() : share);
                 result.beyond += !(share <= 1);
                 if (share > largest) {
@@ -132,18 +133,19 @@ public:
     }
 
 private:
-    // Whether both pictures show one material all around, and the same.
+    // Whether each picture shows one material, or the background, all around. Not that it is the same: where
+    // it is another, that is a fault.
     bool isInside(int x, int y) const {
         const Image *a = find(pair_.baseline, gpu::DEBUG_material_id),
                     *b = find(pair_.test, gpu::DEBUG_material_id);
         if (!a || !b) return true;
-        const float id = *a->pixel(indexOf(*a, x, y));
-        bool same = id >= 0 && *b->pixel(indexOf(*b, x, y)) == id;
+        const std::size_t here = indexOf(*a, x, y);
+        bool inside = true;
         around(*a, x, y, [&](int u, int v) {
             const std::size_t i = indexOf(*a, u, v);
-            same = same && *a->pixel(i) == id && *b->pixel(i) == id;
+            inside = inside && *a->pixel(i) == *a->pixel(here) && *b->pixel(i) == *b->pixel(here);
         });
-        return same;
+        return inside;
     }
 
     // Whether both pictures show one surface, so that what its light differs by is not its textures'.
@@ -308,8 +310,7 @@ private:
 Tolerance footprintTolerance(const Footprints& footprints) {
     std::string because = fmt::format(
         "{} pixels whose surroundings are smooth in both pictures are held to what changes within two pixels "
-        "of the "
-        "reference, to what the device makes of texels of 8 bits, to a packed path's bits and to 1e-4",
+        "of the reference, to what the device makes of texels of 8 bits, to a packed path's bits and to 1e-4",
         footprints.smooth);
     if (footprints.detailed > 0)
         because += fmt::format("; the other {} to a mean FLIP of {}, and have {:.3g}", footprints.detailed,

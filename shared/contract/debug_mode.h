@@ -16,21 +16,21 @@
 //   made by both (and the reference), forward_only where the G-buffer does not carry it, or by the two paths
 //   alone (paths_only): how they work, of which the reference knows nothing
 // clang-format off
-#define DEBUG_MODES(X)                                                                                         \
-    X(0,  lit,              3, relative, color,  any,      both,         "radiance, W/(sr m^2)")               \
-    X(1,  albedo,           3, absolute, color,  share,    both,         "base colour, linear Rec.709")        \
-    X(2,  normals,          3, angular,  vector, unit,     both,         "shading normal, world")              \
-    X(3,  metallic,         1, absolute, scalar, share,    both,         "metallic, 0 to 1")                   \
-    X(4,  roughness,        1, absolute, scalar, share,    both,         "perceptual roughness, 0 to 1")       \
-    X(5,  emission,         3, relative, color,  positive, both,         "emitted radiance, W/(sr m^2)")       \
-    X(6,  occlusion,        1, absolute, scalar, share,    both,         "ambient occlusion, 0 to 1")          \
+#define DEBUG_MODES(X)                                                                                 \
+    X(0,  lit,              3, relative, color,  any,      both,         "radiance, W/(sr m^2)")       \
+    X(1,  albedo,           3, absolute, color,  share,    both,         "base colour, linear Rec.709") \
+    X(2,  normals,          3, angular,  vector, unit,     both,         "shading normal, world")      \
+    X(3,  metallic,         1, absolute, scalar, share,    both,         "metallic, 0 to 1")           \
+    X(4,  roughness,        1, absolute, scalar, share,    both,         "perceptual roughness, 0 to 1") \
+    X(5,  emission,         3, relative, color,  positive, both,         "emitted radiance, W/(sr m^2)") \
+    X(6,  occlusion,        1, absolute, scalar, share,    both,         "ambient occlusion, 0 to 1")  \
     X(7,  specular,         3, absolute, color,  share,    both,         "F0, specular colour at normal incidence") \
     X(8,  material_id,      1, exact,    id,     any,      both,         "index of the material, -1 in the background") \
-    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first texture coordinates")          \
-    X(10, depth,            1, relative, scalar, positive, both,         "view depth, m (EXR layer Z)")        \
+    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first texture coordinates")  \
+    X(10, depth,            1, relative, scalar, positive, both,         "view depth, m (EXR layer Z)") \
     X(11, position,         3, relative, vector, any,      both,         "shading position, world axes, from the camera, m") \
-    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "normal of the triangle, world")      \
-    X(20, light_count,      1, absolute, scalar, positive, paths_only,   "lights evaluated at the pixel")      \
+    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "normal of the triangle, world") \
+    X(20, light_count,      1, absolute, scalar, positive, paths_only,   "lights evaluated at the pixel") \
     X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list found no room") \
     X(40, lit_diffuse,      3, relative, color,  any,      both,         "reflected by the diffuse lobe, W/(sr m^2)") \
     X(41, lit_specular,     3, relative, color,  any,      both,         "reflected by the specular lobe, W/(sr m^2)") \

@@ -21,9 +21,11 @@ Report twoGreys() {
 constexpr const char* wipeProbe = R"(
   const card = $('#c0-roughness'), pair = card.querySelector('.pair'), slider = pair.querySelector('input');
   const show = () => pair.scrollIntoView({ behavior: 'instant', block: 'center' });
-  const images = [...card.querySelectorAll('.stage .panel img')]; images.forEach(image => image.loading = 'eager');
+  const images = [...card.querySelectorAll('.stage .panel img')];
+  images.forEach(image => image.loading = 'eager');
   await until(() => images.every(image => image.complete && image.naturalWidth));
-  const under = x => { show(); const p = at(pair, x, .4), stage = document.elementFromPoint(p.clientX, p.clientY).closest('.stage');
+  const under = x => { show(); const p = at(pair, x, .4),
+      stage = document.elementFromPoint(p.clientX, p.clientY).closest('.stage');
     return stage.classList[1] + ' ' + stage.querySelector('.tag').textContent; };
   const grey = image => { const canvas = document.createElement('canvas'), draw = canvas.getContext('2d');
     canvas.width = image.naturalWidth; canvas.height = image.naturalHeight; draw.drawImage(image, 0, 0);

@@ -124,6 +124,26 @@ TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
     EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail);
 }
 
+// Another material all over is no edge, and neither is an object that is not drawn.
+TEST(Footprint, AnotherMaterialIsNoEdge) {
+    for (const float id : {5.0f, -1.0f}) {
+        std::vector<Frame> frames = evenFrames();
+        for (float& v : channelIn(frames[1], gpu::DEBUG_material_id).data) v = id;
+        for (float& v : channelIn(frames[1], gpu::DEBUG_depth).data) v = id < 0 ? 0 : 0.7f;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_material_id).verdict, Verdict::fail) << id;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail) << id;
+    }
+}
+
+// A NaN is a fault wherever it is: FLIP's mean over the detail would hide two of them.
+TEST(Footprint, NansAreNeverDetail) {
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames) addDetail(channelIn(frame, gpu::DEBUG_albedo), 0.2f, 0.8f);
+    for (const int x : {3, 7})
+        channelIn(frames[1], gpu::DEBUG_albedo).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
+}
+
 // Light is held tightly where both have one surface: elsewhere the surface's own channel fails.
 TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     std::vector<Frame> frames = evenFrames();
