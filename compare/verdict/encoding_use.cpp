@@ -9,10 +9,14 @@
 namespace diptych {
 namespace {
 
-// Integrals over area lights are sums of terms that cancel, so that in the lobe's tail float32's rounding is
-// that of brighter light: of a tenth of the mean luminance, a hundred times the metric's floor. (Ten times
-// left two pixels of builtin:areas at 333x187 beyond, by 1.13.)
-constexpr double cancelling = 100;
+// What is darker than this many floors of the metric is rounded as brighter light. Integrals over area lights
+// are sums of terms that cancel, so that in the lobe's tail float32's rounding is that of a tenth of the mean
+// luminance. (Ten times left two pixels of builtin:areas at 333x187 beyond, by 1.13.)
+constexpr double areaCancelling = 100;
+
+double cancelling(const Requirements& needs) {
+    return needs.areaLights() > 0 ? areaCancelling : 1;
+}
 
 const Image* boundOf(const Frame& forward, const DebugMode& mode) {
     const auto found = forward.encoding_bound.find(mode.number);
@@ -36,8 +40,8 @@ std::optional<EncodingUse> encodingUse(const DebugMode& mode, const FramePair& p
         if (!pair.coverage.covered[i]) continue;
         const double size = std::max(metrics::largestFinite(own.pixel(i), own.components),
                                      metrics::largestFinite(read.pixel(i), read.components));
-        const double allowed =
-            (bound ? double{*bound->pixel(i)} : 0) + shadingRounding * std::max(size, cancelling * floor);
+        const double allowed = (bound ? double{*bound->pixel(i)} : 0) +
+                               shadingRounding * std::max(size, cancelling(pair.needs) * floor);
         const double inMetric =
             allowed / std::max(metrics::largestFinite(baseline.pixel(i), baseline.components), floor);
         if (std::isfinite(inMetric)) {

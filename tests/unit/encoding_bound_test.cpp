@@ -92,6 +92,28 @@ TEST(EncodingUse, IsJudgedPixelByPixel) {
     EXPECT_GT(firstOf(report).tolerance.max, 100) << "which the largest difference is far below";
 }
 
+// In a dark pixel the integrals over area lights round as light of a tenth of the mean luminance does, and
+// nothing else.
+TEST(EncodingUse, OnlyAreaLightsRoundAsBrighterLight) {
+    const auto beyond = [](std::uint32_t tubes, float apart) {
+        Frame deferred, forward;
+        deferred.settings.path = Path::deferred;
+        forward.settings.path = Path::forward_plus;
+        forward.encoding_bound[0] = Image(2, 1, 1, 0.0f);
+        forward.channels[0] = deferred.channels[0] = Image(2, 1, 3, 1.0f);
+        for (int c = 0; c < 3; ++c) forward.channels[0].at(1, 0, c) = 1e-5f;
+        for (int c = 0; c < 3; ++c) deferred.channels[0].at(1, 0, c) = 1e-5f + apart;
+        Requirements needs;
+        needs.tube_lights = tubes;
+        const Coverage both = everyPixel(2);
+        return encodingUse(debugMode(0), FramePair{deferred, forward, needs, both}).value().beyond;
+    };
+    EXPECT_EQ(beyond(0, 3e-8f), 0u) << "of the metric's floor";
+    EXPECT_EQ(beyond(0, 3e-6f), 1u);
+    EXPECT_EQ(beyond(1, 3e-6f), 0u);
+    EXPECT_EQ(beyond(1, 8e-6f), 1u);
+}
+
 // Against the reference a packed path is granted its bits and float32's shading, 1e-4, and no more.
 TEST(EncodingUse, AgainstTheReferenceTheBitsAreGrantedAndNoMore) {
     const auto verdictOf = [](float deferred, float bound, const char* camera = "") {
