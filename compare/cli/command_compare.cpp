@@ -7,6 +7,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/report/report.h"
 #include "compare/verdict/baseline.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/material/texture_probe.h"
 

@@ -4,7 +4,7 @@
 // the test's own.
 #include "compare/reference/reference.h"
 #include "compare/render/reference_frame.h"
-#include "compare/verdict/comparison.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both paths against the reference, the reference's two modes against each other, and negative controls with
 // faults on either side.
-#include "compare/verdict/comparison.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"

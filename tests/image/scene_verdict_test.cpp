@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The verdict on materials and textures of a whole scene, from the reference's own: sound paths pass, and a
 // fault that both paths share fails in its channel.
-#include "compare/verdict/comparison.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"

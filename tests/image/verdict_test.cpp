@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The verdict that users see: every built-in scene passes at the tolerances derived from its encoding, and
 // changing one constant in what one path draws fails the channel that shows it.
-#include "compare/verdict/comparison.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Options of comparing two paths: rules, masks, noise; and comparison with an earlier picture.
-#include "compare/verdict/comparison.h"
 #include "compare/verdict/measurement.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/unit/modes.h"
 #include "tests/unit/report_maker.h"

@@ -2,10 +2,10 @@
 // The bound of what an encoding may do to light: how it is gathered, what a verdict makes of it, and what is
 // outside of a channel's domain.
 #include "compare/render/encoding_bound.h"
-#include "compare/verdict/comparison.h"
 #include "compare/verdict/domain.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/measurement.h"
+#include "compare/verdict/pair_reports.h"
 #include "tests/unit/report_maker.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/report/report.h"
-#include "compare/verdict/comparison.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // The derived bounds against the encodings themselves, reimplemented here in double from the G-buffer's
 // description, and against the table of measured figures.
 #include "compare/verdict/tolerance.h"
-#include "compare/verdict/comparison.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
+#include "compare/verdict/pair_reports.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// One channel of two Frames: numbers, tolerance, verdict.
+#pragma once
+
+#include "compare/metrics/channel.h"
+#include "compare/verdict/encoding_use.h"
+#include "compare/verdict/footprint.h"
+#include "compare/verdict/frame_pair.h"
+#include "compare/verdict/rules.h"
+#include "compare/verdict/tolerance.h"
+#include "shared/frame/debug_modes.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+
+enum class Verdict { pass, fail, forward_only };
+std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only"
+
+struct ChannelDiff {
+    const DebugMode* mode = nullptr;
+    ChannelStats stats;          // meaningless where forward-only
+    std::optional<double> flip;  // mean; of colours
+    Tolerance tolerance;
+    std::optional<std::uint64_t>
+        unexplained_pixels;  // lit channels: pixels whose difference the encoding does not explain
+    std::optional<Footprints> footprints;     // of a reference in mode scene
+    std::optional<EncodingUse> encoding_use;  // of what the G-buffer's bits allow a lit channel
+    std::optional<double>
+        certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
+    Verdict verdict = Verdict::pass;
+    std::string reason;   // why it failed; empty otherwise
+    std::string warning;  // the warning of a rule; empty without one
+    // The image that the difference picture shows instead of the metric's errors, its name, and the error at
+    // the end of its colours.
+    std::shared_ptr<const Image> shown_error;
+    std::string shown_error_name;
+    double shown_error_top = 1;
+    std::vector<std::pair<std::string, double>> figures;  // all that are defined
+    std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
+};
+
+// The share of its tolerance that a channel uses; infinite where it differs although nothing is granted.
+double usedShare(const ChannelDiff& channel);
+
+// The channel of both Frames of the pair, judged by the last of `rules` that names it, or else by the
+// tolerance derived for it. `allowNoise`: on a GPU, what two runs of a path differ by is added to that.
+ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<const Rule> rules,
+                        bool allowNoise);
+
+}  // namespace diptych

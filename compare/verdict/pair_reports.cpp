@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/pair_reports.h"
+
+#include "compare/render/reference_frame.h"
+#include "compare/run/command_text.h"
+#include "compare/verdict/tolerance.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+namespace diptych {
+
+Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
+                  const CompareOptions& options, std::vector<std::vector<FeatureChecks>> checks) {
+    const auto start = std::chrono::steady_clock::now();
+    Report report;
+    report.device = std::move(device);
+    report.frames = std::move(frames);
+    for (std::size_t i = 0; i + 1 < report.frames.size(); i += 2) {
+        const bool swapped = report.frames[i + 1].settings.path == options.baseline;
+        CompareOptions here = options;
+        const auto all = static_cast<double>(report.frames.size() / 2 * 2), done = static_cast<double>(i);
+        here.progress = options.progress.part(done / all, (done + 2) / all).about(report.frames[i].scene);
+        report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), here));
+        const Frame& left = report.baseline(report.comparisons.back());
+        std::vector<std::string> command =
+            withWords(commandWords("compare", left.scene, left.settings), options.words);
+        if (options.baseline != Path::deferred)
+            command = withOption(command, "--baseline", std::string(nameOf(options.baseline)));
+        report.comparisons.back().command = std::move(command);
+        if (!checks.empty()) report.comparisons.back().visual_checks = std::move(checks.at(i / 2));
+    }
+    report.diff_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
+                           ReportDevice device, const CompareOptions& options,
+                           std::vector<std::vector<FeatureChecks>> checks,
+                           const std::vector<std::vector<std::string>>& materials) {
+    const auto start = std::chrono::steady_clock::now();
+    Report report;
+    report.device = std::move(device);
+    report.frames = std::move(frames);
+    for (std::size_t i = 0; i + 2 < report.frames.size(); i += 3) {
+        const auto all = static_cast<double>(report.frames.size());
+        int pairs = 0;
+        for (const auto& [left, right] : {std::pair{i, i + 1}, {i, i + 2}, {i + 1, i + 2}}) {
+            CompareOptions here = options;
+            const double done = static_cast<double>(i) + pairs++;
+            here.progress = options.progress.part(done / all, (done + 1) / all).about(report.frames[i].scene);
+            report.comparisons.push_back(compareFrames(report, left, right, needs.at(i), here));
+            const Frame& reference = report.frames[i];
+            const Settings settings = withReferenceOf(report.frames[right].settings, reference.settings);
+            report.comparisons.back().command =
+                withOption(withWords(commandWords("compare", reference.scene, settings), options.words),
+                           "--baseline", "reference");
+        }
+        Comparison& between = report.comparisons.back();
+        if (!checks.empty()) between.visual_checks = std::move(checks.at(i / 3));
+        report.closer_paths.push_back(
+            closerPathOf(report.frames, i, {i + 1, i + 2}, between.coverage, materials.at(i / 3)));
+    }
+    report.diff_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+namespace {
+
+// An earlier Frame of forward+ has no images drawn through the G-buffer. Those of today's forward+ stand in
+// for them, but only in channels where forward+ still draws the same picture; in other channels no difference
+// is explained.
+void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
+    if (baseline.settings.path != Path::forward_plus) return;
+    for (const Frame& frame : frames)
+        for (const auto& [mode, through] : frame.through_gbuffer) {
+            const auto then = std::as_const(baseline).channels.find(mode), now = frame.channels.find(mode);
+            if (then != baseline.channels.end() && now != frame.channels.end() &&
+                then->second.width == now->second.width && then->second.height == now->second.height &&
+                unequalPixels(then->second, now->second, cpu ? 0 : gpuUlps) == 0) {
+                baseline.through_gbuffer[mode] = through;
+                if (const auto bound = frame.encoding_bound.find(mode); bound != frame.encoding_bound.end())
+                    baseline.encoding_bound[mode] = bound->second;
+            }
+        }
+}
+
+}  // namespace
+
+Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
+                          ReportDevice device, const CompareOptions& options,
+                          const std::vector<std::string>& mismatches) {
+    const auto start = std::chrono::steady_clock::now();
+    Report report;
+    report.device = std::move(device);
+    report.frames.push_back(std::move(baseline));
+    std::ranges::move(frames, std::back_inserter(report.frames));
+    explainAsNow(report.frames[0], report.frames, report.device.bitExact());
+    for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
+        CompareOptions here = options;
+        const auto done = static_cast<double>(report.comparisons.size());
+        here.progress = options.progress.part(done / 3, (done + 1) / 3);
+        report.comparisons.push_back(compareFrames(report, left, right, needs, here));
+        const Frame& drawn = report.test(report.comparisons.back());
+        report.comparisons.back().command =
+            withWords(commandWords("compare", drawn.scene, drawn.settings), options.words);
+    }
+    report.first_notes = mismatches;
+    report.diff_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return report;
+}
+
+}  // namespace diptych

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Reports made from Frames that come in pairs, beside a reference, or beside an earlier Frame.
+#pragma once
+
+#include "compare/verdict/comparison.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// The main job of the tool: frames come two by two, both paths of one scene and camera side by side; the one
+// drawn by `options.baseline` becomes the left panel. `needs`: one entry per frame; `checks`: one per pair,
+// or none.
+Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
+                  const CompareOptions& options = {}, std::vector<std::vector<FeatureChecks>> checks = {});
+
+// The reference as the left panel: frames come three by three, the reference and both paths of one scene and
+// camera; both paths against it, then against each other. `needs`: one entry per frame; `checks` and
+// `materials`, the names of these by id: one per scene and camera.
+Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
+                           ReportDevice device, const CompareOptions& options,
+                           std::vector<std::vector<FeatureChecks>> checks,
+                           const std::vector<std::vector<std::string>>& materials);
+
+// An earlier Frame as the left panel: both paths against it, then against each other. `mismatches` are
+// printed first.
+Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
+                          ReportDevice device, const CompareOptions& options,
+                          const std::vector<std::string>& mismatches);
+
+}  // namespace diptych
