@@ -4,18 +4,22 @@
 #include "compare/files/frame_exr.h"
 #include "compare/files/output.h"
 #include "compare/render/frame_facts.h"
+#include "compare/render/left_out.h"
 #include "compare/render/reference_frame.h"
 #include "compare/report/report.h"
+#include "compare/run/command_text.h"
 #include "compare/verdict/baseline.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/material/texture_probe.h"
+#include "shared/scene/load.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace diptych::cli {
@@ -27,6 +31,8 @@ CompareOptions compareOptions(const Options& options) {
     compare.selection = options.selection;
     compare.allow_noise = options.allow_noise;
     compare.strict = options.strict;
+    compare.allow_empty = options.allow_empty;
+    compare.required = options.channels;
     compare.words = wordsOfWhatCounts(options);
     if (!options.tolerances.empty()) compare.rules = readRules(options.tolerances);
     return compare;
@@ -40,6 +46,7 @@ struct Drawn {
     std::vector<std::vector<FeatureChecks>> visual_checks;
     std::vector<std::vector<std::string>> materials;
     std::optional<TextureSampling> texels;  // with a reference in mode scene
+    std::vector<SceneError> errors;
 };
 
 bool againstReference(const Options& options) {
@@ -88,39 +95,82 @@ std::optional<TextureSampling> texelsFor(const Options& options, const std::vect
     return probeTextures(device);
 }
 
+// One scene by all paths and cameras. Adds to `drawn` when all is done.
+void drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
+               Device& device, const RenderOptions& render, Drawn& drawn) {
+    SceneViews views(scene);
+    std::vector<Requirements> needs;
+    for (const Settings& of : settings) needs.push_back(views.at(viewRequest(of)).needs);
+    std::vector<Frame> frames = renderAll(device, views, settings, render);
+    const std::size_t together = pathsOf(options).size();
+    for (std::size_t k = 0; k < frames.size(); k += together) {
+        const Frame& shown = frames[k + together - 2];
+        drawn.visual_checks.push_back(visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
+        drawn.materials.push_back(materialNames(scene));
+        letGo(shown);
+    }
+    std::ranges::move(needs, std::back_inserter(drawn.needs));
+    std::ranges::move(frames, std::back_inserter(drawn.frames));
+}
+
+// Runs what is about one scene. Of several, one that cannot be read or drawn becomes an error of the report,
+// and the others are compared; the error of the only one is everything that there is to say.
+template <class Run>
+bool succeeds(const Options& options, const std::string& name, std::vector<SceneError>& errors,
+              const Run& run) {
+    if (options.scenes.size() == 1) {
+        run();
+        return true;
+    }
+    try {
+        run();
+        return true;
+    } catch (const std::system_error&) {
+        throw;  // of this machine
+    } catch (const std::runtime_error& error) {
+        errors.push_back({name, error.what()});
+        note(options, fmt::format("{}; the other scenes are compared", error.what()));
+        return false;
+    }
+}
+
+// Before anything is drawn, which may take long.
+std::vector<std::string> soundScenes(const Options& options, std::vector<SceneError>& errors) {
+    std::vector<std::string> sound;
+    for (const std::string& name : options.scenes)
+        if (options.scenes.size() == 1 || succeeds(options, name, errors, [&] { checkScene(name); }))
+            sound.push_back(name);
+    return sound;
+}
+
 Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device,
            KeptReferences& kept, Progress& progress) {
     RenderOptions render = bothOptions(options);
     render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
         return kept.open(key, floats);
     };
-    const std::size_t together = pathsOf(options).size();
     const double drawing = sharesOf(render).drawn;
     Drawn drawn;
+    const std::vector<std::string> names = soundScenes(options, drawn.errors);
     bool textures = false;
-    const auto scenes = static_cast<double>(options.scenes.size());
-    for (std::size_t i = 0; i < options.scenes.size(); ++i) {
-        const std::string& name = options.scenes[i];
+    const auto scenes = static_cast<double>(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string& name = names[i];
         say(options, name);
         const auto done = static_cast<double>(i);
         const Stage stage =
             Stage(progress, name).part(drawing * done / scenes, drawing * (done + 1) / scenes);
         const double loading = loadingShare(name, render, settings.size());
-        const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
-        render.progress = stage.part(loading, 1);
-        textures = textures || !scene.textures.empty();
-        SceneViews views(scene);
-        for (const Settings& of : settings) drawn.needs.push_back(views.at(viewRequest(of)).needs);
-        std::vector<Frame> frames = renderAll(device, views, settings, render);
-        for (std::size_t k = 0; k < frames.size(); k += together) {
-            const Frame& shown = frames[k + together - 2];
-            drawn.visual_checks.push_back(
-                visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
-            drawn.materials.push_back(materialNames(scene));
-            letGo(shown);
-        }
-        std::ranges::move(frames, std::back_inserter(drawn.frames));
+        succeeds(options, name, drawn.errors, [&] {
+            const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
+            render.progress = stage.part(loading, 1);
+            drawScene(scene, options, settings, device, render, drawn);
+            textures = textures || !scene.textures.empty();
+        });
     }
+    if (drawn.frames.empty())
+        throw std::runtime_error(fmt::format("none of the {} scenes can be drawn; the first: {}",
+                                             options.scenes.size(), drawn.errors.front().message));
     drawn.texels = texelsFor(options, settings, device, textures);
     checkValidation(device);
     return drawn;
@@ -164,6 +214,7 @@ Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> basel
 
 int runCompare(const Options& options) {
     const std::vector<Settings> settings = settingsOf(options, pathsOf(options));
+    if (const auto undrawn = undrawnSetting(settings)) throw std::runtime_error(*undrawn);
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare draws both");
@@ -188,7 +239,10 @@ int runCompare(const Options& options) {
                                  renewing(options, baseline ? &*baseline : nullptr, drawn.frames), here);
     const Stage stage(progress, folder.string());
     const auto [drawing, comparing] = sharesOf(bothOptions(options));
-    const Report report = reportOf(options, drawn, std::move(baseline), here, stage.part(drawing, comparing));
+    Report report = reportOf(options, drawn, std::move(baseline), here, stage.part(drawing, comparing));
+    report.errors = std::move(drawn.errors);
+    for (Comparison& comparison : report.comparisons)
+        comparison.command = withOption(comparison.command, "-o", againFolder(folder));
     const std::string json = writeReport(
         report, folder, {options.picture, options.single_file, options.force, stage.part(comparing, 1)});
     kept.remove();
@@ -197,8 +251,9 @@ int runCompare(const Options& options) {
     if (options.json)
         fmt::print("{}", json);
     else if (!options.quiet)
-        fmt::print("{}report: {}\n", reportTable(report), (folder / "index.html").string());
+        printColored(options, reportTable(report) + "report: " + (folder / "index.html").string() + "\n");
     if (!updated.empty()) note(options, updated);
+    if (!report.errors.empty()) return 2;
     // The old baseline's verdict is no longer the question.
     return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;
 }

@@ -18,6 +18,7 @@ int runDiff(const Options& options) {
     if (output) checkReplaceable(*output, "report.json", options.force);
     PictureDiffOptions settings = options.diff;
     settings.strict = options.strict;
+    settings.allow_empty = options.allow_empty;
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
     Progress progress(progressOutput(options));
     const Stage stage(progress, options.scenes.at(1));
@@ -31,7 +32,10 @@ int runDiff(const Options& options) {
                          {options.picture, options.single_file, options.force, stage.part(measuring, 1)},
                          wordsOfWhatCounts(options));
     progress.wipe();
-    if (options.json || !options.quiet) fmt::print("{}", text);
+    if (options.json)
+        fmt::print("{}", text);
+    else if (!options.quiet)
+        printColored(options, text);
     return passed ? 0 : 1;
 }
 

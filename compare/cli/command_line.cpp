@@ -4,6 +4,7 @@
 #include "compare/cli/command_options.h"
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
 
@@ -36,9 +37,13 @@ std::vector<std::string> joinFlagValues(const std::vector<std::string>& words) {
 int channelNumber(const std::string& word, const std::string& option) {
     if (const DebugMode* mode = findDebugMode(word)) return mode->number;
     std::string all;
-    for (const DebugMode& mode : debugModes())
+    std::vector<std::string> names;
+    for (const DebugMode& mode : debugModes()) {
+        names.emplace_back(mode.name);
         all += fmt::format("{}{} {}", all.empty() ? "" : ", ", mode.number, mode.name);
-    throw std::runtime_error(fmt::format("{} {}: no such channel; there are {}", option, word, all));
+    }
+    throw std::runtime_error(
+        fmt::format("{} {}: no such channel{}; there are {}", option, word, didYouMean(word, names), all));
 }
 
 std::vector<int> channelNumbers(const std::string& list) {
@@ -97,6 +102,7 @@ void resolveWhatCounts(Options& options, const ParsedOptions& parsed) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
     diff.tolerance = parsed.tolerance.value_or(identity);
+    diff.tolerance_given = parsed.tolerance.has_value();
     if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !figure.more_is_better))
         throw std::runtime_error(fmt::format("--tolerance {}: 0 or more", diff.tolerance));
     if (diff.failing && !parsed.tolerance)
@@ -156,6 +162,23 @@ std::string inOurWords(const std::string& error) {
                        error.substr(at + tooOften.size()));
 }
 
+std::vector<std::string> commandNames() {
+    std::vector<std::string> names;
+    for (const Command& command : allCommands()) names.push_back(command.name);
+    return names;
+}
+
+// Of CLI11's "The following argument was not expected: --sise" the option that was meant.
+std::string meantOption(const std::string& error, const CLI::App& app) {
+    const std::size_t at = error.find("--");
+    if (at == error.npos) return {};
+    const std::string word = error.substr(at, error.find_first_of(" =", at) - at);
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        if (!option->get_lnames().empty()) names.push_back("--" + option->get_lnames().front());
+    return didYouMean(word, names);
+}
+
 }  // namespace
 
 Options parseCommandLine(const std::vector<std::string>& words) {
@@ -183,7 +206,8 @@ Options parseCommandLine(const std::vector<std::string>& words) {
     const auto known = [&](const Command& command) { return command.name == words.front(); };
     if (words.empty()) throw std::runtime_error("a command is missing; see diptych --help");
     if (!words.front().starts_with('-') && std::ranges::none_of(allCommands(), known))
-        throw std::runtime_error(words.front() + ": no such command; see diptych --help");
+        throw std::runtime_error(fmt::format("{}: no such command{}; see diptych --help", words.front(),
+                                             didYouMean(words.front(), commandNames())));
 
     const CLI::App* chosen = &app;
     try {
@@ -200,8 +224,10 @@ Options parseCommandLine(const std::vector<std::string>& words) {
         return options;
     } catch (const CLI::ParseError& error) {
         for (const CLI::App* sub : app.get_subcommands()) chosen = sub;
-        throw std::runtime_error(fmt::format("{}; see diptych {}--help", inOurWords(error.what()),
-                                             chosen == &app ? "" : chosen->get_name() + " "));
+        throw std::runtime_error(fmt::format(
+            "{}{}; see diptych {}--help", inOurWords(error.what()),
+            dynamic_cast<const CLI::ExtrasError*>(&error) ? meantOption(error.what(), *chosen) : "",
+            chosen == &app ? "" : chosen->get_name() + " "));
     }
 
     options.command = chosen->get_name();

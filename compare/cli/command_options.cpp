@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string_view>
 
 namespace diptych::cli {
@@ -80,6 +81,7 @@ void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
         "the picture shows how many lights each pixel evaluates, with a legend, whatever --debug says");
     app.add_option("--channels", parsed.channels, "the channels to make, separated by commas (all)")
         ->type_name("NAME|NUMBER,...");
+    app.add_flag("--list-channels", options.list_channels, "name all channels and end");
     CLI::Option* exposure =
         app.add_option("--exposure", options.picture.exposure, "factor on the radiance, pictures only")
             ->type_name("F");
@@ -93,6 +95,12 @@ void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
 void addOutput(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
     app.add_flag("--json", options.json, "the result as JSON on stdout, and nothing else there");
+    static const std::map<std::string, ColorChoice> colors{
+        {"auto", ColorChoice::automatic}, {"on", ColorChoice::on}, {"off", ColorChoice::off}};
+    app.add_option("--color", options.color,
+                   "colours of verdicts: auto, on, off (auto: on a terminal, but not with NO_COLOR)")
+        ->transform(CLI::CheckedTransformer(colors))
+        ->type_name("auto|on|off");
     CLI::Option* quiet = app.add_flag("-q,--quiet", options.quiet, "print only errors");
     app.add_flag("-v,--verbose", options.verbose, "say on stderr what is being done")->excludes(quiet);
 }
@@ -122,7 +130,11 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& par
 
 void addTolerances(CLI::App& app, Options& options) {
     app.option_defaults()->group(selection_group);
-    app.add_flag("--strict", options.strict, "a channel that only one side has is a failure, not a note");
+    app.add_flag(
+        "--strict", options.strict,
+        "a channel that only one side has is a failure, not a note, and so is a picture that shows nothing");
+    app.add_flag("--allow-empty", options.allow_empty,
+                 "say nothing of pictures that are black, empty, or show the scene on less than 1 %");
     app.add_option("--tolerances", options.tolerances,
                    "rules of what may differ, see compare/verdict/tolerances.schema.json")
         ->type_name("FILE.json");

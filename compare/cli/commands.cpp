@@ -2,10 +2,12 @@
 #include "compare/cli/commands.h"
 
 #include "compare/files/output.h"
+#include "compare/run/color.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/load.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -15,7 +17,28 @@
 
 namespace diptych::cli {
 
+namespace {
+
+int listChannels(const Options& options) {
+    if (options.json) {
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const DebugMode& mode : debugModes())
+            list.push_back({{"number", mode.number},
+                            {"name", mode.name},
+                            {"metric", nameOf(mode.metric)},
+                            {"shows", mode.shows}});
+        fmt::print("{}\n", list.dump(2));
+        return 0;
+    }
+    for (const DebugMode& mode : debugModes())
+        fmt::print("{:>3}  {:<20} {:<9} {}\n", mode.number, mode.name, nameOf(mode.metric), mode.shows);
+    return 0;
+}
+
+}  // namespace
+
 int runCommand(const Options& options) {
+    if (options.list_channels) return listChannels(options);
     constexpr std::pair<std::string_view, int (*)(const Options&)> commands[] = {
         {"compare", runCompare}, {"render", runRender}, {"diff", runDiff},      {"tradeoff", runTradeoff},
         {"bench", runBench},     {"plan", runPlan},     {"devices", runDevices}};
@@ -110,6 +133,10 @@ void note(const Options& options, const std::string& line) {
 
 void say(const Options& options, const std::string& line) {
     if (options.verbose) note(options, line);
+}
+
+void printColored(const Options& options, const std::string& text) {
+    fmt::print("{}", hasColor(options.color, stdout) ? colored(text) : text);
 }
 
 void noteLeftByOthers(const Options& options, const KeptReferences& kept) {

@@ -65,7 +65,10 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);
 
-// The same on references that other commands with this output have left half done.
+// Prints on stdout what people read, in colour where --color or the terminal says so.
+void printColored(const Options& options, const std::string& text);
+
+// note() on references that other commands with this output have left half done.
 void noteLeftByOthers(const Options& options, const KeptReferences& kept);
 
 }  // namespace diptych::cli

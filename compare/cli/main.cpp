@@ -4,6 +4,7 @@
 #include "compare/run/interruption.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -13,14 +14,21 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace {
 
-// Everything that goes wrong ends here: one line on stderr, exit code 2.
-int fail(std::string what) {
+// Everything that goes wrong ends here: one line on stderr, exit code 2; with --json an object on stdout as
+// well.
+int fail(std::string what, bool json) {
     std::ranges::replace(what, '\n', ' ');
     std::fprintf(stderr, "diptych: %s\n", what.c_str());
+    if (json) {
+        const nlohmann::ordered_json object{{"schema", 1}, {"error", what}};
+        std::printf("%s\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        std::fflush(stdout);
+    }
     return 2;
 }
 
@@ -39,6 +47,7 @@ int run(const diptych::cli::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const bool json = std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
     try {
         std::signal(SIGPIPE, SIG_IGN);
         std::signal(SIGXFSZ, SIG_IGN);  // too large a file (ulimit -f) is an error of writing as any other
@@ -50,10 +59,10 @@ int main(int argc, char** argv) {
         return code;
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::broken_pipe) endOfPipe();
-        return fail(error.what());
+        return fail(error.what(), json);
     } catch (const std::bad_alloc&) {
-        return fail("out of memory; try a smaller --size, fewer --channels, or one scene at a time");
+        return fail("out of memory; try a smaller --size, fewer --channels, or one scene at a time", json);
     } catch (const std::exception& error) {
-        return fail(error.what());
+        return fail(error.what(), json);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "compare/bench/cases.h"
 #include "compare/picture/picture.h"
+#include "compare/run/color.h"
 #include "compare/verdict/picture_diff.h"
 #include "compare/verdict/selection.h"
 #include "shared/frame/debug_modes.h"
@@ -34,12 +35,14 @@ struct Options {
     bool validate = false;
     std::filesystem::path out;  // empty: the command's own default
     bool force = false, json = false, quiet = false, verbose = false;
-    bool single_file = false, list_scenes = false;
+    ColorChoice color = ColorChoice::automatic;
+    bool single_file = false, list_scenes = false, list_channels = false;
     SelectionOptions selection;           // compare: pixels
     bool allow_noise = false;             // compare
     std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
     bool update_baseline = false;
     bool strict = false;               // compare, diff
+    bool allow_empty = false;          // compare, diff
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
     bench::BenchOptions bench;

@@ -47,6 +47,11 @@ void addSelection(Words& words, const SelectionOptions& selection) {
                                                   selection.crop->width, selection.crop->height)});
 }
 
+void addFlags(Words& words, const Options& options) {
+    if (options.strict) words.words.emplace_back("--strict");
+    if (options.allow_empty) words.words.emplace_back("--allow-empty");
+}
+
 }  // namespace
 
 std::vector<std::string> wordsOfWhatCounts(const Options& options) {
@@ -66,13 +71,13 @@ std::vector<std::string> wordsOfWhatCounts(const Options& options) {
         words.add("--stop-exposure", diff.flip.stop_exposure);
         words.add("--exposures", diff.flip.exposures);
         addSelection(words, diff.selection);
-        if (options.strict) words.words.emplace_back("--strict");
+        addFlags(words, options);
         return words.words;
     }
     words.add("--baseline", options.baseline_file.string(), std::string());
     addSelection(words, options.selection);
     if (options.allow_noise) words.words.emplace_back("--allow-noise");
-    if (options.strict) words.words.emplace_back("--strict");
+    addFlags(words, options);
     return words.words;
 }
 

@@ -252,8 +252,7 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         if (!isWanted(a.name)) continue;
         const auto b = std::ranges::find(test, a.name, &PictureChannel::name);
         if (b == test.end()) {
-            matched.one_sided.push_back(
-                fmt::format("{} is in the reference alone and was not compared", a.name));
+            matched.one_sided.push_back({a.name, "the reference"});
             continue;
         }
         if (a.image.components != b->image.components)
@@ -270,7 +269,7 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
     for (const PictureChannel& b : test)
         if (isWanted(b.name) &&
             std::ranges::find(reference, b.name, &PictureChannel::name) == reference.end())
-            matched.one_sided.push_back(fmt::format("{} is in the test alone and was not compared", b.name));
+            matched.one_sided.push_back({b.name, "the test"});
     const auto both = fmt::format("the reference has {}, the test {}", inReference, inTest);
     for (const std::string& w : wanted)
         if (std::ranges::none_of(matched.channels, [&](const auto& c) { return matches(w, c.name); }))

@@ -49,10 +49,16 @@ struct MatchedChannel {
     Image reference, test;
 };
 
+// A channel that only one of two pictures has.
+struct OneSidedChannel {
+    std::string name;
+    std::string owner;  // "the reference"
+};
+
 struct MatchedChannels {
     std::vector<MatchedChannel> channels;  // in the reference's order
     std::vector<std::string> notes;        // channels that have two types
-    std::vector<std::string> one_sided;    // channels that only one file has, a line each
+    std::vector<OneSidedChannel> one_sided;
 };
 
 // `wanted`: patterns of names (* and ?), empty: all. Throws std::runtime_error where a pattern names nothing

@@ -63,6 +63,15 @@ std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Fra
 
 }  // namespace
 
+bool isBlack(const Image& image, const Coverage& coverage) {
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* p = image.pixel(i);
+        if (coverage.covered[i] && std::any_of(p, p + image.components, [](float v) { return v != 0; }))
+            return false;
+    }
+    return true;
+}
+
 Coverage everyPixel(std::size_t pixels) {
     return {std::vector<std::uint8_t>(pixels, 1), pixels, false};
 }

@@ -23,6 +23,9 @@ struct Coverage {
 Coverage coverage(const Frame& a, const Frame& b);
 Coverage everyPixel(std::size_t pixels);
 
+// Whether every component of every covered pixel is 0.
+bool isBlack(const Image& image, const Coverage& coverage);
+
 // Over the covered pixels, in the channel's own unit (angular: degrees); all 0 where nothing is covered.
 // Every figure may be infinite: a NaN or infinity against anything else is an infinite difference, which no
 // tolerance passes, and so is a difference from a baseline that is 0 everywhere (relative).

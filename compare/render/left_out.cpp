@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace diptych {
 
 std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
@@ -24,6 +26,17 @@ std::vector<std::string> leftOutMotion(Path path, const Requirements& needs) {
     return {fmt::format("{}: drawn undeformed by {} yet: the reference poses {} in mode scene",
                         needs.deformedInWords(), nameOf(path),
                         needs.skinned + needs.morphed == 1 ? "it" : "them")};
+}
+
+std::optional<std::string> undrawnSetting(std::span<const Settings> paths) {
+    const auto isReference = [](const Settings& s) { return s.path == Path::reference; };
+    if (paths.empty() || std::ranges::all_of(paths, isReference)) return {};
+    const Settings& asked = paths.front();
+    if (asked.env == Settings().env) return {};
+    return fmt::format(
+        "--env {}: neither deferred nor forward_plus draws an environment yet; leave it out, or see it with "
+        "render --path reference",
+        asked.env);
 }
 
 }  // namespace diptych

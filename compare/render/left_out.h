@@ -4,6 +4,8 @@
 #include "shared/frame/settings.h"
 #include "shared/scene/requirements.h"
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,5 +16,10 @@ std::vector<std::string> leftOutLight(Path path, const Requirements& needs);
 
 // Likewise for objects that the path draws undeformed; the reference poses them in mode scene.
 std::vector<std::string> leftOutMotion(Path path, const Requirements& needs);
+
+// Why it cannot be drawn what the Settings ask for, naming the option: where none of the paths under test
+// draws it, a picture without it would be taken for one with it. The reference, drawn beside them, is no such
+// path unless it is alone.
+std::optional<std::string> undrawnSetting(std::span<const Settings> paths);
 
 }  // namespace diptych

@@ -17,6 +17,14 @@ Json valuesAt(const Frame& frame, const ChannelDiff& channel) {
     return values;
 }
 
+Json jsonOf(const Criterion& criterion) {
+    return {{"figure", criterion.figure},
+            {"measured", finiteOrNull(criterion.measured)},
+            {criterion.least ? "least" : "limit", finiteOrNull(criterion.limit)},
+            {criterion.differing ? "differing_pixels" : "pixels_beyond", criterion.pixels},
+            {criterion.differing ? "differing_share" : "share_beyond", criterion.share}};
+}
+
 Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel) {
     Json json{{"number", channel.mode->number},
               {"name", channel.mode->name},
@@ -35,6 +43,7 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     if (!channel.warning.empty()) json["warning"] = channel.warning;
     if (!compared) return json;
     if (!channel.reason.empty()) json["reason"] = channel.reason;
+    json["criterion"] = channel.criterion ? jsonOf(*channel.criterion) : Json(nullptr);
     Json figures = Json::object();
     for (const auto& [name, value] : channel.figures) figures[name] = finiteOrNull(value);
     json["figures"] = figures;
@@ -123,6 +132,7 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
             {"test", report.test(comparison).name},
             {"verdict", comparison.passed() ? "pass" : "fail"},
             {"covered_pixels", comparison.coverage.count},
+            {"emptiness", comparison.emptiness.empty() ? Json(nullptr) : Json(comparison.emptiness)},
             {"failures", comparison.failures},
             {"notes", comparison.notes},
             {"channels", channels},
@@ -144,7 +154,7 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
     Json json{
         {"schema", 1},
         {"software", softwareName},
-        {"verdict", report.passed() ? "pass" : "fail"},
+        {"verdict", report.passed() && report.errors.empty() ? "pass" : "fail"},
         {"device",
          {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
         {"said_first", report.first_notes},
@@ -152,6 +162,10 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
         {"comparisons", comparisons},
         {"truth", closer},
         {"compare_ms", report.diff_ms}};
+    Json errors = Json::array();
+    for (const SceneError& error : report.errors)
+        errors.push_back({{"scene", error.scene}, {"message", error.message}});
+    json["errors"] = errors;
     if (layout) {
         json["encode_ms"] = layout->encode_ms;
         json["files"] = layout->files();

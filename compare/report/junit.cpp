@@ -5,9 +5,11 @@
 #include "compare/report/titles.h"
 #include "compare/run/command_text.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 
 namespace diptych {
 
@@ -22,6 +24,25 @@ std::string failure(const std::string& type, const std::string& message, const s
                        markup(text));
 }
 
+// Servers take what is behind the last dot of a class's name for the class and the rest for its package.
+std::string classNameOf(std::string title) {
+    std::ranges::replace(title, '.', '_');
+    return markup(title);
+}
+
+std::string nowInUtc() {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::time(nullptr)));
+}
+
+// A scene that could not be drawn: a suite of one case with an error.
+std::string errorSuite(const SceneError& error) {
+    return fmt::format(
+        "  <testsuite name=\"{}\" tests=\"1\" failures=\"0\" errors=\"1\" skipped=\"0\" time=\"0.000\">\n"
+        "    <testcase classname=\"{}\" name=\"scene\" time=\"0.000\">\n"
+        "      <error type=\"scene\" message=\"{}\"/>\n    </testcase>\n  </testsuite>\n",
+        markup(error.scene), classNameOf(error.scene), markup(errorText(error)));
+}
+
 class Suite {
 public:
     Suite(const Report& report, const ReportLayout& layout, const std::filesystem::path& folder,
@@ -32,8 +53,8 @@ public:
           folder_(folder),
           left_(report.baseline(comparison_)),
           right_(report.test(comparison_)),
-          name_(markup(fmt::format("{} | {} | {}", left_.scene, cameraTitle(left_),
-                                   pairTitle(report, comparison_)))) {}
+          title_(
+              fmt::format("{} | {} | {}", left_.scene, cameraTitle(left_), pairTitle(report, comparison_))) {}
 
     std::size_t count(Verdict verdict) const {
         return static_cast<std::size_t>(
@@ -47,8 +68,8 @@ public:
     std::string xml() const {
         std::string out = fmt::format(
             "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" "
-            "time=\"{:.3f}\">\n",
-            name_, tests(), failures(), count(Verdict::forward_only), seconds());
+            "time=\"{:.3f}\" timestamp=\"{}\">\n",
+            markup(title_), tests(), failures(), count(Verdict::forward_only), seconds(), nowInUtc());
         out += properties();
         for (std::size_t i = 0; i < comparison_.channels.size(); ++i)
             out +=
@@ -62,8 +83,9 @@ public:
 private:
     // All channels come from the same two Frames, so each case gets an equal share of their time.
     std::string testCase(std::string_view name, const std::string& outcome) const {
-        const std::string open = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
-                                             name_, markup(name), seconds() / static_cast<double>(tests()));
+        const std::string open =
+            fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", classNameOf(title_),
+                        markup(name), seconds() / static_cast<double>(tests()));
         return open + (outcome.empty() ? "/>\n" : ">\n" + outcome + "    </testcase>\n");
     }
 
@@ -88,14 +110,24 @@ private:
         if (channel.verdict == Verdict::forward_only)
             return fmt::format("      <skipped message=\"forward-only: {}\"/>\n",
                                markup(channel.tolerance.because));
-        if (channel.verdict == Verdict::pass) return {};
+        const std::string warning =
+            channel.warning.empty()
+                ? ""
+                : markup(fmt::format("warning: {} ({})", channel.warning, channel.rule)) + "\n";
+        if (channel.verdict == Verdict::pass)
+            return warning.empty() ? "" : fmt::format("      <system-out>{}</system-out>\n", warning);
         const ChannelStats& s = channel.stats;
+        const std::string limit =
+            channel.criterion
+                ? fmt::format("{} {}, limit {}", channel.criterion->figure,
+                              number(channel.criterion->measured), number(channel.criterion->limit))
+                : "nothing bounded";
         return failure("difference", channel.reason,
-                       fmt::format(
-                           "max {} mean {} p99.9 {} ({}), worst at {},{}; {}: {}", number(s.max),
-                           number(s.mean), number(s.p999), nameOf(channel.mode->metric), s.worst_x, s.worst_y,
-                           channel.rule.empty() ? "tolerance " + number(channel.tolerance.max) : channel.rule,
-                           channel.tolerance.because)) +
+                       fmt::format("max {} mean {} p99.9 {} ({}), worst at {},{}; {}: {}", number(s.max),
+                                   number(s.mean), number(s.p999), nameOf(channel.mode->metric), s.worst_x,
+                                   s.worst_y,
+                                   channel.rule.empty() ? limit : fmt::format("{}, {}", channel.rule, limit),
+                                   channel.tolerance.because)) +
                attachments(channel, pictures);
     }
 
@@ -125,7 +157,7 @@ private:
     const std::vector<ChannelPictures>& pictures_;  // per channel
     const std::filesystem::path& folder_;
     const Frame &left_, &right_;
-    std::string name_;
+    std::string title_;
 };
 
 }  // namespace
@@ -133,8 +165,9 @@ private:
 std::string reportJunit(const Report& report, const ReportLayout& layout,
                         const std::filesystem::path& folder) {
     std::string suites;
-    std::size_t tests = 0, failures = 0;
+    std::size_t tests = report.errors.size(), failures = 0;
     double seconds = 0;
+    for (const SceneError& error : report.errors) suites += errorSuite(error);
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
         const Suite suite(report, layout, folder, i);
         suites += suite.xml();
@@ -145,8 +178,8 @@ std::string reportJunit(const Report& report, const ReportLayout& layout,
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"diptych\" tests=\"{}\" "
         "failures=\"{}\" "
-        "errors=\"0\" time=\"{:.3f}\">\n{}</testsuites>\n",
-        tests, failures, seconds, suites);
+        "errors=\"{}\" time=\"{:.3f}\">\n{}</testsuites>\n",
+        tests, failures, report.errors.size(), seconds, suites);
 }
 
 }  // namespace diptych

@@ -78,6 +78,7 @@ ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel
         row.shown_error_name = errors.name;
         row.shown_error_top = errors.top;
     }
+    row.criterion = channel.decision.criterion;
     row.stats.worst_x = channel.worst_x;
     row.stats.worst_y = channel.worst_y;
     row.figures = channel.measurement->all();
@@ -94,7 +95,9 @@ void writeFolder(PictureDiff& diff, const Output& output, const ReportOptions& o
     comparison.coverage = *diff.coverage;
     comparison.failures = diff.failures;
     comparison.notes = diff.notes;
-    comparison.command = withWords({"diff", diff.reference, diff.test}, words);
+    comparison.emptiness = diff.emptiness;
+    comparison.command =
+        withOption(withWords({"diff", diff.reference, diff.test}, words), "-o", againFolder(output.path));
     for (std::size_t i = 0; i < modes.size(); ++i)
         comparison.channels.push_back(channelOf(diff, *diff.channels[i], modes[i]));
     for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, modes, test));

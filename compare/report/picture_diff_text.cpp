@@ -21,14 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using TextRow = std::array<std::string, 9>;
 
+// JSON has no infinity: an identical pair's PSNR, an error against a NaN.
 Json finiteOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-// JSON has no infinity: an identical pair's PSNR, an error against a NaN.
-Json numberOrWord(double value) {
-    if (std::isfinite(value)) return value;
-    return std::isnan(value) ? "nan" : value > 0 ? "infinity" : "-infinity";
 }
 
 std::vector<const PictureChannelDiff*> failuresFirst(const PictureDiff& diff) {
@@ -85,7 +80,7 @@ Json flipJson(const HdrFlipResult& flip, bool display) {
 
 Json metricsJson(const PictureChannelDiff& channel) {
     Json json = Json::object();
-    for (const auto& [name, value] : channel.measurement->all()) json[name] = numberOrWord(value);
+    for (const auto& [name, value] : channel.measurement->all()) json[name] = finiteOrNull(value);
     return json;
 }
 
@@ -104,7 +99,11 @@ Json channelJson(const PictureChannelDiff& channel) {
     json["flip"] = flip ? Json(flip->mean) : Json(nullptr);
     json["worst_pixel"] = channel.worst_x >= 0 ? Json{channel.worst_x, channel.worst_y} : Json(nullptr);
     const Condition* bound = singleBound(channel);
-    json["tolerance"] = bound ? numberOrWord(bound->limit) : Json(nullptr);
+    json["tolerance"] = bound ? finiteOrNull(bound->limit) : Json(nullptr);
+    if (const auto& c = channel.decision.criterion)
+        json["criterion"] = {{"figure", c->figure},
+                             {"measured", finiteOrNull(c->measured)},
+                             {c->differing ? "differing_share" : "share_beyond", c->share}};
     json["rule"] = fmt::format("{}: {}", channel.rule.origin, conditionText(channel.rule.fail));
     json["because"] = channel.rule.because;
     json["verdict"] = channel.decision.level == Level::fail ? "fail" : "pass";
@@ -146,16 +145,17 @@ std::string pictureDiffTable(const PictureDiff& diff) {
             failed += (failed.empty() ? "" : ", ") + channel->pair.name;
     }
     for (const PictureChannelDiff* channel : failuresFirst(diff))
-        if (channel->decision.level == Level::pass && !channel->rule.origin.starts_with("command"))
+        if (channel->decision.level == Level::pass && !isOwnRule(channel->rule))
             out += fmt::format("  {}: {}: {}\n", channel->pair.name, channel->rule.origin,
                                conditionText(channel->rule.fail));
     for (const std::string& failure : diff.failures) out += "  FAIL " + failure + "\n";
     for (const std::string& note : diff.notes) out += "  note: " + note + "\n";
+    const std::string emptiness = diff.emptiness.empty() ? "" : ", but " + diff.emptiness;
     if (failed.empty() && !diff.failures.empty())
-        return out + fmt::format("FAIL: {}\n", diff.failures.front());
+        return out + fmt::format("FAIL: {}{}\n", diff.failures.front(), emptiness);
     if (!failed.empty()) return out + "FAIL: " + failed + "\n";
-    return out + fmt::format("pass: {} channel{} within tolerance\n", diff.channels.size(),
-                             diff.channels.size() == 1 ? "" : "s");
+    return out + fmt::format("pass: {} channel{} within tolerance{}\n", diff.channels.size(),
+                             diff.channels.size() == 1 ? "" : "s", emptiness);
 }
 
 std::string pictureDiffJson(const PictureDiff& diff) {
@@ -170,6 +170,7 @@ std::string pictureDiffJson(const PictureDiff& diff) {
               {"size", {diff.width, diff.height}},
               {"pixels", diff.coverage->count},
               {"metrics", metricsJson(first)},
+              {"emptiness", diff.emptiness.empty() ? Json(nullptr) : Json(diff.emptiness)},
               {"failures", diff.failures},
               {"notes", diff.notes}};
     Json channels = Json::array();

@@ -123,6 +123,11 @@ private:
 
 }  // namespace
 
+std::string againFolder(const std::filesystem::path& folder) {
+    const bool slash = !folder.has_filename();
+    return (slash ? folder.parent_path() : folder).string() + "-again";
+}
+
 std::string writeReport(const Report& report, const std::filesystem::path& path,
                         const ReportOptions& options) {
     constexpr const char* manifest = "report.json";

@@ -27,6 +27,10 @@ struct ReportOptions {
 std::string writeReport(const Report& report, const std::filesystem::path& folder,
                         const ReportOptions& options);
 
+// The folder that the commands of a report write to, which repeat a part of it: beside the report, which they
+// must not replace.
+std::string againFolder(const std::filesystem::path& folder);
+
 // For a terminal: a table per comparison, failures first, then one line of verdict. Ends in a newline.
 std::string reportTable(const Report& report);
 

@@ -17,29 +17,33 @@ using page::number;
 
 namespace {
 
-using TableRow = std::array<std::string, 7>;
-
-// Where the encoding's effect is bounded for each pixel, the tolerance is the largest bound, and the error at
-// another pixel says little beside it, so the outcome is shown instead.
-std::string toleranceOf(const ChannelDiff& channel) {
-    if (!channel.rule.empty() && !std::isfinite(channel.tolerance.max)) return "rule";
-    if (const auto& f = channel.footprints) {
-        const auto all = static_cast<double>(f->smooth + f->detailed + f->edges);
-        return fmt::format("tight {:.0f} %", all > 0 ? 100 * static_cast<double>(f->smooth) / all : 100);
-    }
-    if (!channel.unexplained_pixels) return number(channel.tolerance.max);
-    if (*channel.unexplained_pixels > 0) return fmt::format("{} px left", *channel.unexplained_pixels);
-    if (const auto& use = channel.encoding_use; use && use->beyond > 0)
-        return fmt::format("{:.3g} x bits", use->used);
-    return "explained";
-}
+using TableRow = std::array<std::string, 9>;
 
 TableRow rowOf(const ChannelDiff& channel) {
     const std::string verdict(channel.verdict == Verdict::fail ? "FAIL" : nameOf(channel.verdict));
     const std::string name(channel.mode->name), metric(nameOf(channel.mode->metric));
-    if (channel.verdict == Verdict::forward_only) return {name, metric, "-", "-", "-", "-", verdict};
+    if (channel.verdict == Verdict::forward_only)
+        return {name, metric, "-", "-", "-", "-", "-", "-", verdict};
     const ChannelStats& s = channel.stats;
-    return {name, metric, number(s.max), number(s.mean), number(s.p999), toleranceOf(channel), verdict};
+    TableRow row{name, metric, number(s.max), number(s.mean), number(s.p999), "nothing", "-", "-", verdict};
+    if (const auto& c = channel.criterion) {
+        row[5] = c->figure;
+        row[6] = number(c->measured);
+        row[7] = fmt::format("{}{}", c->least ? ">= " : "", number(c->limit));
+    }
+    return row;
+}
+
+// Beside a lit channel's criterion, how much the encoding explains.
+std::string explainedLine(const ChannelDiff& channel) {
+    if (!channel.unexplained_pixels || channel.stats.max == 0 || channel.verdict == Verdict::fail) return {};
+    std::string line = fmt::format("  {}: the encoding explains up to {}, {} at the mean", channel.mode->name,
+                                   number(channel.stats.max), number(channel.stats.mean));
+    if (channel.flip) line += fmt::format(", FLIP {}", number(*channel.flip));
+    if (channel.encoding_use)
+        line += fmt::format("; a pixel uses at most {} of what its bits allow",
+                            percentText(channel.encoding_use->used));
+    return line + "\n";
 }
 
 std::string frameLine(const Frame& frame) {
@@ -57,12 +61,27 @@ std::string frameLine(const Frame& frame) {
                               frame.settings.path == Path::deferred ? "G-buffer and depth" : "depth");
 }
 
+// Below all tables, each note once with the scenes that it is about.
+std::string notesText(const Report& report) {
+    std::set<std::string> scenes;
+    for (const Comparison& comparison : report.comparisons) scenes.insert(report.baseline(comparison).scene);
+    std::string out;
+    for (const GroupedNote& note : groupedNotes(report)) {
+        const std::string about = scenes.size() == 1 ? ""
+                                  : note.scenes.size() == scenes.size()
+                                      ? fmt::format(", {} scenes", scenes.size())
+                                      : ", " + listed(note.scenes, 3);
+        out +=
+            fmt::format("note{}{}: {}\n", about, note.varies ? ", with other numbers each" : "", note.text);
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string reportTable(const Report& report) {
     std::string out;
     for (const std::string& line : report.first_notes) out += line + "\n";
-    std::set<std::string> printed;  // several comparisons of one scene share their notes
     for (const Comparison& comparison : report.comparisons) {
         const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
         out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, cameraTitle(baseline),
@@ -70,20 +89,26 @@ std::string reportTable(const Report& report) {
                            pairTitle(report, comparison));
         out += frameLine(baseline) + frameLine(test);
 
-        std::vector<TableRow> rows{{"channel", "metric", "max", "mean", "p99.9", "tolerance", "verdict"}};
+        std::vector<TableRow> rows{
+            {"channel", "metric", "max", "mean", "p99.9", "judged by", "measured", "limit", "verdict"}};
         for (const ChannelDiff* channel : failuresFirst(comparison)) rows.push_back(rowOf(*channel));
-        std::array<std::size_t, 7> widths{};
+        std::array<std::size_t, 9> widths{};
         for (const TableRow& row : rows)
             for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
         for (const TableRow& row : rows) {
             std::string line = fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
-            for (std::size_t i = 2; i < 6; ++i) line += fmt::format("  {:>{}}", row[i], widths[i]);
-            out += line + "  " + row[6] + "\n";
+            for (std::size_t i = 2; i < 8; ++i)
+                line += i == 5 ? fmt::format("  {:<{}}", row[i], widths[i])
+                               : fmt::format("  {:>{}}", row[i], widths[i]);
+            out += line + "  " + row[8] + "\n";
         }
-        for (const std::string& failure : comparison.failures) out += "  FAIL " + failure + "\n";
+        for (const ChannelDiff& channel : comparison.channels) out += explainedLine(channel);
+        const std::string place = placeOf(report, comparison);
+        for (const std::string& failure : comparison.failures)
+            out += fmt::format("  FAIL {}: {}\n", place, failure);
         for (const ChannelDiff& channel : comparison.channels)
             if (channel.verdict == Verdict::fail) {
-                out += fmt::format("  FAIL {}: {}", channel.mode->name, channel.reason);
+                out += fmt::format("  FAIL {}, {}: {}", place, channel.mode->name, channel.reason);
                 if (channel.stats.worst_x >= 0)
                     out += fmt::format(", worst at {},{}", channel.stats.worst_x, channel.stats.worst_y);
                 out += fmt::format(" ({}{}{})\n", channel.rule, channel.rule.empty() ? "" : ", because ",
@@ -94,11 +119,9 @@ std::string reportTable(const Report& report) {
                 out += fmt::format("  {}: {}\n", channel.mode->name, channel.rule);
         for (const ChannelDiff& channel : comparison.channels)
             if (!channel.warning.empty())
-                out +=
-                    fmt::format("  warning {}: {} ({})\n", channel.mode->name, channel.warning, channel.rule);
+                out += fmt::format("  warning {}, {}: {} ({})\n", place, channel.mode->name, channel.warning,
+                                   channel.rule);
         if (const std::string checks = checksLine(comparison); !checks.empty()) out += "  " + checks + "\n";
-        for (const std::string& note : notesOf(report, comparison))
-            if (printed.insert(note).second) out += "  note: " + note + "\n";
     }
     for (const CloserPath& closer : report.closer_paths) {
         if (report.closer_paths.size() > 1)
@@ -107,7 +130,8 @@ std::string reportTable(const Report& report) {
         for (const CloserPathChannel& channel : closer.channels)
             out += closerPathLine(closer, channel, report.frames) + "\n";
     }
-    return out + verdictLine(report) + "\n";
+    for (const SceneError& error : report.errors) out += fmt::format("ERROR {}\n", errorText(error));
+    return out + notesText(report) + verdictLine(report) + "\n";
 }
 
 }  // namespace diptych

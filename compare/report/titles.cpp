@@ -55,27 +55,119 @@ std::string checksLine(const Comparison& comparison) {
                        fmt::join(features, ", "));
 }
 
-std::string verdictLine(const Report& report) {
-    std::size_t compared = 0;
-    std::vector<std::string> others;
-    std::vector<std::string_view> failed;
+std::string placeOf(const Report& report, const Comparison& comparison) {
+    const Frame& frame = report.baseline(comparison);
+    const bool several = std::ranges::any_of(report.comparisons, [&](const Comparison& other) {
+        return report.baseline(other).scene == frame.scene &&
+               page::cameraTitle(report.baseline(other)) != page::cameraTitle(frame);
+    });
+    return several ? fmt::format("{}, {}", frame.scene, page::cameraTitle(frame)) : frame.scene;
+}
+
+namespace {
+
+// The text with every number made one and the same.
+std::string withoutNumbers(const std::string& text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto digit = [&](std::size_t k) { return k < text.size() && text[k] >= '0' && text[k] <= '9'; };
+        const bool more = i > 0 && text[i] == '.' && digit(i - 1) && digit(i + 1);
+        if (!digit(i) && !more)
+            result += text[i];
+        else if (!result.ends_with('#'))
+            result += '#';
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<GroupedNote> groupedNotes(const Report& report) {
+    std::vector<GroupedNote> grouped;
+    std::vector<std::string> keys;
+    for (const Comparison& comparison : report.comparisons)
+        for (const std::string& note : notesOf(report, comparison)) {
+            const std::string key = withoutNumbers(note);
+            const auto at = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
+            if (at == keys.size()) {
+                keys.push_back(key);
+                grouped.push_back({note, {}});
+            }
+            GroupedNote& group = grouped[at];
+            group.varies = group.varies || group.text != note;
+            const std::string& scene = report.baseline(comparison).scene;
+            if (std::ranges::count(group.scenes, scene) == 0) group.scenes.push_back(scene);
+        }
+    return grouped;
+}
+
+std::string errorText(const SceneError& error) {
+    return error.message.starts_with(error.scene) ? error.message
+                                                  : fmt::format("{}: {}", error.scene, error.message);
+}
+
+std::string listed(const std::vector<std::string>& names, std::size_t most) {
+    if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+    return fmt::format("{} and {} more",
+                       fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most), ", "),
+                       names.size() - most);
+}
+
+namespace {
+
+void addOnce(std::vector<std::string>& words, const std::string& word) {
+    if (std::ranges::count(words, word) == 0) words.push_back(word);
+}
+
+// Scenes named in a line; more are counted.
+constexpr std::size_t scenesNamed = 8;
+
+std::string errorsText(const Report& report) {
+    std::vector<std::string> scenes;
+    for (const SceneError& error : report.errors) scenes.push_back(error.scene);
+    return fmt::format("{} scene{} could not be drawn: {}", scenes.size(), scenes.size() == 1 ? "" : "s",
+                       listed(scenes, scenesNamed));
+}
+
+// What a verdict about hardly anything must not be read without.
+std::string hardlyAnything(const Report& report) {
+    std::vector<std::string> places, why;
     for (const Comparison& comparison : report.comparisons) {
-        for (const std::string& failure : comparison.failures)
-            if (std::ranges::count(others, failure) == 0) others.push_back(failure);
+        if (comparison.emptiness.empty()) continue;
+        addOnce(places, placeOf(report, comparison));
+        addOnce(why, comparison.emptiness);
+    }
+    if (why.empty()) return {};
+    if (report.comparisons.size() > 1) return fmt::format(", but {}: {}", listed(places, 3), listed(why, 1));
+    return ", but " + why.front();
+}
+
+}  // namespace
+
+std::string verdictLine(const Report& report) {
+    std::size_t compared = 0, failing = 0;
+    std::vector<std::string> others, channels, places;
+    for (const Comparison& comparison : report.comparisons) {
+        for (const std::string& failure : comparison.failures) addOnce(others, failure);
         for (const ChannelDiff& channel : comparison.channels) {
             compared += channel.verdict != Verdict::forward_only;
-            if (channel.verdict == Verdict::fail && std::ranges::count(failed, channel.mode->name) == 0)
-                failed.push_back(channel.mode->name);
+            if (channel.verdict == Verdict::fail) addOnce(channels, std::string(channel.mode->name));
         }
+        failing += !comparison.passed();
+        if (!comparison.passed()) addOnce(places, placeOf(report, comparison));
     }
-    const std::string pictures =
-        report.comparisons.size() == 1 ? "" : fmt::format(" of {} comparisons", report.comparisons.size());
-    if (report.passed())
-        return fmt::format("pass: all {} channels{} are within tolerance", compared, pictures);
-    if (failed.empty())
-        return fmt::format("FAIL: {}{}", others.front(),
-                           others.size() > 1 ? fmt::format("; and {} more", others.size() - 1) : "");
-    return fmt::format("FAIL: {}{} beyond tolerance", fmt::join(failed, ", "), pictures);
+    const std::string errors = report.errors.empty() ? "" : fmt::format("ERROR: {}; ", errorsText(report));
+    const std::size_t all = report.comparisons.size();
+    if (failing == 0)
+        return fmt::format("{}pass: all {} channels{} are within tolerance{}", errors, compared,
+                           all == 1 ? "" : fmt::format(" of {} comparisons", all), hardlyAnything(report));
+    std::string what = others.empty() ? "" : listed(others, 1);
+    if (!channels.empty())
+        what += fmt::format("{}{} beyond tolerance", what.empty() ? "" : "; ", fmt::join(channels, ", "));
+    what += hardlyAnything(report);
+    if (all == 1) return fmt::format("{}FAIL: {}", errors, what);
+    return fmt::format("{}FAIL: {} of {} comparisons failed: {} ({})", errors, failing, all,
+                       listed(places, scenesNamed), what);
 }
 
 }  // namespace diptych

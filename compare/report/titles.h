@@ -7,6 +7,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace diptych {
 
@@ -27,7 +28,26 @@ std::vector<std::string> notesOf(const Report& report, const Comparison& compari
 // "3 places to check by eye: texture transforms 2, alpha masks 1"; empty where there are none.
 std::string checksLine(const Comparison& comparison);
 
-// "pass: 14 channels within tolerance", "FAIL: lit, normals".
+// Scene, and camera where the report has several of that scene: "Box.glb", "Box.glb, camera 1".
+std::string placeOf(const Report& report, const Comparison& comparison);
+
+// A note and the scenes that it is about, in the report's order.
+struct GroupedNote {
+    std::string text;  // of the first scene
+    std::vector<std::string> scenes;
+    bool varies = false;  // other scenes have other numbers in it
+};
+// The notes of all comparisons, each once, whatever numbers are in it.
+std::vector<GroupedNote> groupedNotes(const Report& report);
+
+// "bad.glb: is cut short", whether or not the message begins with the name.
+std::string errorText(const SceneError& error);
+
+// "a, b and 3 more": at most `most` of the names.
+std::string listed(const std::vector<std::string>& names, std::size_t most);
+
+// "pass: all 14 channels are within tolerance", "FAIL: lit, normals beyond tolerance", "FAIL: 20 of 26
+// comparisons failed: Box.glb, ... (lit beyond tolerance)"; scenes that could not be drawn come first.
 std::string verdictLine(const Report& report);
 
 }  // namespace diptych

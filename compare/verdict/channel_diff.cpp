@@ -13,45 +13,87 @@
 namespace diptych {
 namespace {
 
-// Why a channel fails; empty where it passes.
+// The covered pixels whose error is beyond the tolerance.
+std::uint64_t pixelsBeyond(const ChannelDiff& channel, const FramePair& pair,
+                           const Measurement& measurement) {
+    const double most = channel.tolerance.max;
+    if (const auto certain = certainErrors(*channel.mode, pair))
+        return static_cast<std::uint64_t>(
+            std::ranges::count_if(*certain, [&](double e) { return !(e <= most); }));
+    return measurement.pixelsAbove(most);
+}
+
+// What the derived tolerance is a limit on.
+Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const Measurement& measurement) {
+    if (channel.unexplained_pixels) {
+        const std::uint64_t pixels =
+            std::max(*channel.unexplained_pixels, channel.encoding_use ? channel.encoding_use->beyond : 0);
+        return {.figure = "pixels unexplained", .measured = static_cast<double>(pixels), .pixels = pixels};
+    }
+    if (const auto& f = channel.footprints) {
+        if (f->used >= f->flip / detailFlip)
+            return {.figure = "times the bounds", .measured = f->used, .limit = 1, .pixels = f->beyond};
+        return {.figure = "flip of detail",
+                .measured = f->flip,
+                .limit = detailFlip,
+                .pixels = channel.stats.different,
+                .differing = true};
+    }
+    const bool most = channel.tolerance.most_pixels;
+    return {.figure = most ? "p99.9" : "max",
+            .measured = most ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max,
+            .limit = channel.tolerance.max,
+            .pixels = pixelsBeyond(channel, pair, measurement)};
+}
+
+// What the criterion finds wrong; empty where it holds.
 std::string faultOf(const ChannelDiff& channel) {
+    const Criterion& c = *channel.criterion;
+    const std::string share = percentText(c.share);
     if (channel.unexplained_pixels.value_or(0) > 0)
-        return fmt::format("{} pixel(s) differ from what the encoding explains", *channel.unexplained_pixels);
+        return fmt::format("{} pixel(s) ({}) differ from what the encoding explains",
+                           *channel.unexplained_pixels, share);
     if (channel.encoding_use && channel.encoding_use->beyond > 0)
         return fmt::format(
             "explained by what deferred reads back, but {:.3g} times what the bits of its G-buffer can do at "
-            "{},{}, "
-            "and more than they can at {} pixel(s)",
+            "{},{}, and more than they can at {} pixel(s) ({})",
             channel.encoding_use->used, channel.encoding_use->x, channel.encoding_use->y,
-            channel.encoding_use->beyond);
+            channel.encoding_use->beyond, share);
     if (const auto& f = channel.footprints) {
         if (!(f->used <= 1))
             return fmt::format(
-                "over 0.1 % of the {} pixels whose surroundings are smooth are beyond what they are held to: "
-                "p99.9 "
-                "is {:.3g} times it, most at {},{}",
-                f->smooth, f->used, f->x, f->y);
+                "{} pixel(s) ({}) whose surroundings are smooth are beyond what they are held to: p99.9 is "
+                "{:.3g} times it, most at {},{}",
+                f->beyond, share, f->used, f->x, f->y);
         if (!(f->flip <= detailFlip))
             return fmt::format("FLIP is {:.3g} over the {} pixels with detail, which exceeds {}", f->flip,
                                f->detailed, detailFlip);
         return {};
     }
+    if (c.measured <= c.limit) return {};
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
-    if (channel.tolerance.most_pixels) {
-        const double p999 = channel.certain_p999.value_or(channel.stats.p999);
-        return p999 <= channel.tolerance.max
-                   ? std::string()
-                   : fmt::format("over 0.1 % of the pixels exceed {:.4g}: p99.9 is {:.4g}",
-                                 channel.tolerance.max, p999);
+    return channel.tolerance.most_pixels
+               ? fmt::format("{} of the pixels exceed {:.4g} and 0.1 % may: p99.9 is {:.4g}", share, c.limit,
+                             c.measured)
+               : fmt::format("max {:.4g} exceeds {:.4g} at {} of the pixels", c.measured, c.limit, share);
+}
+
+// Where a channel fails and a NaN or infinity is part of that, it is said before any figure: no mean shows
+// it.
+void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
+    const ChannelStats& s = channel.stats;
+    if (channel.reason.empty() || s.infinite == 0) return;
+    if (s.nonfinite_baseline + s.nonfinite_test == 0) {
+        channel.reason +=
+            fmt::format("; {} pixel(s) have an infinite error: the baseline is 0 everywhere", s.infinite);
+        return;
     }
-    if (channel.stats.infinite > 0)
-        return fmt::format(
-            "{} pixel(s) are infinitely far apart (a NaN or infinity against a number, or a baseline "
-            "of zero)",
-            channel.stats.infinite);
-    if (!(channel.stats.max <= channel.tolerance.max))
-        return fmt::format("max {:.4g} exceeds {:.4g}", channel.stats.max, channel.tolerance.max);
-    return {};
+    std::string who;
+    for (const auto& [count, frame] :
+         {std::pair{s.nonfinite_baseline, &pair.baseline}, {s.nonfinite_test, &pair.test}})
+        if (count > 0)
+            who += fmt::format("{}{} pixel(s) of {}", who.empty() ? "" : " and ", count, frame->name);
+    channel.reason = fmt::format("NaN or infinity at {}; {}", who, channel.reason);
 }
 
 // The sum of what two runs of each path differ by.
@@ -62,8 +104,13 @@ double noiseOf(const FramePair& pair, int mode) {
     return sum;
 }
 
+void setShare(Criterion& criterion, const Coverage& coverage) {
+    const auto all = static_cast<double>(coverage.count);
+    criterion.share = all > 0 ? std::min(1.0, static_cast<double>(criterion.pixels) / all) : 0;
+}
+
 // Judges by the derived tolerance.
-void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
+void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
     if (const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0; noise > 0) {
@@ -75,7 +122,10 @@ void judge(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     channel.footprints = footprints(mode, pair);
     if (channel.footprints) channel.tolerance = footprintTolerance(*channel.footprints);
     channel.certain_p999 = certainP999(mode, pair);
+    channel.criterion = criterionOf(channel, pair, measurement);
+    setShare(*channel.criterion, pair.coverage);
     channel.reason = faultOf(channel);
+    leadWithNonfinite(channel, pair);
     // What this program drew must be what it may be at all, whatever it is compared with.
     for (const Frame* frame : {&pair.baseline, &pair.test}) {
         if (!channel.reason.empty() || !frame->origin.file.empty()) continue;
@@ -92,6 +142,7 @@ void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measuremen
     channel.tolerance = {boundOn(rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
                          rule.because};
     channel.rule = fmt::format("{}: {}", rule.origin, conditionText(rule.fail));
+    channel.criterion = decision.criterion;
     (decision.level == Level::warn ? channel.warning : channel.reason) = decision.reason;
 }
 
@@ -113,12 +164,8 @@ double usedShare(const ChannelDiff& channel) {
     constexpr double endless = std::numeric_limits<double>::infinity();
     if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0) return endless;
-    if (channel.footprints) return std::max(channel.footprints->used, channel.footprints->flip / detailFlip);
     if (channel.encoding_use) return channel.encoding_use->used;
-    const double error =
-        channel.tolerance.most_pixels ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max;
-    if (error == 0) return 0;
-    return channel.tolerance.max > 0 ? error / channel.tolerance.max : endless;
+    return channel.criterion ? usedOf(*channel.criterion) : 0;
 }
 
 ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<const Rule> rules,
@@ -134,7 +181,7 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
     if (const Rule* rule = ruleFor(rules, mode.name))
         judge(channel, *rule, measurement);
     else
-        judge(channel, pair, allowNoise);
+        judge(channel, pair, measurement, allowNoise);
     channel.verdict = channel.reason.empty() ? Verdict::pass : Verdict::fail;
     return channel;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/metrics/channel.h"
+#include "compare/verdict/criterion.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/frame_pair.h"
@@ -45,6 +46,7 @@ struct ChannelDiff {
     double shown_error_top = 1;
     std::vector<std::pair<std::string, double>> figures;  // all that are defined
     std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
+    std::optional<Criterion> criterion;  // what decided; empty where forward-only, or a rule bounds nothing
 };
 
 // The share of its tolerance that a channel uses; infinite where it differs although nothing is granted.

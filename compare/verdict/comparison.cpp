@@ -2,6 +2,7 @@
 #include "compare/verdict/comparison.h"
 
 #include "compare/render/reference_frame.h"
+#include "compare/verdict/one_sided.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -83,6 +84,22 @@ const Frame* explaining(const Report& report, const Frame& left, const Frame& ri
     return nullptr;
 }
 
+// Why two pictures that agree say little: nothing is in view, hardly anything, or no light. Empty otherwise.
+// `shown`: the share of the pixels that show a surface, before any were left out by the command line.
+std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& coverage, double shown) {
+    // Less, and the background decides every picture and hardly a pixel the verdict.
+    constexpr double least = 0.01;
+    if (coverage.known && shown == 0) return "both pictures are empty: no surface is in view";
+    if (coverage.known && shown < least)
+        return fmt::format("only {} of the picture shows the scene", percentText(shown));
+    const auto black = [&](const Frame& frame) {
+        const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
+        return lit != frame.channels.end() && frame.isRequested(lit->first) && isBlack(lit->second, coverage);
+    };
+    return black(left) && black(right) ? "both pictures are black: no light reaches what is in view"
+                                       : std::string();
+}
+
 }  // namespace
 
 bool Comparison::passed() const {
@@ -112,6 +129,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     });
     const bool cpu = report.device.bitExact() && here;
     comparison.coverage = coverage(left, right);
+    const double shown = static_cast<double>(comparison.coverage.count) /
+                         static_cast<double>(std::max<std::size_t>(comparison.coverage.covered.size(), 1));
     applySelection(comparison.coverage, left.settings.size.width, left.settings.size.height,
                    options.selection, objectsOf(left, right), comparison.notes);
     const FramePair pair{left,
@@ -123,11 +142,13 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                          options.texels ? &*options.texels : nullptr};
 
     bool shared = false;
-    auto& oneSided = options.strict ? comparison.failures : comparison.notes;
+    ChannelDemands demands{options.rules, {}, options.strict};
+    for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
     for (const Frame* frame : {&left, &right})
         if (frame->requested.empty() && !frame->origin.left_out.empty())
-            oneSided.push_back(fmt::format("{} of {}: none of our channels, not compared",
-                                           fmt::join(frame->origin.left_out, ", "), frame->name));
+            (options.strict ? comparison.failures : comparison.notes)
+                .push_back(fmt::format("{} of {}: none of our channels, not compared",
+                                       fmt::join(frame->origin.left_out, ", "), frame->name));
     for (const DebugMode& mode : debugModes()) {
         const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
                    onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
@@ -143,13 +164,15 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             const std::string& one = onLeft ? left.name : right.name;
             const Path lacking = onLeft ? right.settings.path : left.settings.path;
             if (paths && isReferenceFrame(onLeft ? right : left)) continue;
-            if (mode.maker == MadeBy::forward_only && lacking == Path::deferred) {
+            const Rule* rule = ruleFor(options.rules, mode.name);
+            if (mode.maker == MadeBy::forward_only && lacking == Path::deferred &&
+                !(rule && namesChannels(*rule))) {
                 ChannelDiff& channel = comparison.channels.emplace_back();
                 channel.mode = &mode;
                 channel.tolerance = {0, "the G-buffer does not carry it, so only forward+ shows it"};
                 channel.verdict = Verdict::forward_only;
             } else {
-                oneSided.push_back(fmt::format("{} is in {} alone and was not compared", mode.name, one));
+                judgeOneSided({std::string(mode.name), one}, demands, comparison.failures, comparison.notes);
             }
         }
     }
@@ -184,8 +207,15 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     if (!comparison.coverage.known)
         comparison.notes.push_back(
             "neither material_id nor depth is there: background pixels count in every mean");
-    else if (comparison.coverage.count == 0)
-        comparison.notes.push_back("no surface is in view: every pixel is background");
+    if (const std::string emptiness = emptinessOf(left, right, comparison.coverage, shown);
+        !emptiness.empty()) {
+        if (options.allow_empty)
+            comparison.notes.push_back(emptiness);
+        else if (options.strict)
+            comparison.failures.push_back(emptiness + "; --allow-empty grants that");
+        else
+            comparison.emptiness = emptiness;
+    }
     return comparison;
 }
 

@@ -26,6 +26,7 @@ struct Comparison {
     std::vector<std::string>
         failures;  // in addition to the channels', e.g. a capture that is not the timed frame
     std::vector<std::string> notes;  // what a reader must know although it is no failure
+    std::string emptiness;           // why the verdict says little, where the pictures show hardly anything
     std::vector<std::string>
         command;  // the command line that repeats this comparison; --channels may be added
     std::vector<FeatureChecks> visual_checks;  // places that a person must look at
@@ -33,11 +34,17 @@ struct Comparison {
     bool passed() const;
 };
 
+// A scene that could not be drawn while others of the same call were.
+struct SceneError {
+    std::string scene, message;
+};
+
 struct Report {
     ReportDevice device;
     std::vector<Frame> frames;
     std::vector<Comparison> comparisons;
     std::vector<std::string> first_notes;  // what a reader must know before any number
+    std::vector<SceneError> errors;
     std::vector<CloserPath> closer_paths;  // with --baseline reference: one per scene and camera
     double diff_ms = 0;                    // time of comparing alone
 
@@ -52,7 +59,11 @@ struct CompareOptions {
     SelectionOptions selection;      // pixels
     std::vector<std::string> words;  // of the command line that set the above; repeated commands contain them
     bool allow_noise = false;  // on a GPU: the difference of two runs of one path is added to tolerances
-    bool strict = false;       // a channel that only one of a pair has is a failure
+    // A channel that only one of a pair has is a failure, any or those that were asked for by name; and with
+    // strict so are pictures that show hardly anything.
+    bool strict = false;
+    std::vector<int> required{};
+    bool allow_empty = false;  // pictures that show nothing, or hardly anything, are what is wanted
     // What the device makes of texels of 8 bits, which a reference in mode scene grants it.
     std::optional<TextureSampling> texels{};
     Stage progress{};  // of comparing

@@ -94,7 +94,7 @@ bool Measurement::isVector() const {
 }
 
 std::optional<double> Measurement::operator()(const Quantity& quantity) const {
-    if (quantity.figure == FAILING) return failingShare(quantity.above);
+    if (quantity.figure == FAILING) return shareOf(pixelsAbove(quantity.above));
     const auto row = std::ranges::find(rows, quantity.figure, [](const Row& r) { return r.figure.name; });
     return row == rows.end() ? Value() : row->value(*this);
 }
@@ -158,22 +158,55 @@ const HdrFlipResult* Measurement::flip() const {
     return &*flip_;
 }
 
-double Measurement::failingShare(double above) const {
+std::uint64_t Measurement::pixelsAbove(double most) const {
     const PixelError error(pair_.metric, pair_.kind, *pair_.reference, *pair_.coverage);
-    std::size_t count = 0;
+    std::uint64_t count = 0;
     for (std::size_t i = 0; i < pair_.reference->pixels(); ++i)
         if (pair_.coverage->covered[i])
-            count += !(error(pair_.test->pixel(i), pair_.reference->pixel(i)) <= above);
-    return pair_.coverage->count ? static_cast<double>(count) / static_cast<double>(pair_.coverage->count)
+            count += !(error(pair_.test->pixel(i), pair_.reference->pixel(i)) <= most);
+    return count;
+}
+
+double Measurement::shareOf(std::uint64_t pixels) const {
+    return pair_.coverage->count ? static_cast<double>(pixels) / static_cast<double>(pair_.coverage->count)
                                  : 0;
 }
 
+namespace {
+
+// Counts the pixels of the bound that decided: those beyond it, or, of a figure of the whole channel, those
+// that differ.
+void countPixels(Criterion& criterion, const Measurement& measurement) {
+    if (criterion.above) {
+        criterion.pixels = measurement.pixelsAbove(*criterion.above);
+    } else if (criterion.figure == "max" || criterion.figure == "p99" || criterion.figure == "p999") {
+        criterion.pixels = measurement.pixelsAbove(criterion.limit);
+    } else {
+        criterion.pixels = measurement.stats().different;
+        criterion.differing = true;
+    }
+    criterion.share = measurement.shareOf(criterion.pixels);
+}
+
+}  // namespace
+
 Decision decide(const Rule& rule, const Measurement& measurement) {
     Decision decision = decide(rule, measurement.asMeasured());
+    if (decision.criterion) countPixels(*decision.criterion, measurement);
+    if (decision.level != Level::pass) {
+        const Condition& broken = decision.level == Level::fail ? rule.fail : *rule.warn;
+        if (auto bound = decidingBound(broken, measurement.asMeasured())) {
+            countPixels(*bound, measurement);
+            decision.reason += shareText(*bound);
+        }
+    }
     const std::uint64_t different = measurement.plain().nonfinite_different;
-    if (decision.level != Level::fail && different > 0 && !boundsFigure(rule.fail, FAILING))
-        decision = {Level::fail, &rule,
-                    fmt::format("{} pixel(s) are NaN or infinite against something else", different)};
+    if (different == 0 || boundsFigure(rule.fail, FAILING)) return decision;
+    const std::string nonfinite =
+        fmt::format("{} pixel(s) are NaN or infinite against something else", different);
+    decision.reason =
+        decision.level == Level::fail ? fmt::format("{}; {}", nonfinite, decision.reason) : nonfinite;
+    decision.level = Level::fail;
     return decision;
 }
 

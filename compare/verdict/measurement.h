@@ -8,6 +8,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/image/image.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,11 @@ public:
     // All that are defined, in the table's order.
     std::vector<std::pair<std::string, double>> all() const;
 
+    // Covered pixels whose error in the channel's metric is above `most` (a NaN against a number always is).
+    std::uint64_t pixelsAbove(double most) const;
+
+    double shareOf(std::uint64_t pixels) const;  // of the covered ones, 0 to 1
+
     bool isVector() const;  // of 3 components
     // The statistics given in the pair. If computed here, mean and rmse of an absolute error are over
     // components, as in other programs.
@@ -48,7 +54,6 @@ public:
 
 private:
     Image withHoles(const Image& image) const;
-    double failingShare(double above) const;
 
     ChannelPair pair_;
     mutable std::optional<ChannelStats> stats_;
@@ -58,7 +63,7 @@ private:
 
 // Applies the rule to the measurement. A NaN or infinity against any other value is a difference that some
 // figures do not see (a mean, FLIP, SSIM), so it always fails, unless the rule allows a share of failing
-// pixels, where it counts as one.
+// pixels, where it counts as one. The decision's criterion has its pixels.
 Decision decide(const Rule& rule, const Measurement& measurement);
 
 }  // namespace diptych

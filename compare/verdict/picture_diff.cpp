@@ -2,9 +2,11 @@
 #include "compare/verdict/picture_diff.h"
 
 #include "compare/metrics/prefilter.h"
+#include "compare/verdict/one_sided.h"
 #include "shared/image/picture_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -64,19 +66,20 @@ ObjectPlanes objectsOf(const std::vector<PictureChannel>& reference,
     return objects;
 }
 
+constexpr const char* commandLine = "command line";
+constexpr const char* byDefault = "default of diff";
+
 // The command line's rule for a channel that no rule names. A channel without the figure (only colours have a
 // FLIP) is judged by its largest error, unless --metric was given: then it is not judged.
 Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel) {
     Rule rule;
     rule.channel = channel.pair.name;
-    rule.origin = "command line";
+    rule.origin =
+        options.metric_given || options.tolerance_given || options.failing ? commandLine : byDefault;
     Quantity quantity{options.metric, 0};
     if (!options.failing && !(*channel.measurement)(quantity)) {
         rule.because = fmt::format("{} is not defined for it", quantity.figure);
-        if (options.metric_given) {
-            rule.because += ": not judged";
-            return rule;
-        }
+        if (options.metric_given) return rule;
         quantity.figure = "max";
     }
     const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
@@ -105,15 +108,19 @@ void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
 
 // Notes on what no figure shows: a NaN in both pictures, a rule that names no channel.
 void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
+    std::vector<std::string> without;
     for (const auto& channel : diff.channels) {
         const ChannelStats& s = channel->measurement->stats();
         if (s.nonfinite_baseline + s.nonfinite_test > 0)
             diff.notes.push_back(
                 fmt::format("{}: {} pixel(s) of the reference and {} of the test are NaN or infinite",
                             channel->pair.name, s.nonfinite_baseline, s.nonfinite_test));
-        if (!channel->rule.because.empty() && channel->rule.origin == "command line")
-            diff.notes.push_back(fmt::format("{}: {}", channel->pair.name, channel->rule.because));
+        if (!channel->rule.because.empty() && isOwnRule(channel->rule)) without.push_back(channel->pair.name);
     }
+    if (!without.empty())
+        diff.notes.push_back(
+            fmt::format("{} is not defined for {}: {}", options.metric, fmt::join(without, ", "),
+                        options.metric_given ? "not judged" : "judged by the largest error"));
     std::vector<std::string> names;
     for (const auto& channel : diff.channels) names.push_back(channel->pair.name);
     for (const std::string& line : idleRules(options.rules, names)) diff.notes.push_back(line);
@@ -150,6 +157,10 @@ DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff&
     if (!relative) return {std::move(errors), "", channel.measurement->stats().max};
     const double top = channel.measurement->plain().relative_max;
     return {std::move(errors), "relative", top};
+}
+
+bool isOwnRule(const Rule& rule) {
+    return rule.origin == commandLine || rule.origin == byDefault;
 }
 
 bool PictureDiff::passed() const {
@@ -189,8 +200,8 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
                    diff.notes);
     MatchedChannels matched = matchChannels(std::move(left), std::move(right), options.channels);
     diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
-    auto& oneSided = options.strict ? diff.failures : diff.notes;
-    oneSided.insert(oneSided.end(), matched.one_sided.begin(), matched.one_sided.end());
+    for (const OneSidedChannel& channel : matched.one_sided)
+        judgeOneSided(channel, {options.rules, options.channels, options.strict}, diff.failures, diff.notes);
     for (MatchedChannel& pair : matched.channels) {
         auto channel = std::make_unique<PictureChannelDiff>();
         channel->pair = std::move(pair);
@@ -223,6 +234,11 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
         throw std::runtime_error(
             fmt::format("--metric {}: not defined for any channel of these pictures", options.metric));
     addNotes(diff, options);
+    const bool black = std::ranges::all_of(diff.channels, [&](const auto& channel) {
+        return isBlack(channel->pair.reference, *diff.coverage) &&
+               isBlack(channel->pair.test, *diff.coverage);
+    });
+    if (black && !options.allow_empty) diff.emptiness = "both pictures are black: every value compared is 0";
     return diff;
 }
 

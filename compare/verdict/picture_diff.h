@@ -26,9 +26,11 @@ struct PictureDiffOptions {
     std::vector<std::string> channels;  // patterns of names; empty: all
     std::vector<std::string> names;     // --map
     SelectionOptions selection;
-    bool strict = false;  // a channel that only one picture has is a failure
-    double blur = 0;      // standard deviation, pixels
-    int shift = 0;        // pixels
+    bool tolerance_given = false;
+    bool strict = false;       // a channel that only one picture has is a failure
+    bool allow_empty = false;  // two black pictures are what is wanted
+    double blur = 0;           // standard deviation, pixels
+    int shift = 0;             // pixels
     HdrFlipOptions flip;
     Stage progress{};
 };
@@ -62,9 +64,13 @@ struct PictureDiff {
     std::vector<std::unique_ptr<PictureChannelDiff>> channels;
     std::vector<std::string> failures;  // in addition to the channels'
     std::vector<std::string> notes;
+    std::string emptiness;  // why the verdict says little: both pictures are black
 
     bool passed() const;
 };
+
+// Whether the rule is none of a file: the command line's, or what diff does by default.
+bool isOwnRule(const Rule& rule);
 
 // Throws std::runtime_error, one line, where a file cannot be read, sizes differ, or nothing is shared.
 PictureDiff diffPictures(const std::string& reference, const std::string& test,

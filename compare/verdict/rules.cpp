@@ -191,6 +191,27 @@ std::optional<std::string> violation(const Condition& condition, const Measured&
     return reasons;
 }
 
+std::optional<Criterion> decidingBound(const Condition& condition, const Measured& measured) {
+    if (condition.kind == Condition::Kind::bound) {
+        const std::optional<double> value = measured(condition.quantity);
+        if (!value) return {};
+        const Figure* figure = findFigure(condition.quantity.figure);
+        const bool share = condition.quantity.figure == FAILING;
+        return Criterion{.figure = quantityText(condition.quantity),
+                         .measured = *value,
+                         .limit = condition.limit,
+                         .least = figure && figure->more_is_better,
+                         .above = share ? std::optional(condition.quantity.above) : std::nullopt};
+    }
+    std::optional<Criterion> deciding;
+    for (const Condition& part : condition.parts)
+        if (const auto bound = decidingBound(part, measured))
+            if (!deciding || (condition.kind == Condition::Kind::any ? usedOf(*bound) < usedOf(*deciding)
+                                                                     : usedOf(*bound) > usedOf(*deciding)))
+                deciding = bound;
+    return deciding;
+}
+
 bool boundsFigure(const Condition& condition, std::string_view figure) {
     return condition.kind == Condition::Kind::bound
                ? condition.quantity.figure == figure
@@ -221,16 +242,21 @@ std::string_view nameOf(Level level) {
 }
 
 Decision decide(const Rule& rule, const Measured& measured) {
-    if (auto why = violation(rule.fail, measured)) return {Level::fail, &rule, *why};
+    const std::optional<Criterion> criterion = decidingBound(rule.fail, measured);
+    if (auto why = violation(rule.fail, measured)) return {Level::fail, &rule, *why, criterion};
     if (rule.warn)
-        if (auto why = violation(*rule.warn, measured)) return {Level::warn, &rule, *why};
-    return {Level::pass, &rule, {}};
+        if (auto why = violation(*rule.warn, measured)) return {Level::warn, &rule, *why, criterion};
+    return {Level::pass, &rule, {}, criterion};
 }
 
 const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel) {
     for (std::size_t i = rules.size(); i-- > 0;)
         if (matches(rules[i].channel, channel)) return &rules[i];
     return nullptr;
+}
+
+bool namesChannels(const Rule& rule) {
+    return rule.channel.find_first_not_of('*') != std::string::npos;
 }
 
 std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels) {

@@ -3,6 +3,8 @@
 // Filament's renderdiff presets.
 #pragma once
 
+#include "compare/verdict/criterion.h"
+
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -45,6 +47,11 @@ struct Condition {
 // or not defined never holds.
 std::optional<std::string> violation(const Condition& condition, const Measured& measured);
 
+// The bound that decides: of several that must all hold the one that uses most of its limit, of alternatives
+// the one that uses least. Empty where nothing is bounded or the figure is not defined. Its pixels are not
+// counted here.
+std::optional<Criterion> decidingBound(const Condition& condition, const Measured& measured);
+
 // Whether any part of the condition bounds the figure.
 bool boundsFigure(const Condition& condition, std::string_view figure);
 // The least upper bound on the figure that holds in every case; empty if there is none.
@@ -67,12 +74,16 @@ std::string_view nameOf(Level level);
 struct Decision {
     Level level = Level::pass;
     const Rule* rule = nullptr;
-    std::string reason;  // of a warning or failure; empty otherwise
+    std::string reason;                    // of a warning or failure; empty otherwise
+    std::optional<Criterion> criterion{};  // the bound that decided, if the rule has one
 };
 Decision decide(const Rule& rule, const Measured& measured);
 
 // The last rule whose pattern the channel matches, as in a list of exceptions; nullptr: none.
 const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel);
+
+// Whether the rule is about channels that it names, and not about all ("*").
+bool namesChannels(const Rule& rule);
 
 // A line for each rule whose pattern is that of none of the channels.
 std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels);

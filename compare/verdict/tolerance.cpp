@@ -235,7 +235,7 @@ double encodingBound(const DebugMode& mode, const FramePair& pair) {
                                                 : 0;
 }
 
-std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
+std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Image* const bits = allowedByBits(mode, pair);
@@ -253,10 +253,16 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
         const double e = error(test.pixel(i), p);
         errors.push_back(e > open ? e - open : std::isnan(e) ? std::numeric_limits<double>::infinity() : 0);
     }
-    if (errors.empty()) return 0;
-    const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(errors.size()))) - 1;
-    std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
-    return errors[rank];
+    return errors;
+}
+
+std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
+    std::optional<std::vector<double>> errors = certainErrors(mode, pair);
+    if (!errors) return {};
+    if (errors->empty()) return 0;
+    const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(errors->size()))) - 1;
+    std::ranges::nth_element(*errors, errors->begin() + static_cast<std::ptrdiff_t>(rank));
+    return (*errors)[rank];
 }
 
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {

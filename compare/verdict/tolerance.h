@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace diptych {
 
@@ -28,9 +29,12 @@ inline constexpr double surerThan95 = 2.29;
 // channel's metric; 0 for forward+, a full G-buffer and lit channels.
 double encodingBound(const DebugMode& mode, const FramePair& pair);
 
-// In a comparison with the reference: the 99.9th percentile of the errors less the reference's uncertainty
-// and what the bits of a packed G-buffer allow at each pixel (allowedByBits()). Empty where there is neither,
+// In a comparison with the reference: the covered pixels' errors less the reference's uncertainty and what
+// the bits of a packed G-buffer allow at each (allowedByBits()), row by row. Empty where there is neither,
 // and for channels other than lit ones.
+std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair);
+
+// Their 99.9th percentile.
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair);
 
 // The number of pixels where deferred differs from what forward+ shades from a surface that went through the

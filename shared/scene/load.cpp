@@ -23,6 +23,23 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
+struct SceneFile {
+    std::string file, scene;
+};
+
+// The name may end in ?scene=INDEX or ?scene=NAME. If a file of the whole name exists, it is that file.
+SceneFile fileOf(const std::string& where) {
+    constexpr std::string_view key = "?scene=";
+    const std::size_t question = std::filesystem::exists(where) ? where.npos : where.rfind(key);
+    const std::string file = where.substr(0, question);
+    const std::string ending = lowerCase(std::filesystem::path(file).extension().string());
+    if (ending != ".gltf" && ending != ".glb")
+        throw std::runtime_error(fmt::format(
+            "{}: not a scene: expected a .gltf or .glb file or builtin:NAME (--list-scenes names them)",
+            where));
+    return {file, question == where.npos ? "" : where.substr(question + key.size())};
+}
+
 }  // namespace
 
 Scene loadScene(const std::string& where, const LoadProgress& progress) {
@@ -30,21 +47,18 @@ Scene loadScene(const std::string& where, const LoadProgress& progress) {
     if (where.starts_with(builtinPrefix)) {
         scene = makeBuiltin(where.substr(builtinPrefix.size()));
     } else {
-        // The name may end in ?scene=INDEX or ?scene=NAME. If a file of the whole name exists, it is that
-        // file.
-        constexpr std::string_view key = "?scene=";
-        const std::size_t question = std::filesystem::exists(where) ? where.npos : where.rfind(key);
-        const std::string file = where.substr(0, question);
-        const std::string choice = question == where.npos ? "" : where.substr(question + key.size());
-        const std::string ending = lowerCase(std::filesystem::path(file).extension().string());
-        if (ending != ".gltf" && ending != ".glb")
-            throw std::runtime_error(fmt::format(
-                "{}: not a scene: expected a .gltf or .glb file or builtin:NAME (--list-scenes names them)",
-                where));
+        const auto [file, choice] = fileOf(where);
         scene = loadGltf(file, choice, progress);
     }
     scene.name = where;
     return scene;
+}
+
+void checkScene(const std::string& where) {
+    if (where.starts_with(builtinPrefix))
+        makeBuiltin(where.substr(builtinPrefix.size()));
+    else
+        checkGltf(fileOf(where).file);
 }
 
 }  // namespace diptych

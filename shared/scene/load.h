@@ -13,4 +13,8 @@ namespace diptych {
 // loading goes on. Throws std::runtime_error: one line that names file, object and fault.
 Scene loadScene(const std::string& where, const LoadProgress& progress = {});
 
+// Reads what tells whether `where` is a scene at all, before its data: that the file is there, the lengths of
+// its container, that its JSON is sound, version and required extensions. Throws as loadScene().
+void checkScene(const std::string& where);
+
 }  // namespace diptych

@@ -3,6 +3,7 @@
 
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/commands.h"
+#include "shared/vulkan/driver_files.h"
 #include "shared/vulkan/physical_device.h"
 #include "shared/vulkan/pipeline_cache.h"
 
@@ -104,8 +105,8 @@ public:
         }
         const VkResult result = vkCreateInstance(&info, nullptr, &handle_);
         if (result != VK_SUCCESS)
-            throw std::runtime_error(
-                fmt::format("Vulkan: no instance: {}; install mesa-vulkan-drivers", nameOf(result)));
+            throw std::runtime_error(fmt::format("Vulkan: no instance: {}; {}", nameOf(result),
+                                                 driverFilesFault().value_or("install mesa-vulkan-drivers")));
         if (log == nullptr) return;
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));

@@ -8,6 +8,7 @@
 #include "shared/contract/material.h"
 #include "shared/vulkan/binding_table.h"
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/driver_files.h"
 
 #include <fmt/format.h>
 
@@ -218,7 +219,9 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
 std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string& choice) {
     if (infos.empty())
         throw std::runtime_error(
-            "no Vulkan device; install mesa-vulkan-drivers, which brings the software device lavapipe");
+            fmt::format("no Vulkan device; {}",
+                        driverFilesFault().value_or(
+                            "install mesa-vulkan-drivers, which brings the software device lavapipe")));
     if (choice.empty()) {
         constexpr std::array order{"discrete", "integrated", "virtual", "cpu", "other"};
         for (const char* type : order)

@@ -47,12 +47,12 @@ TEST(CompareOptions, ARuleDecidesInPlaceOfTheTolerance) {
     const ChannelDiff channel = litOf(compared(framesApart(), options));
     EXPECT_EQ(channel.verdict, Verdict::pass);
     EXPECT_EQ(channel.rule, "t.json, rule 1: max <= 0.25");
-    EXPECT_EQ(channel.warning, "max 0.25 exceeds 0.2");
+    EXPECT_EQ(channel.warning, "max 0.25 exceeds 0.2, at 100 % of the pixels");
     EXPECT_EQ(channel.tolerance.max, 0.25);
     EXPECT_EQ(channel.tolerance.because, "a quarter");
     options.rules =
         rulesFromJson(R"({"rules": [{"channel": "lit", "max": 0.2, "because": "a fifth"}]})", "t.json");
-    EXPECT_EQ(litOf(compared(framesApart(), options)).reason, "max 0.25 exceeds 0.2");
+    EXPECT_EQ(litOf(compared(framesApart(), options)).reason, "max 0.25 exceeds 0.2, at 100 % of the pixels");
 }
 
 TEST(CompareOptions, PixelsThatAreLeftOutDoNotCount) {

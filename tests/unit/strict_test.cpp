@@ -58,26 +58,32 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
         for (const std::size_t pair : {0u, 1u}) {
             const Comparison& c = report.comparisons.at(pair);
             const std::string name = pair == 0 ? "deferred" : "forward_plus";
-            const Lines said{"albedo is in " + name + " alone and was not compared"};
+            const Lines said{"albedo is in " + name +
+                             (strict ? " alone, and --strict asks for the same channels on both sides"
+                                     : " alone and was not compared")};
             EXPECT_EQ(c.failures, strict ? said : Lines{}) << pair;
             EXPECT_EQ(c.notes, strict ? Lines{} : said) << pair;
         }
         EXPECT_TRUE(report.comparisons.at(2).passed()) << "the paths have the same channels";
         // In what users and CI read.
         const std::string table = reportTable(report);
-        const std::string line = "albedo is in forward_plus alone and was not compared\n";
-        EXPECT_NE(table.find((strict ? "  FAIL " : "  note: ") + line), std::string::npos) << table;
-        EXPECT_EQ(table.find((strict ? "  note: " : "  FAIL ") + line), std::string::npos) << table;
-        EXPECT_EQ(table.ends_with("FAIL: albedo is in deferred alone and was not compared; and 1 more\n"),
-                  strict);
+        const std::string line = strict ? "  FAIL builtin:one: albedo is in forward_plus alone, and --strict"
+                                        : "\nnote: albedo is in forward_plus alone and was not compared\n";
+        EXPECT_NE(table.find(line), std::string::npos) << table;
+        EXPECT_EQ(countOf(table, "albedo is in forward_plus alone"), 1u) << table;
+        EXPECT_EQ(
+            table.find("\nFAIL: 2 of 3 comparisons failed: builtin:one (albedo is in deferred alone, and "
+                       "--strict asks for the same channels on both sides and 1 more)\n") != table.npos,
+            strict)
+            << table;
         const auto json = nlohmann::json::parse(reportJson(report, nullptr));
         EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
         EXPECT_EQ(json["comparisons"][0][strict ? "failures" : "notes"].size(), 1u);
         const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
         EXPECT_EQ(countOf(junit, "<failure "), strict ? 2u : 0u);
-        EXPECT_EQ(countOf(junit, "message=\"albedo is in deferred alone and was not compared\""),
+        EXPECT_EQ(countOf(junit, "message=\"albedo is in deferred alone, and --strict asks"),
                   strict ? 1u : 0u);
-        EXPECT_NE(junit.find("albedo is in deferred alone and was not compared"), std::string::npos) << junit;
+        EXPECT_NE(junit.find("albedo is in deferred alone"), std::string::npos) << junit;
     }
 }
 
@@ -85,7 +91,8 @@ TEST(Strict, EitherSideMayLackIt) {
     std::vector<Frame> frames = fewChannels();
     frames[1].channels.erase(gpu::DEBUG_metallic);
     const Report report = makeReport(frames, std::vector<Requirements>(2), strictDevice, strictly(true));
-    EXPECT_EQ(report.comparisons[0].failures, Lines{"metallic is in deferred alone and was not compared"});
+    EXPECT_EQ(report.comparisons[0].failures,
+              Lines{"metallic is in deferred alone, and --strict asks for the same channels on both sides"});
     EXPECT_FALSE(report.passed());
 }
 
@@ -113,7 +120,9 @@ TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
             if (mode.maker == MadeBy::paths_only) pathsOnly.emplace_back(mode.name);
         EXPECT_GT(pathsOnly.size(), 1u);
         for (const DebugMode& mode : debugModes()) {
-            const std::string line = std::string(mode.name) + " is in deferred alone and was not compared";
+            const std::string line =
+                std::string(mode.name) +
+                " is in deferred alone, and --strict asks for the same channels on both sides";
             if (std::ranges::count(report.comparisons[0].failures, line) > 0) said.emplace_back(mode.name);
         }
         EXPECT_EQ(said, ours ? Lines{} : pathsOnly) << nlohmann::json(report.comparisons[0].failures);
@@ -174,8 +183,9 @@ PictureDiff diffOf(const std::vector<std::string>& left, const std::vector<std::
 TEST(Strict, DiffSaysWhichFileLacksWhat) {
     for (const bool strict : {false, true}) {
         const PictureDiff diff = diffOf({"metallic", "one"}, {"metallic", "other"}, strict);
-        const Lines said{"one is in the reference alone and was not compared",
-                         "other is in the test alone and was not compared"};
+        const std::string ending =
+            strict ? ", and --strict asks for the same channels on both sides" : " and was not compared";
+        const Lines said{"one is in the reference alone" + ending, "other is in the test alone" + ending};
         EXPECT_EQ(diff.passed(), !strict);
         EXPECT_EQ(strict ? diff.failures : Lines{}, strict ? said : Lines{});
         EXPECT_TRUE((strict ? diff.failures : diff.notes).size() >= 2);
@@ -183,8 +193,7 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
         for (const std::string& line : said)
             EXPECT_NE(table.find((strict ? "  FAIL " : "  note: ") + line + "\n"), std::string::npos)
                 << table;
-        EXPECT_EQ(table.ends_with("FAIL: one is in the reference alone and was not compared\n"), strict)
-            << table;
+        EXPECT_EQ(table.ends_with("FAIL: " + said[0] + "\n"), strict) << table;
         const auto json = nlohmann::json::parse(pictureDiffJson(diff));
         EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
         EXPECT_EQ(json["failures"].size(), strict ? 2u : 0u);
@@ -196,6 +205,52 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
     EXPECT_FALSE(diffOf({"metallic"}, {"metallic", "one"}, true).passed());
 }
 
+// A rule or --channels that names a channel demands it on both sides; a rule for all channels does not.
+TEST(Strict, WhatIsNamedIsDemanded) {
+    const auto failures = [](const std::string& pattern, std::vector<int> required) {
+        Frame baseline = fewChannels()[0];
+        baseline.name = "baseline";
+        baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
+        baseline.channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+        CompareOptions options;
+        options.required = std::move(required);
+        if (!pattern.empty())
+            options.rules = rulesFromJson(
+                R"({"rules": [{"channel": ")" + pattern + R"(", "max": 9, "because": "any"}]})", "t.json");
+        const Report report = makeBaselineReport(baseline, fewChannels(), {}, strictDevice, options, {});
+        return report.comparisons[0].failures;
+    };
+    EXPECT_EQ(failures("", {}), Lines{});
+    EXPECT_EQ(failures("*", {}), Lines{});
+    EXPECT_EQ(failures("lit", {}), Lines{});
+    EXPECT_EQ(failures("albedo", {}), Lines{"albedo is in deferred alone, and t.json, rule 1 judges it"});
+    EXPECT_EQ(failures("alb*", {}).size(), 1u);
+    EXPECT_EQ(failures("", {litMode}), Lines{});
+    EXPECT_EQ(failures("", {static_cast<int>(gpu::DEBUG_albedo)}),
+              Lines{"albedo is in deferred alone, and --channels asks for it"});
+}
+
+// What only forward+ can make fails where a rule is to judge it: nothing does.
+TEST(Strict, ARuleOnWhatForwardAloneHasIsNeverMet) {
+    CompareOptions options;
+    options.rules =
+        rulesFromJson(R"({"rules": [{"channel": "texcoords", "max": 9, "because": "any"}]})", "t.json");
+    const Report report = makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, options);
+    EXPECT_EQ(report.comparisons[0].failures,
+              Lines{"texcoords is in forward_plus alone, and t.json, rule 1 judges it"});
+}
+
+TEST(Strict, DiffDemandsWhatARuleNames) {
+    const std::filesystem::path here = folder();
+    const Image grey(4, 3, 1, 0.5f);
+    writeExr(here / "a.exr", {{{"one.Y"}, &grey}, {{"two.Y"}, &grey}});
+    writeExr(here / "b.exr", {{{"one.Y"}, &grey}});
+    PictureDiffOptions options;
+    options.rules = rulesFromJson(R"({"rules": [{"channel": "two", "max": 1, "because": "any"}]})", "t.json");
+    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+    EXPECT_EQ(diff.failures, Lines{"two is in the reference alone, and t.json, rule 1 judges it"});
+}
+
 // The option reaches both commands, and the command that a report prints.
 TEST(Strict, IsAnOptionOfCompareAndDiff) {
     for (const Lines& words :
@@ -203,6 +258,7 @@ TEST(Strict, IsAnOptionOfCompareAndDiff) {
         const cli::Options options = cli::parseCommandLine(words);
         EXPECT_TRUE(options.strict);
         EXPECT_EQ(cli::wordsOfWhatCounts(options).back(), "--strict");
+        EXPECT_FALSE(options.allow_empty);
         EXPECT_NE(cli::parseCommandLine({words[0], "--help"}).help.find("--strict"), std::string::npos);
     }
     EXPECT_FALSE(cli::parseCommandLine({"compare"}).strict);

@@ -2,8 +2,10 @@
 #include "shared/scene/builtin/builtin.h"
 
 #include "shared/scene/builtin/scenes.h"
+#include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <charconv>
@@ -75,9 +77,9 @@ constexpr std::array ROWS{
     Row{"unlit", "no lights and nothing that emits, with a camera", TEST, builtin::unlit},
 };
 
-std::string knownNames() {
-    std::string names;
-    for (const Row& row : ROWS) names += (names.empty() ? "" : ", ") + std::string(row.name);
+std::vector<std::string> knownNames() {
+    std::vector<std::string> names;
+    for (const Row& row : ROWS) names.emplace_back(row.name);
     return names;
 }
 
@@ -120,8 +122,9 @@ Scene makeBuiltin(const std::string& name) {
         scene.name = "builtin:" + name;
         return scene;
     }
-    throw std::runtime_error(
-        fmt::format("builtin:{}: there is no such scene; there are {}", name, knownNames()));
+    const std::vector<std::string> names = knownNames();
+    throw std::runtime_error(fmt::format("builtin:{}: there is no such scene{}; there are {}", name,
+                                         didYouMean(base, names), fmt::join(names, ", ")));
 }
 
 }  // namespace diptych

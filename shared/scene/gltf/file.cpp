@@ -266,17 +266,27 @@ tinygltf::Model parseModel(const std::string& text) {
     return model;
 }
 
+// The document, of a version and with extensions that are read.
+Json documentOf(const Bytes& bytes, const Container& container) {
+    Json document =
+        parse({reinterpret_cast<const char*>(bytes.data()) + container.json.offset, container.json.size});
+    checkVersion(document);
+    checkRequired(document);
+    return document;
+}
+
 }  // namespace
+
+void checkHeader(const Bytes& bytes) {
+    documentOf(bytes, readContainer(bytes));
+}
 
 Document open(Bytes bytes, const std::filesystem::path& folder) {
     const Container container = readContainer(bytes);
     Document result{{}, Resources(folder), {}, {}, {}, {}};
     Json buffers, images;
     {
-        Json document =
-            parse({reinterpret_cast<const char*>(bytes.data()) + container.json.offset, container.json.size});
-        checkVersion(document);
-        checkRequired(document);
+        Json document = documentOf(bytes, container);
         result.light_extras = lightExtras(document);
         result.material_extras = materialExtras(document);
         Schema found = applySchema(document);  // removes extras from the document

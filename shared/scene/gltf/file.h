@@ -31,4 +31,7 @@ struct Document {
 // data URIs are read. Throws std::runtime_error without the file's name.
 Document open(std::vector<unsigned char> bytes, const std::filesystem::path& folder);
 
+// What open() finds wrong before it reads any data: container, JSON, version, required extensions.
+void checkHeader(const std::vector<unsigned char>& bytes);
+
 }  // namespace diptych::gltf

@@ -124,6 +124,10 @@ Scene loadGltf(const std::string& file, const std::string& scene, const LoadProg
     });
 }
 
+void checkGltf(const std::string& file) {
+    named(file, [&] { gltf::checkHeader(firstBytesOf(file, gltf::MAX_FILE_BYTES)); });
+}
+
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
                 const std::filesystem::path& folder) {
     return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder), "", {}); });

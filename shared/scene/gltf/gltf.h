@@ -15,7 +15,10 @@ namespace diptych {
 // the file says. Throws std::runtime_error: "FILE: OBJECT INDEX: what is wrong".
 Scene loadGltf(const std::string& file, const std::string& scene = "", const LoadProgress& progress = {});
 
-// The same from memory; `name` is the file's name in messages. Buffers and images are embedded, or in
+// Checks what is read before any data: container, JSON, version, required extensions. Throws as loadGltf().
+void checkGltf(const std::string& file);
+
+// loadGltf() from memory; `name` is the file's name in messages. Buffers and images are embedded, or in
 // `folder` if it is given.
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
                 const std::filesystem::path& folder = {});

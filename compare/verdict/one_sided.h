@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What a verdict makes of a channel that only one of two pictures has.
+#pragma once
+
+#include "compare/files/layers.h"
+#include "compare/verdict/rules.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// Who demands that both sides have a channel.
+struct ChannelDemands {
+    std::span<const Rule> rules{};     // each demands the channels that it names
+    std::vector<std::string> names{};  // --channels: these
+    bool all = false;                  // --strict: every channel
+};
+
+// Adds a line to `failures` where somebody demands the channel on both sides, else to `notes`.
+void judgeOneSided(const OneSidedChannel& channel, const ChannelDemands& demands,
+                   std::vector<std::string>& failures, std::vector<std::string>& notes);
+
+}  // namespace diptych

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "shared/text/did_you_mean.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+std::string lower(std::string_view word) {
+    std::string text(word);
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// Optimal string alignment: rows of the table for the prefixes of `a`, columns for those of `b`.
+std::size_t lettersApart(const std::string& a, const std::string& b) {
+    std::vector<std::vector<std::size_t>> apart(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) apart[i][0] = i;
+    for (std::size_t k = 0; k <= b.size(); ++k) apart[0][k] = k;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+        for (std::size_t k = 1; k <= b.size(); ++k) {
+            const std::size_t replaced = apart[i - 1][k - 1] + (a[i - 1] != b[k - 1]);
+            apart[i][k] = std::min({apart[i - 1][k] + 1, apart[i][k - 1] + 1, replaced});
+            if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
+                apart[i][k] = std::min(apart[i][k], apart[i - 2][k - 2] + 1);
+        }
+    return apart[a.size()][b.size()];
+}
+
+// Longer words are nobody's mistyped name, and would take time.
+constexpr std::size_t longest = 64;
+
+}  // namespace
+
+std::string_view nearestWord(std::string_view word, std::span<const std::string> candidates) {
+    if (word.size() > longest) return {};
+    const std::string typed = lower(word);
+    std::string_view nearest;
+    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+    for (const std::string& candidate : candidates) {
+        const std::size_t apart = lettersApart(typed, lower(candidate));
+        if (apart >= least) continue;
+        least = apart;
+        nearest = candidate;
+    }
+    return nearest;
+}
+
+std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {
+    const std::string_view nearest = nearestWord(word, candidates);
+    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+}  // namespace diptych

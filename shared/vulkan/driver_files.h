@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace diptych {
+
+// Where the environment narrows the Vulkan loader down to certain driver files (VK_DRIVER_FILES, or
+// VK_ICD_FILENAMES as it was called before), and there is no device: which of them is missing, and what to
+// do. Empty where neither is set.
+std::optional<std::string> driverFilesFault();
+
+}  // namespace diptych
