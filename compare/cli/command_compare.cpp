@@ -4,8 +4,8 @@
 #include "compare/files/frame_exr.h"
 #include "compare/files/output.h"
 #include "compare/render/frame_facts.h"
-#include "compare/render/left_out.h"
 #include "compare/render/reference_frame.h"
+#include "compare/report/exposure_line.h"
 #include "compare/report/report.h"
 #include "compare/run/command_text.h"
 #include "compare/verdict/baseline.h"
@@ -214,12 +214,13 @@ Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> basel
 
 int runCompare(const Options& options) {
     const std::vector<Settings> settings = settingsOf(options, pathsOf(options));
-    if (const auto undrawn = undrawnSetting(settings)) throw std::runtime_error(*undrawn);
+    refuseUndrawn(settings);
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare draws both");
     if (options.heat) note(options, "--heat is not used: the report shows every channel, light_count too");
     if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
+    const PictureChoice picture = pictureChoice(options);
     std::optional<Frame> baseline;
     if (!options.baseline_file.empty()) {
         checkOnePicture(options, settings);
@@ -243,15 +244,16 @@ int runCompare(const Options& options) {
     report.errors = std::move(drawn.errors);
     for (Comparison& comparison : report.comparisons)
         comparison.command = withOption(comparison.command, "-o", againFolder(folder));
-    const std::string json = writeReport(
-        report, folder, {options.picture, options.single_file, options.force, stage.part(comparing, 1)});
+    const std::string json =
+        writeReport(report, folder, {picture, options.single_file, options.force, stage.part(comparing, 1)});
     kept.remove();
     progress.wipe();
     noteLeftByOthers(options, kept);
     if (options.json)
         fmt::print("{}", json);
     else if (!options.quiet)
-        printColored(options, reportTable(report) + "report: " + (folder / "index.html").string() + "\n");
+        printColored(options, fmt::format("{}pictures: {}\nreport: {}\n", reportTable(report),
+                                          exposureLine(report, picture), (folder / "index.html").string()));
     if (!updated.empty()) note(options, updated);
     if (!report.errors.empty()) return 2;
     // The old baseline's verdict is no longer the question.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
 #include <map>
 #include <string_view>
 
@@ -85,9 +86,13 @@ void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
     CLI::Option* exposure =
         app.add_option("--exposure", options.picture.exposure, "factor on the radiance, pictures only")
             ->type_name("F");
-    app.add_option("--ev100", options.picture.ev100, "or exposure value at ISO 100")
-        ->type_name("F")
-        ->excludes(exposure);
+    CLI::Option* ev100 = app.add_option("--ev100", options.picture.ev100, "or exposure value at ISO 100")
+                             ->type_name("F")
+                             ->excludes(exposure);
+    app.add_option("--match-exposure", options.match_exposure, "or that of a picture of this EXR or HDR file")
+        ->type_name("FILE")
+        ->excludes(exposure)
+        ->excludes(ev100);
     app.add_flag_callback(
         "--no-tonemap", [&options] { options.picture.tonemap = false; }, "clip instead, pictures only");
 }
@@ -178,6 +183,32 @@ void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed) {
         ->check(CLI::Range(1, 1000));
 }
 
+// Options that are accepted everywhere, so that a line of one command can be given to another, but that this
+// one does not read.
+void hide(CLI::App& app, std::initializer_list<const char*> options) {
+    for (const char* option : options)
+        if (CLI::Option* found = app.get_option_no_throw(option)) found->group("");
+}
+
+void hideGroup(CLI::App& app, const std::string& group) {
+    for (CLI::Option* option : app.get_options())
+        if (option->get_group() == group) option->group("");
+}
+
+void hideUnread(CLI::App& app, const std::string& command) {
+    hideGroup(app, later_group);
+    hide(app, {"--frames", "--fps"});
+    if (command == "compare") hide(app, {"--debug", "--heat"});
+    if (command == "bench" || command == "tradeoff")
+        hide(app, {"--debug", "--heat", "--channels", "--list-channels"});
+    if (command == "bench") hideGroup(app, picture_group);
+    if (command == "devices" || command == "plan") {
+        hideGroup(app, picture_group);
+        hide(app, {"--out", "--force", "--runs"});
+    }
+    if (command == "devices") hideGroup(app, pixel_group);
+}
+
 // What is timed; every list is separated by commas.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("What is timed");
@@ -211,7 +242,9 @@ std::span<const Command> allCommands() {
     return commands;
 }
 
-void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed) {
+namespace {
+
+void addAll(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed) {
     if (command == "devices") {
         addSettings(app, parsed);
         addPicture(app, options, parsed);
@@ -284,6 +317,13 @@ void describe(CLI::App& app, const std::string& command, Options& options, Parse
         addLater(app, parsed, "--quantity", "NAME,...", "what to push");
         addLater(app, parsed, "--require", "NAME=MAGNITUDE", "how far each must go");
     }
+}
+
+}  // namespace
+
+void describe(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed) {
+    addAll(app, command, options, parsed);
+    hideUnread(app, command);
 }
 
 }  // namespace diptych::cli

@@ -115,8 +115,8 @@ public:
         drawing.keep = [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
             return references_.open(key, floats);
         };
-        const ReferenceFrames references =
-            drawReferenceFrames(renderer, options_.settings, options_.cameras, options_.picture, drawing);
+        const ReferenceFrames references = drawReferenceFrames(renderer, options_.settings, options_.cameras,
+                                                               pictureChoice(options_), drawing);
         tradeoff_.cost.reference = msSince(uploaded);
         for (const Frame& frame : references.frames)
             for (const std::string& line : frame.notes)
@@ -250,6 +250,7 @@ private:
 
 int runTradeoff(const Options& options) {
     checkTradeoffOptions(options);
+    refuseUndrawn({&options.settings, 1});
     const Settings& given = options.settings;
     const SweepRows sweep =
         makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));

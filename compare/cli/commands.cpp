@@ -2,6 +2,8 @@
 #include "compare/cli/commands.h"
 
 #include "compare/files/output.h"
+#include "compare/render/left_out.h"
+#include "compare/report/exposure_line.h"
 #include "compare/run/color.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/load.h"
@@ -73,8 +75,18 @@ std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>
     return all;
 }
 
+void refuseUndrawn(std::span<const Settings> settings) {
+    if (const auto undrawn = undrawnSetting(settings)) throw std::runtime_error(*undrawn);
+}
+
 std::optional<ProgressOutput> progressOutput(const Options& options) {
     return options.quiet ? std::nullopt : std::optional(ProgressOutput::standardError());
+}
+
+PictureChoice pictureChoice(const Options& options) {
+    PictureChoice choice = options.picture;
+    if (!options.match_exposure.empty()) choice.exposure = exposureOfFile(options.match_exposure);
+    return choice;
 }
 
 RenderOptions renderOptions(const Options& options) {

@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,14 @@ int runDevices(const Options& options);
 // One Settings per camera and path, the paths of one camera side by side. Throws the first problem().
 std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths);
 
+// Throws where the Settings ask for what none of the paths under test draws (left_out.h).
+void refuseUndrawn(std::span<const Settings> settings);
+
 // Standard error; empty with --quiet.
 std::optional<ProgressOutput> progressOutput(const Options& options);
+
+// The exposure that was asked for, or that of --match-exposure's file, which is read now.
+PictureChoice pictureChoice(const Options& options);
 
 RenderOptions renderOptions(const Options& options);
 DeviceOptions deviceOptions(const Options& options);

@@ -31,7 +31,8 @@ struct Options {
     std::vector<int> channels;             // debug modes, ascending; empty: all that can be made
     int runs = 5;                          // timed frames
     PictureChoice picture;
-    std::string device;  // index or part of a name
+    std::filesystem::path match_exposure;  // a picture whose exposure is taken over; empty: none
+    std::string device;                    // index or part of a name
     bool validate = false;
     std::filesystem::path out;  // empty: the command's own default
     bool force = false, json = false, quiet = false, verbose = false;

@@ -256,7 +256,7 @@ TEST(DiffCommand, WritesErrorsPicturesAndReports) {
         EXPECT_TRUE(fs::exists(folder / "report" / name)) << name;
     const Json report = Json::parse(contentsOf(folder / "report" / "report.json"));
     EXPECT_EQ(report["verdict"], "fail");
-    EXPECT_EQ(report["comparisons"][0]["channels"][0]["rule"], "command line: flip <= 0");
+    EXPECT_EQ(report["comparisons"][0]["channels"][0]["rule"], "default of diff: flip <= 0");
     folder.write("mine/keep.txt", "x");
     EXPECT_TRUE(runTool(folder, "diff a.png b.png -o mine").failedOver("--force replaces it"));
 }

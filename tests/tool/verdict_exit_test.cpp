@@ -48,7 +48,7 @@ TEST(VerdictExit, AWarningIsNoFailure) {
     const Json channel =
         Json::parse(contentsOf(folder / "report/report.json"))["comparisons"][0]["channels"][0];
     EXPECT_EQ(channel["verdict"], "pass");
-    EXPECT_EQ(channel["warning"], "max 0.25 exceeds 0.2, at 100 % of the pixels");
+    EXPECT_EQ(channel["warning"], "max 0.25 exceeds 0.2, at 0.781 % of the pixels");
     const std::string junit = contentsOf(folder / "report/junit.xml");
     EXPECT_NE(junit.find("failures=\"0\""), std::string::npos);
     EXPECT_EQ(junit.find("<failure"), std::string::npos);

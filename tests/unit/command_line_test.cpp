@@ -272,5 +272,44 @@ TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
             << what;
 }
 
+// What a command accepts for uniformity but does not read is not in its --help.
+TEST(CommandLine, HelpShowsWhatTheCommandReads) {
+    const auto help = [](const std::string& command) { return parseCommandLine({command, "--help"}).help; };
+    const std::pair<const char*, std::vector<const char*>> unread[] = {
+        {"compare", {"--debug", "--heat", "--frames", "--pixel"}},
+        {"bench", {"--debug", "--channels", "--exposure"}},
+        {"plan", {"--exposure", "--runs", "--out", "--channels"}},
+        {"devices", {"--size", "--exposure", "--lights", "--out"}},
+    };
+    for (const auto& [command, options] : unread)
+        for (const char* option : options)
+            EXPECT_EQ(help(command).find(std::string(option) + " "), std::string::npos)
+                << command << " " << option;
+    for (const char* option :
+         {"--tolerances", "--gbuffer", "--exposure", "--match-exposure", "--color", "--allow-empty"})
+        EXPECT_NE(help("compare").find(option), std::string::npos) << option;
+    EXPECT_NE(help("render").find("--debug"), std::string::npos);
+    EXPECT_NO_THROW(parseCommandLine({"devices", "--size", "3x3"})) << "it is accepted yet";
+}
+
+TEST(CommandLine, WhatWasMeantIsSaid) {
+    const std::pair<std::vector<std::string>, const char*> cases[] = {
+        {{"comapre"}, "did you mean compare?"},
+        {{"compare", "--sise", "3x3"}, "did you mean --size?"},
+        {{"compare", "--tolerance=3"}, "did you mean --tolerances?"},
+        {{"render", "--debug", "albdo"}, "did you mean albedo?"},
+        {{"render", "--channels", "lit,normal"}, "did you mean normals?"},
+    };
+    for (const auto& [words, meant] : cases)
+        EXPECT_NE(whatIsThrown(words).find(meant), std::string::npos) << whatIsThrown(words);
+    EXPECT_EQ(whatIsThrown({"compare", "--nothing-like-it"}).find("did you mean"), std::string::npos);
+}
+
+TEST(CommandLine, OneWayToSayTheExposure) {
+    EXPECT_EQ(parseCommandLine({"compare", "--match-exposure", "a.exr"}).match_exposure, "a.exr");
+    EXPECT_NE(whatIsThrown({"compare", "--match-exposure", "a.exr", "--exposure", "2"}), "");
+    EXPECT_NE(whatIsThrown({"compare", "--match-exposure", "a.exr", "--ev100", "2"}), "");
+}
+
 }  // namespace
 }  // namespace diptych

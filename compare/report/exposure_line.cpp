@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/exposure_line.h"
+
+#include "compare/files/frame_exr.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/picture_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+Exposure exposureOf(const Frame& frame, const Coverage& coverage, const PictureChoice& choice) {
+    const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
+    return exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage);
+}
+
+}  // namespace
+
+std::string exposureLine(const Report& report, const PictureChoice& choice) {
+    std::vector<Exposure> all;
+    for (const Comparison& comparison : report.comparisons)
+        all.push_back(exposureOf(report.baseline(comparison), comparison.coverage, choice));
+    if (all.empty()) return {};
+    const auto [least, most] = std::ranges::minmax(all, {}, &Exposure::factor);
+    if (least.factor == most.factor) return all.front().because;
+    return fmt::format(
+        "exposures from {:.4g} to {:.4g}, automatic; --exposure or --match-exposure FILE gives all "
+        "pictures the same",
+        least.factor, most.factor);
+}
+
+double exposureOfFile(const std::filesystem::path& file) {
+    const PictureFile picture = readPicture(file.string());
+    if (picture.display_referred)
+        throw std::runtime_error(
+            fmt::format("--match-exposure {}: {} holds display colours; give the EXR that it was made from",
+                        file.string(), picture.format));
+    try {
+        const Frame frame = frameFromExr(file);
+        if (frame.channels.contains(static_cast<int>(gpu::DEBUG_lit)))
+            return exposureOf(frame, coverage(frame, frame), {}).factor;
+    } catch (const std::runtime_error&) {
+        // No file of ours: its first colours are radiance.
+    }
+    const auto colors =
+        std::ranges::find_if(picture.layers, [](const PictureLayer& l) { return l.image.components >= 3; });
+    if (colors == picture.layers.end())
+        throw std::runtime_error(fmt::format("--match-exposure {}: holds no colours", file.string()));
+    Image image(picture.width, picture.height, 3);
+    for (std::size_t i = 0; i < image.pixels(); ++i) std::copy_n(colors->image.pixel(i), 3, image.pixel(i));
+    return exposureFor({}, &image, everyPixel(image.pixels())).factor;
+}
+
+}  // namespace diptych

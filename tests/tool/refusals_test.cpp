@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// What is refused, as a whole or for one scene of several, and how scripts learn of it; and what pictures
+// share.
+#include "shared/image/exr.h"
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+namespace diptych {
+namespace {
+
+using Json = nlohmann::json;
+
+// What no path under test draws is refused by name: two black pictures would be taken for parity.
+TEST(Refusals, AnEnvironmentThatNoPathDrawsIsRefused) {
+    const Folder folder;
+    const Image sky(4, 2, 3, 1.0f);
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    for (const std::string command :
+         {"compare", "compare --baseline reference", "render --path deferred", "render", "bench", "tradeoff"})
+        EXPECT_TRUE(runTool(folder, command + " builtin:triangle --env sky.exr --size 16x9 --runs 1")
+                        .failedOver("--env sky.exr: neither deferred nor forward_plus draws"))
+            << command;
+    EXPECT_EQ(
+        runTool(folder, "render --path reference builtin:triangle --env sky.exr --size 16x9 -o r.png").code,
+        0);
+}
+
+// One scene that cannot be read does not end a comparison of several.
+TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
+    const Folder folder;
+    folder.write("bad.glb", "no glTF");
+    const Ran ran =
+        runTool(folder, "compare builtin:triangle bad.glb builtin:suns --size 16x9 --runs 0 -o out");
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_NE(ran.out.find("\nERROR bad.glb: is not JSON"), std::string::npos) << ran.out;
+    EXPECT_NE(
+        ran.out.find("\nERROR: 1 scene could not be drawn: bad.glb; pass: all 38 channels of 2 comparisons"),
+        std::string::npos)
+        << ran.out;
+    const Json report = Json::parse(contentsOf(folder / "out/report.json"));
+    EXPECT_EQ(report["comparisons"].size(), 2u);
+    EXPECT_EQ(report["errors"][0]["scene"], "bad.glb");
+    EXPECT_EQ(report["verdict"], "fail");
+    // Alone, or with others that are as bad, it is one line, and no report.
+    EXPECT_TRUE(runTool(folder, "compare bad.glb -o none").failedOver("bad.glb: is not JSON"));
+    EXPECT_TRUE(runTool(folder, "compare bad.glb bad.glb -q -o none").failedOver("none of the 2 scenes"));
+    EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+// With --json an error is an object on stdout, too.
+TEST(Refusals, AnErrorIsJsonWhereJsonIsAskedFor) {
+    const Folder folder;
+    for (const std::string command :
+         {"compare --json no.glb", "diff a.exr b.exr --json", "render --json --debug x"}) {
+        const Ran ran = runTool(folder, command);
+        EXPECT_EQ(ran.code, 2);
+        const Json json = Json::parse(ran.out);
+        EXPECT_EQ("diptych: " + json["error"].get<std::string>() + "\n", ran.err);
+    }
+}
+
+// A picture takes the exposure of another.
+TEST(Refusals, ExposuresAreSaidAndShared) {
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "render --path deferred builtin:spots --size 16x9 --runs 0 -o a.exr").code, 0);
+    const std::string compare = "compare builtin:suns --size 16x9 --runs 0 -o out";
+    const auto line = [](const std::string& text) {
+        const std::size_t at = text.find("\npictures: ");
+        return text.substr(at, text.find('\n', at + 1) - at);
+    };
+    const std::string own = line(runTool(folder, compare).out),
+                      matched = line(runTool(folder, compare + " --match-exposure a.exr").out),
+                      spots = line(runTool(folder, "compare builtin:spots --size 16x9 --runs 0 -o out").out);
+    EXPECT_NE(own.find("automatic"), std::string::npos) << own;
+    EXPECT_NE(matched.find(", as asked"), std::string::npos) << matched;
+    const auto factor = [](const std::string& text) {
+        const std::size_t at = text.find("exposure ") + 9;
+        return text.substr(at, text.find(',', at) - at);
+    };
+    EXPECT_EQ(factor(matched), factor(spots));
+    EXPECT_NE(factor(matched), factor(own));
+    ASSERT_EQ(runTool(folder, "render builtin:spots --size 16x9 --runs 0 -o a.png").code, 0);
+    EXPECT_TRUE(runTool(folder, compare + " --match-exposure a.png").failedOver("holds display colours"));
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "compare/run/color.h"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace diptych {
+namespace {
+
+TEST(Color, MarksVerdictsWhereTheyBeginOrEndALine) {
+    EXPECT_EQ(colored("  lit  relative  0.1  FAIL\n"), "  lit  relative  0.1  \033[1;31mFAIL\033[0m\n");
+    EXPECT_EQ(colored("pass: all\nERROR x"), "\033[32mpass\033[0m: all\n\033[1;31mERROR\033[0m x");
+    EXPECT_EQ(colored("  warning lit: a pass of light"), "  \033[33mwarning\033[0m lit: a pass of light");
+    for (const char* text : {"", "\n", "passes", "the pass failed", "bypass", "no verdict\n\n"})
+        EXPECT_EQ(colored(text), text);
+}
+
+TEST(Color, IsForTerminalsUnlessAskedFor) {
+    std::FILE* const file = std::tmpfile();
+    EXPECT_FALSE(hasColor(ColorChoice::automatic, file)) << "no terminal";
+    EXPECT_TRUE(hasColor(ColorChoice::on, file));
+    EXPECT_FALSE(hasColor(ColorChoice::off, file));
+    std::fclose(file);
+}
+
+// On a terminal of its own, NO_COLOR and a dumb one are heeded.
+TEST(Color, NoColorIsHeeded) {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0) GTEST_SKIP() << "no pseudo terminal here";
+    grantpt(terminal);
+    unlockpt(terminal);
+    std::FILE* const stream = std::fopen(ptsname(terminal), "w");
+    ASSERT_NE(stream, nullptr);
+    setenv("TERM", "xterm", 1);
+    unsetenv("NO_COLOR");
+    EXPECT_TRUE(hasColor(ColorChoice::automatic, stream));
+    setenv("NO_COLOR", "1", 1);
+    EXPECT_FALSE(hasColor(ColorChoice::automatic, stream));
+    EXPECT_TRUE(hasColor(ColorChoice::on, stream)) << "--color on says otherwise";
+    setenv("NO_COLOR", "", 1);
+    EXPECT_TRUE(hasColor(ColorChoice::automatic, stream)) << "set to nothing is not set (no-color.org)";
+    setenv("TERM", "dumb", 1);
+    EXPECT_FALSE(hasColor(ColorChoice::automatic, stream));
+    std::fclose(stream);
+    close(terminal);
+}
+
+}  // namespace
+}  // namespace diptych
