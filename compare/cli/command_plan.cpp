@@ -89,7 +89,8 @@ int runPlan(const Options& options) {
         const Scene scene = loadShown(name, options.settings, Stage(progress, name));
         SceneViews views(scene);
         const SceneView& view = views.at(viewRequest(settings.front()));
-        const ScenePlan result{scene.name, view.needs, linesOf(view), scene.notes,
+        const ScenePlan result{scene.name, view.needs, linesOf(view),
+                               describedFrame(scene, view, settings.front()).notes,
                                planPaths(device, views, settings)};
         progress.wipe();
         if (options.json)

@@ -18,19 +18,15 @@ Json finiteOrNull(double value) {
 }
 
 Json jsonOf(const FrameCamera& camera) {
-    return {{"name", camera.name},
-            {"eye", camera.eye},
-            {"target", camera.target},
-            {"up", camera.up},
-            {"fov_degrees", camera.fov_degrees},
-            {"ymag", camera.ymag},
-            {"near", camera.near},
-            {"far", finiteOrNull(camera.far)}};
+    return {{"name", camera.name},     {"choice", camera.choice}, {"eye", camera.eye},
+            {"target", camera.target}, {"up", camera.up},         {"fov_degrees", camera.fov_degrees},
+            {"ymag", camera.ymag},     {"near", camera.near},     {"far", finiteOrNull(camera.far)}};
 }
 
 FrameCamera cameraFromJson(const nlohmann::json& json) {
     FrameCamera camera;
     camera.name = json.value("name", "");
+    camera.choice = json.value("choice", "");
     const auto vector = [&](const char* key, double(&out)[3]) {
         const auto values = json.at(key).get<std::array<double, 3>>();
         std::copy(values.begin(), values.end(), out);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/frame_facts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -18,8 +20,12 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     frame.scene = scene.name;
     frame.settings = settings;
     frame.camera = cameraOf(view.view);
+    frame.camera.choice = view.default_view;
     frame.background = {scene.background.r, scene.background.g, scene.background.b};
     frame.notes = scene.notes;
+    if (!view.default_view.empty())
+        frame.notes.push_back(
+            fmt::format("the scene has no camera: seen {}; --camera chooses another", view.default_view));
     frame.counters.lights = view.lights.size();
     return frame;
 }

@@ -70,6 +70,7 @@ struct FrameCamera {
     double fov_degrees = 0;    // vertical; 0: orthographic
     double ymag = 0;           // orthographic: half the height, m
     double near = 0, far = 0;  // far: infinity for a camera without far plane
+    std::string choice{};  // of a default view: what was chosen and how much it shows, in words; else empty
 };
 
 struct Frame {

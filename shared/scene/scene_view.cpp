@@ -9,23 +9,24 @@
 namespace diptych {
 namespace {
 
-// The default sun stands behind the viewer of the default view, whichever camera is chosen, so that it
-// lights the sides which face that viewer.
-Light sunOf(const Scene& scene, Pose pose) {
-    pose.cameras.clear();
-    return defaultSun(makeView(scene, pose, "", 1, 1).backward());
-}
-
-SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose) {
+SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
+                 std::optional<DefaultView>& kept) {
+    const auto defaultView = [&]() -> const DefaultView& {
+        if (!kept) kept = chooseDefaultView(scene);
+        return *kept;
+    };
     SceneView result;
     result.pose = std::move(pose);
-    result.view = makeView(scene, result.pose, request.camera, request.width, request.height);
+    result.view = makeView(scene, result.pose, request.camera, request.width, request.height, defaultView);
+    if (request.camera.empty() && result.pose.cameras.empty()) result.default_view = defaultView().inWords();
     result.lights = result.pose.lights;
     if (!request.lights.empty())
         for (Light& light : makeLights(request.lights, request.seed, boundsAtStart(scene, result.pose)))
             result.lights.push_back(std::move(light));
     result.default_sun = result.lights.empty() && !scene.environment;
-    if (result.default_sun) result.lights.push_back(sunOf(scene, result.pose));
+    // The default sun stands behind the viewer of the default view, whichever camera is chosen, so that it
+    // lights the sides which face that viewer.
+    if (result.default_sun) result.lights.push_back(defaultSun(defaultView().backward));
     result.needs = requirements(scene, result.pose, result.lights);
     return result;
 }
@@ -33,7 +34,8 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose) {
 }  // namespace
 
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request) {
-    return viewOf(scene, request, poseAt(scene, request.time));
+    std::optional<DefaultView> kept;
+    return viewOf(scene, request, poseAt(scene, request.time), kept);
 }
 
 const SceneView& SceneViews::at(const ViewRequest& request) {
@@ -41,7 +43,7 @@ const SceneView& SceneViews::at(const ViewRequest& request) {
     if (view) return *view;
     auto pose = poses_.find(request.time);
     if (pose == poses_.end()) pose = poses_.emplace(request.time, poseAt(scene_, request.time)).first;
-    view = std::make_unique<SceneView>(viewOf(scene_, request, pose->second));
+    view = std::make_unique<SceneView>(viewOf(scene_, request, pose->second, default_view_));
     return *view;
 }
 

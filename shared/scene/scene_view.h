@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct ViewRequest {
 struct SceneView {
     Pose pose;  // its lights are the scene's own only
     View view;
+    std::string
+        default_view;  // how the camera was chosen, in words; empty where the request or scene has one
     std::vector<Light> lights;  // the scene's own, then those of the rig or file; or the default sun alone
     bool default_sun = false;   // whether the scene had neither lights nor an environment
     Requirements needs;         // of the scene under `lights`
@@ -50,6 +53,7 @@ public:
 
 private:
     const Scene& scene_;
+    std::optional<DefaultView> default_view_;
     std::map<double, Pose> poses_;  // by time, s
     std::map<ViewRequest, std::unique_ptr<SceneView>> views_;
 };

@@ -3,7 +3,6 @@
 
 #include "shared/scene/model/axes.h"
 #include "shared/scene/motion/bounds.h"
-#include "shared/scene/motion/posed.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -113,101 +112,10 @@ gpu::View View::gpuView() const {
 
 namespace {
 
-constexpr double defaultFov = glm::radians(60.0);
 constexpr std::string_view accepted = "an index, a name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\"";
 
 [[noreturn]] void failCamera(std::string_view choice, const std::string& why) {
     throw std::runtime_error(fmt::format("--camera \"{}\": {}", choice, why));
-}
-
-// The radius of the bounds, or a substitute if they are empty or a single point.
-double usableRadius(const Bounds& bounds) {
-    const double radius = bounds.radius();
-    return radius > 0 && std::isfinite(radius) ? radius : 1.0;
-}
-
-glm::dvec3 usableCentre(const Bounds& bounds) {
-    return bounds.empty() ? glm::dvec3(0) : bounds.centre();
-}
-
-// +Y is up in the picture. Looking straight up or down, -Z is: at the top looking down, at the bottom
-// looking up, as for a camera that tilts there from looking along -Z.
-glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
-    const glm::dvec3 backward = glm::normalize(eye - target);
-    // Below 1e-6 the direction of `right` would be rounding error.
-    const bool atPole = glm::length(glm::cross(glm::dvec3(0, 1, 0), backward)) < 1e-6;
-    const glm::dvec3 up = atPole ? glm::dvec3(0, 0, backward.y > 0 ? -1 : 1) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 right = glm::normalize(glm::cross(up, backward));
-    return glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(backward, right), 0),
-                      glm::dvec4(backward, 0), glm::dvec4(eye, 1));
-}
-
-// The smallest distance along `backward` from the bounds' centre from which all eight corners are seen, with
-// a margin of 5 %. (Fitting a sphere instead would leave most of the picture empty for a long hall.)
-double fittingDistance(const Bounds& bounds, const glm::dmat4& axes, double aspect) {
-    const double tanY = std::tan(defaultFov * 0.5) / 1.05, tanX = tanY * aspect;
-    const double radius = usableRadius(bounds);
-    double distance = 1e-3 * radius;
-    const glm::dvec3 half = bounds.empty() || !(bounds.radius() > 0) ? glm::dvec3(radius / std::sqrt(3.0))
-                                                                     : (bounds.max - bounds.min) * 0.5;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
-                           corner & 4 ? half.z : -half.z);
-        const double x = std::abs(glm::dot(p, glm::dvec3(axes[0])));
-        const double y = std::abs(glm::dot(p, glm::dvec3(axes[1])));
-        const double towards = glm::dot(p, glm::dvec3(axes[2]));
-        distance = std::max(distance, towards + std::max(x / tanX, y / tanY));
-    }
-    return distance;
-}
-
-// Whether `eye` sees the front of at least one triangle, or either side of a double-sided one.
-bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) {
-    for (const Instance& instance : pose.instances) {
-        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
-                                         .primitives[static_cast<std::size_t>(instance.primitive)];
-        if (primitive.indices.empty()) continue;
-        if (scene.materials[static_cast<std::size_t>(primitive.material)].double_sided) return true;
-        const glm::dmat4& worldFromObject = instance.world_from_object;
-        const double handedness = glm::determinant(glm::dmat3(worldFromObject)) < 0 ? -1 : 1;
-        const std::vector<glm::dvec3> posed =
-            instance.deformed() ? posedPositions(scene, pose, instance) : std::vector<glm::dvec3>();
-        const auto corner = [&](std::size_t i) {
-            const std::uint32_t v = primitive.indices[i];
-            return posed.empty() ? glm::dvec3(worldFromObject * glm::dvec4(primitive.positions[v], 1.0))
-                                 : posed[v];
-        };
-        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-            const glm::dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
-            if (glm::dot(glm::cross(b - a, c - a), eye - a) * handedness > 0) return true;
-        }
-    }
-    return false;
-}
-
-// near is a thousandth of the bounds' radius: an eye inside a building may be that close to a wall, and
-// reversed float depth loses no precision by it. There is no far plane, so that nothing is cut off.
-Camera freeCamera(const Bounds& bounds) {
-    Camera camera;
-    camera.yfov = defaultFov;
-    camera.near = 1e-3 * usableRadius(bounds);
-    return camera;
-}
-
-View defaultView(const Scene& scene, const Pose& pose, const Bounds& bounds, double aspect) {
-    const auto from = [&](const glm::dvec3& away) {
-        View view;
-        view.camera = freeCamera(bounds);
-        view.target_distance = fittingDistance(bounds, lookAt(away, glm::dvec3(0)), aspect);
-        const glm::dvec3 centre = usableCentre(bounds);
-        view.camera.world_from_camera = lookAt(centre + away * view.target_distance, centre);
-        return view;
-    };
-    const glm::dvec3 away = glm::normalize(glm::dvec3(1, 0.6, 1));
-    const View view = from(away);
-    if (anythingFaces(scene, pose, view.eye())) return view;
-    const View other = from(-away);
-    return anythingFaces(scene, pose, other.eye()) ? other : view;
 }
 
 std::optional<double> number(std::string_view text) {
@@ -252,11 +160,14 @@ std::map<std::string, std::string> words(const std::string& choice) {
     return result;
 }
 
-View explicitView(const View& base, const Bounds& bounds, const std::string& choice) {
-    View view = base;
-    Camera& camera = view.camera;
-    glm::dvec3 eye = base.eye(), target = usableCentre(bounds);
-    for (const auto& [key, value] : words(choice)) {
+View explicitView(const DefaultViewOf& defaultView, const Bounds& bounds, double aspect,
+                  const std::string& choice) {
+    View view;
+    Camera& camera = view.camera = freeCamera(bounds);
+    const std::map<std::string, std::string> given = words(choice);
+    glm::dvec3 eye(0), target = usableCentre(bounds);
+    if (!given.contains("eye")) eye = glm::dvec3(worldFromCamera(defaultView(), bounds, aspect)[3]);
+    for (const auto& [key, value] : given) {
         if (key == "eye")
             eye = pointOf(choice, key, value);
         else if (key == "target")
@@ -303,6 +214,13 @@ std::string listOf(const std::vector<Camera>& cameras) {
 }  // namespace
 
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height) {
+    std::optional<DefaultView> chosen;
+    return makeView(scene, pose, choice, width, height,
+                    [&]() -> const DefaultView& { return chosen.emplace(chooseDefaultView(scene)); });
+}
+
+View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
+              const DefaultViewOf& defaultView) {
     if (width < 1 || height < 1)
         throw std::runtime_error(
             fmt::format("--size {}x{}: a picture has at least one pixel", width, height));
@@ -315,11 +233,14 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
     } else if (choice.empty() || choice.find('=') != choice.npos) {
         const double aspect = static_cast<double>(width) / height;
         const Bounds bounds = boundsAtStart(scene, pose);
-        // The default view is chosen from the pose at 0 s, so that the camera does not jump as the scene
-        // moves.
-        view = pose.seconds == 0 ? defaultView(scene, pose, bounds, aspect)
-                                 : defaultView(scene, poseAt(scene, 0), bounds, aspect);
-        if (!choice.empty()) view = explicitView(view, bounds, choice);
+        if (choice.empty()) {
+            const DefaultView& chosen = defaultView();
+            view.camera = freeCamera(bounds);
+            view.camera.world_from_camera = worldFromCamera(chosen, bounds, aspect);
+            view.target_distance = targetDistance(chosen, bounds, aspect);
+        } else {
+            view = explicitView(defaultView, bounds, aspect, choice);
+        }
     } else {
         failCamera(choice, fmt::format("{}; it takes {}", listOf(pose.cameras), accepted));
     }

@@ -3,8 +3,12 @@
 #pragma once
 
 #include "shared/contract/view.h"
+#include "shared/scene/default_view.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/pose.h"
+
+#include <functional>
+#include <string>
 
 namespace diptych {
 
@@ -27,9 +31,12 @@ struct View {
 };
 
 // `choice` is Settings::camera: one of the scene's own cameras, a free camera, or empty for the first of its
-// cameras or, where it has none, the default view: from the direction (+1, +0.6, +1) around the bounds, or
-// from the other side if nothing faces that one. Throws std::runtime_error naming --camera and what is
+// cameras or, where it has none, the default view. Throws std::runtime_error naming --camera and what is
 // accepted.
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height);
+// The same with a default view that the caller keeps; it is asked for where the camera needs it.
+using DefaultViewOf = std::function<const DefaultView&()>;
+View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
+              const DefaultViewOf& defaultView);
 
 }  // namespace diptych

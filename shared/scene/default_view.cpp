@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/default_view.h"
+
+#include "shared/scene/motion/posed.h"
+#include "shared/scene/visible_surface.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+namespace diptych {
+namespace {
+
+constexpr double defaultFov = glm::radians(60.0);
+constexpr int ratedWidth = 48, ratedHeight = 27;  // rays of a candidate's picture
+constexpr double ratedAspect = double{ratedWidth} / ratedHeight;
+
+// Another view is taken where it has so many bits more: where it shows twice as many parts as large.
+constexpr double clearlyMore = 1;  // bits
+
+// Who stands in a room is surrounded by the front sides of surfaces in most directions: half of them is a
+// floor under the sky, all are a closed room. 0.75 leaves a courtyard its sky.
+constexpr double surrounded = 0.75;
+constexpr double leastHeadroom = 2, eyeHeight = 1.6;  // m, glTF's unit
+constexpr int columns = 7;                            // where an eye may stand: columns x columns
+constexpr int mostFloors = 16;                        // of a column
+constexpr std::size_t mostEyes = 16;                  // whose views are rated, those with most space around
+constexpr int aroundDirections = 96, yaws = 8;
+
+// The radius of the bounds, or a substitute if they are empty or a single point.
+double usableRadius(const Bounds& bounds) {
+    const double radius = bounds.radius();
+    return radius > 0 && std::isfinite(radius) ? radius : 1.0;
+}
+
+// The smallest distance along `backward` from the bounds' centre from which all eight corners are seen, with
+// a margin of 5 %. (Fitting a sphere instead would leave most of the picture empty for a long hall.)
+double fittingDistance(const Bounds& bounds, const glm::dmat4& axes, double aspect) {
+    const double tanY = std::tan(defaultFov * 0.5) / 1.05, tanX = tanY * aspect;
+    const double radius = usableRadius(bounds);
+    double distance = 1e-3 * radius;
+    const glm::dvec3 half = bounds.empty() || !(bounds.radius() > 0) ? glm::dvec3(radius / std::sqrt(3.0))
+                                                                     : (bounds.max - bounds.min) * 0.5;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
+                           corner & 4 ? half.z : -half.z);
+        const double x = std::abs(glm::dot(p, glm::dvec3(axes[0])));
+        const double y = std::abs(glm::dot(p, glm::dvec3(axes[1])));
+        const double towards = glm::dot(p, glm::dvec3(axes[2]));
+        distance = std::max(distance, towards + std::max(x / tanX, y / tanY));
+    }
+    return distance;
+}
+
+// Whether `eye` sees the front of at least one triangle, or either side of a double-sided one.
+bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) {
+    for (const Instance& instance : pose.instances) {
+        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
+                                         .primitives[static_cast<std::size_t>(instance.primitive)];
+        if (primitive.indices.empty()) continue;
+        if (scene.materials[static_cast<std::size_t>(primitive.material)].double_sided) return true;
+        const glm::dmat4& worldFromObject = instance.world_from_object;
+        const double handedness = glm::determinant(glm::dmat3(worldFromObject)) < 0 ? -1 : 1;
+        const std::vector<glm::dvec3> posed =
+            instance.deformed() ? posedPositions(scene, pose, instance) : std::vector<glm::dvec3>();
+        const auto corner = [&](std::size_t i) {
+            const std::uint32_t v = primitive.indices[i];
+            return posed.empty() ? glm::dvec3(worldFromObject * glm::dvec4(primitive.positions[v], 1.0))
+                                 : posed[v];
+        };
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            const glm::dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
+            if (glm::dot(glm::cross(b - a, c - a), eye - a) * handedness > 0) return true;
+        }
+    }
+    return false;
+}
+
+// Rates views of one scene.
+class Rating {
+public:
+    Rating(const Scene& scene, const Pose& pose, const Bounds& bounds)
+        : bounds_(bounds), surface_(scene, pose, bounds) {}
+
+    DefaultView rated(DefaultView view) const {
+        const glm::dmat4 camera = worldFromCamera(view, bounds_, ratedAspect);
+        const double tanY = std::tan(defaultFov * 0.5);
+        std::vector<VisibleSurface::Seen> seen;
+        for (int y = 0; y < ratedHeight; ++y)
+            for (int x = 0; x < ratedWidth; ++x) {
+                const glm::dvec3 ray((2 * (x + 0.5) / ratedWidth - 1) * tanY * ratedAspect,
+                                     (1 - 2 * (y + 0.5) / ratedHeight) * tanY, -1);
+                const auto hit =
+                    surface_.nearest(glm::dvec3(camera[3]), glm::normalize(glm::dmat3(camera) * ray));
+                if (hit) seen.push_back(*hit);
+            }
+        view.covered = static_cast<double>(seen.size()) / (ratedWidth * ratedHeight);
+        view.entropy = viewEntropy(parts(seen));
+        return view;
+    }
+
+    // Places in the bounds where somebody could stand in a room, those with most space around first.
+    std::vector<glm::dvec3> eyesInside() const {
+        std::vector<std::pair<double, glm::dvec3>> eyes;  // by the mean distance of what is around
+        const glm::dvec3 size = bounds_.max - bounds_.min;
+        for (int i = 0; i < columns * columns; ++i) {
+            const double x = bounds_.min.x + size.x * (i % columns + 0.5) / columns;
+            const double z = bounds_.min.z + size.z * (i / columns + 0.5) / columns;
+            for (const double floor : floors(x, z))
+                if (const auto eye = standing({x, floor, z}))
+                    if (const auto space = spaceAround(*eye)) eyes.emplace_back(*space, *eye);
+        }
+        std::stable_sort(eyes.begin(), eyes.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::vector<glm::dvec3> best;
+        for (const auto& [space, eye] : eyes)
+            if (best.size() < mostEyes) best.push_back(eye);
+        return best;
+    }
+
+private:
+    // Pixels of each part that is told apart: a primitive where it faces one of six ways, at distances within
+    // a factor of two, of half the bounds' radius at most and an eighth of it at least, so that what stands
+    // right before the eye is worth no more; all back sides together; and what is not covered.
+    std::vector<std::size_t> parts(const std::vector<VisibleSurface::Seen>& seen) const {
+        const double radius = usableRadius(bounds_);
+        std::map<std::tuple<std::uint32_t, int, int>, std::size_t> fronts;
+        std::size_t backs = 0;
+        for (const auto& at : seen) {
+            const glm::dvec3 n = glm::abs(at.normal);
+            const int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+            const int side = 2 * axis + (at.normal[axis] < 0);
+            const int octave =
+                static_cast<int>(std::floor(std::log2(std::clamp(at.distance / radius, 0.125, 0.5))));
+            ++(at.front ? fronts[{at.instance, side, octave}] : backs);
+        }
+        std::vector<std::size_t> pixels{ratedWidth * ratedHeight - seen.size(), backs};
+        for (const auto& [part, count] : fronts) pixels.push_back(count);
+        return pixels;
+    }
+
+    // The upper side of what rises by 45 degrees or less.
+    static bool isFloor(const VisibleSurface::Seen& at) { return at.front && at.normal.y > 0.7; }
+
+    // Heights of what can be stood upon at (x, z), from the top.
+    std::vector<double> floors(double x, double z) const {
+        const double step = 1e-4 * usableRadius(bounds_);
+        std::vector<double> heights;
+        double from = bounds_.max.y + step;
+        for (int i = 0; i < mostFloors; ++i) {
+            const auto hit = surface_.nearest({x, from, z}, {0, -1, 0});
+            if (!hit) break;
+            const double height = from - hit->distance;
+            if (isFloor(*hit)) heights.push_back(height);
+            from = height - step;
+        }
+        return heights;
+    }
+
+    // An eye over the floor; none where a person has no room below what is above, or below the bounds' top,
+    // or where the floor does not go on around the feet, as on a leaf or a chair. Rooms that are not in
+    // metres are higher, and the eye is at least a fifth of the way up.
+    std::optional<glm::dvec3> standing(const glm::dvec3& floor) const {
+        const double step = 1e-4 * usableRadius(bounds_);
+        const auto above = surface_.nearest(floor + glm::dvec3(0, step, 0), {0, 1, 0});
+        const double headroom = above ? above->distance : bounds_.max.y - floor.y;
+        if (!(headroom >= leastHeadroom)) return std::nullopt;
+        const double height = std::max(eyeHeight, headroom / 5);
+        const glm::dvec3 eye = floor + glm::dvec3(0, height, 0);
+        const double reach = std::max(height / 2, usableRadius(bounds_) / 20);
+        for (int direction = 0; direction < 8; ++direction) {
+            const double azimuth = glm::radians(45.0 * direction);
+            const glm::dvec3 aside = glm::dvec3(std::sin(azimuth), 0, std::cos(azimuth)) * reach;
+            const auto below = surface_.nearest(eye + aside, {0, -1, 0});
+            if (!below || !isFloor(*below) || std::abs(below->distance - height) > height / 5)
+                return std::nullopt;
+        }
+        return eye;
+    }
+
+    // The mean distance of what surrounds the eye, m; nothing where it is not surrounded. Directions are
+    // those of a Fibonacci lattice.
+    std::optional<double> spaceAround(const glm::dvec3& eye) const {
+        const double golden = glm::radians(180.0) * (3 - std::sqrt(5.0));
+        const double near = freeCamera(bounds_).near;
+        int fronts = 0;
+        double sum = 0;
+        for (int i = 0; i < aroundDirections; ++i) {
+            const double y = 1 - 2 * (i + 0.5) / aroundDirections, r = std::sqrt(1 - y * y);
+            const auto hit = surface_.nearest(eye, {r * std::cos(golden * i), y, r * std::sin(golden * i)});
+            if (!hit || !hit->front) continue;
+            if (!(hit->distance > near)) return std::nullopt;  // the eye touches it
+            ++fronts;
+            sum += hit->distance;
+        }
+        if (fronts < surrounded * aroundDirections) return std::nullopt;
+        return sum / fronts;
+    }
+
+    const Bounds& bounds_;  // of the pose
+    VisibleSurface surface_;
+};
+
+// The one of `others` that shows most, where that is clearly more than `before` shows; else `before`.
+DefaultView clearlyBetter(const DefaultView& before, const std::vector<DefaultView>& others) {
+    DefaultView best = before;
+    for (const DefaultView& other : others)
+        if (other.entropy >= before.entropy + clearlyMore && other.entropy > best.entropy) best = other;
+    return best;
+}
+
+DefaultView outsideAt(DefaultView::Place place, const glm::dvec3& backward) {
+    DefaultView view;
+    view.place = place;
+    view.backward = glm::normalize(backward);
+    return view;
+}
+
+// The direction (+1, +0.6, +1), or the other side if nothing faces that one.
+DefaultView usualView(const Scene& scene, const Pose& pose, const Bounds& bounds) {
+    const auto sees = [&](const DefaultView& view) {
+        return anythingFaces(scene, pose, glm::dvec3(worldFromCamera(view, bounds, ratedAspect)[3]));
+    };
+    const DefaultView usual = outsideAt(DefaultView::Place::usual, {1, 0.6, 1});
+    const DefaultView behind = outsideAt(DefaultView::Place::outside, {-1, -0.6, -1});
+    return !sees(usual) && sees(behind) ? behind : usual;
+}
+
+// All around in steps of 45 degrees as high as the usual view, which is the first, then from higher up.
+std::vector<DefaultView> outsideViews(const Rating& rating) {
+    std::vector<DefaultView> views;
+    for (const double height : {0.6, 1.8})
+        for (int step = 0; step < 8; ++step) {
+            const double azimuth = glm::radians(45.0 * (step + 1));
+            views.push_back(rating.rated(
+                outsideAt(DefaultView::Place::outside,
+                          {std::sqrt(2.0) * std::sin(azimuth), height, std::sqrt(2.0) * std::cos(azimuth)})));
+        }
+    return views;
+}
+
+std::vector<DefaultView> insideViews(const Rating& rating) {
+    std::vector<DefaultView> views;
+    for (const glm::dvec3& eye : rating.eyesInside())
+        for (int step = 0; step < yaws; ++step) {
+            const double azimuth = glm::radians(360.0) * step / yaws;
+            DefaultView view =
+                outsideAt(DefaultView::Place::inside, {std::sin(azimuth), 0, std::cos(azimuth)});
+            view.eye = eye;
+            views.push_back(rating.rated(view));
+        }
+    return views;
+}
+
+}  // namespace
+
+std::string DefaultView::inWords() const {
+    const char* from = place == Place::inside    ? "from inside"
+                       : place == Place::outside ? "from another side, which shows more"
+                                                 : "from outside";
+    return fmt::format("{}; {:.0f} % of the picture is covered", from, 100 * covered);
+}
+
+double viewEntropy(const std::vector<std::size_t>& pixels) {
+    double all = 0, bits = 0;
+    for (const std::size_t count : pixels) all += static_cast<double>(count);
+    for (const std::size_t count : pixels)
+        if (count > 0) bits -= static_cast<double>(count) / all * std::log2(static_cast<double>(count) / all);
+    return bits;
+}
+
+DefaultView chooseDefaultView(const Scene& scene) {
+    const Pose pose = poseAt(scene, 0);
+    const Bounds bounds = worldBounds(scene, pose);
+    const Rating rating(scene, pose, bounds);
+    const DefaultView usual = rating.rated(usualView(scene, pose, bounds));
+    if (bounds.empty()) return usual;
+    return clearlyBetter(clearlyBetter(usual, outsideViews(rating)), insideViews(rating));
+}
+
+double targetDistance(const DefaultView& view, const Bounds& bounds, double aspect) {
+    if (view.place == DefaultView::Place::inside) return usableRadius(bounds);
+    return fittingDistance(bounds, lookAt(view.backward, glm::dvec3(0)), aspect);
+}
+
+glm::dmat4 worldFromCamera(const DefaultView& view, const Bounds& bounds, double aspect) {
+    if (view.place == DefaultView::Place::inside) return lookAt(view.eye, view.eye - view.backward);
+    const glm::dvec3 centre = usableCentre(bounds);
+    return lookAt(centre + view.backward * targetDistance(view, bounds, aspect), centre);
+}
+
+// near is a thousandth of the bounds' radius: an eye inside a building may be that close to a wall, and
+// reversed float depth loses no precision by it. There is no far plane, so that nothing is cut off.
+Camera freeCamera(const Bounds& bounds) {
+    Camera camera;
+    camera.yfov = defaultFov;
+    camera.near = 1e-3 * usableRadius(bounds);
+    return camera;
+}
+
+glm::dvec3 usableCentre(const Bounds& bounds) {
+    return bounds.empty() ? glm::dvec3(0) : bounds.centre();
+}
+
+glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target) {
+    const glm::dvec3 backward = glm::normalize(eye - target);
+    // Below 1e-6 the direction of `right` would be rounding error.
+    const bool atPole = glm::length(glm::cross(glm::dvec3(0, 1, 0), backward)) < 1e-6;
+    const glm::dvec3 up = atPole ? glm::dvec3(0, 0, backward.y > 0 ? -1 : 1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(up, backward));
+    return glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(backward, right), 0),
+                      glm::dvec4(backward, 0), glm::dvec4(eye, 1));
+}
+
+}  // namespace diptych
