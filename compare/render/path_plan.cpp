@@ -13,9 +13,10 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
     std::vector<PathPlan> plans;
     for (const Settings& s : settings) {
         checkSize(device, s.size);
+        // A path's pipelines are counted as if it were alone, whichever of them another has made.
+        shared.pipelines.clear();
         const PreparedView view(device, shared, views.at(viewRequest(s)), s);
         const PathFunctions& path = functionsOf(s.path);
-        const std::size_t pipelinesBefore = shared.pipelines.count();
         PassList passes(device, 1, 1);
         path.add(passes, view.inputs);
         passes.allocate();
@@ -26,7 +27,7 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
                       {}};
         for (const std::string& note : view.notes) plan.notes.push_back(note);
         plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", view.draws.items.size(),
-                                         view.draws.culled, shared.pipelines.count() - pipelinesBefore));
+                                         view.draws.culled, shared.pipelines.count()));
         plans.push_back(std::move(plan));
     }
     return plans;

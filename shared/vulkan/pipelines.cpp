@@ -110,6 +110,11 @@ void Pipelines::erase(const std::function<bool(const PipelineKey&)>& which) {
     std::erase_if(pipelines_, [&](const auto& pipeline) { return which(pipeline.first); });
 }
 
+void Pipelines::clear() {
+    pipelines_.clear();
+    compute_.clear();
+}
+
 OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts) const {
     const Specialization specialization(key.variant);
     std::vector<VkPipelineShaderStageCreateInfo> stages;

@@ -82,6 +82,7 @@ public:
     // Destroys those that draw with such keys, of which none may be in use: a driver may hold megabytes for
     // each.
     void erase(const std::function<bool(const PipelineKey&)>& which);
+    void clear();  // destroys all, of which none may be in use
     std::size_t count() const { return pipelines_.size() + compute_.size(); }
 
 private:

@@ -198,6 +198,21 @@ TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     EXPECT_NE(runTool(folder, "plan").out.find("bytes per pixel"), std::string::npos);
 }
 
+// The paths share pipelines, but what one is said to need does not depend on which others are asked for.
+TEST(Command, PlanSaysOfAPathTheSameAloneAndBesideAnother) {
+    const Folder folder;
+    const Json both = parsed(runTool(folder, "plan --json builtin:points"))["scenes"][0]["paths"];
+    ASSERT_EQ(both.size(), 2u);
+    for (const Json& path : both) {
+        const std::string name = path["path"];
+        EXPECT_EQ(parsed(runTool(folder, "plan --json builtin:points --path " + name))["scenes"][0]["paths"],
+                  Json::array({path}))
+            << name;
+        EXPECT_NE(path["notes"].dump().find(" pipelines"), std::string::npos);
+        EXPECT_EQ(path["notes"].dump().find(" 0 pipelines"), std::string::npos);
+    }
+}
+
 TEST(Command, RenderWritesWhatTheEndingSays) {
     const Folder folder;
     EXPECT_EQ(runTool(folder, "render -o a.exr" + quickTriangle).code, 0);
