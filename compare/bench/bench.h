@@ -66,8 +66,11 @@ std::string benchTable(const Bench& bench, std::size_t first);
 std::string benchEnd(const Bench& bench);
 std::string kernelTable(const KernelReport& kernels);
 
+// Whether a row draws another picture than the others, see drawsAnotherPicture().
+bool hasAnotherPicture(const Bench& bench);
+
 // Time over light count, a line a mode with bars from the least to the most; a panel a size. Both axes are
-// logarithmic.
+// logarithmic. Of one light count: a bar a mode, stacked of its passes.
 std::string benchPlot(const Bench& bench, PlotPlace place);
 std::string benchHtml(const Bench& bench);
 // bench.json, schema 1; `files`: all of the folder.

@@ -165,6 +165,18 @@ std::string modeName(Path path, Assignment assign) {
     return fmt::format("{}, {}", nameOf(path), nameOf(assign));
 }
 
+bool drawsAnotherPicture(Assignment assign) {
+    return assign == Assignment::per_object;
+}
+
+std::string assignLabel(Assignment assign) {
+    return std::string(nameOf(assign)) + (drawsAnotherPicture(assign) ? " *" : "");
+}
+
+std::string modeLabel(Path path, Assignment assign) {
+    return fmt::format("{}, {}", nameOf(path), assignLabel(assign));
+}
+
 std::string skipName(const BenchSkip& skip) {
     std::string name = modeName(skip.path, skip.assign);
     if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);

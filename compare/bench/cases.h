@@ -61,6 +61,13 @@ std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, doubl
 
 // "forward_plus, clustered"
 std::string modeName(Path path, Assignment assign);
+// Whether the assignment shades fewer lights a pixel than there are, so that its time is of another picture.
+bool drawsAnotherPicture(Assignment assign);
+// Names with a star where that is so, and what the star means.
+std::string assignLabel(Assignment assign);
+std::string modeLabel(Path path, Assignment assign);
+inline constexpr const char* starMeans =
+    "* draws another picture: only some of the lights are shaded per pixel, the others by object";
 // "forward_plus, every, 640x360, 1024 lights"
 std::string skipName(const BenchSkip& skip);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
+#include "compare/bench/conclusion.h"
 #include "compare/bench/style.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
@@ -59,14 +60,25 @@ std::string rows(const Bench& bench) {
             passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
         out += "<tr>" + numberCell(fmt::format("{}", row.counters.lights)) +
                numberCell(fmt::format("{}x{}", row.settings.size.width, row.settings.size.height)) +
-               cell(std::string(nameOf(row.settings.path))) + cell(std::string(nameOf(row.settings.assign))) +
+               cell(std::string(nameOf(row.settings.path))) + cell(assignLabel(row.settings.assign)) +
                numberCell(msText(row.time.median)) + numberCell(msText(row.time.min)) +
                numberCell(msText(row.time.max)) + numberCell(fmt::format("{:.3g}", assignMs(row))) +
                numberCell(fmt::format("{:.1f} %", 100 * assignShare(row))) +
                numberCell(bytes(row.bytes.images + row.bytes.buffers)) + cell(passes) +
                cell(fmt::format("{}", fmt::join(ownNotes(row, common), "; "))) + "</tr>\n";
     }
-    return out + "</tbody></table></div>\n";
+    out += "</tbody></table></div>\n";
+    if (hasAnotherPicture(bench)) out += fmt::format("<p class=\"soft\">{}</p>\n", starMeans);
+    return out;
+}
+
+// What it says, above everything else.
+std::string conclusions(const Bench& bench) {
+    const std::vector<Conclusion> all = conclusionsOf(bench);
+    if (all.empty()) return {};
+    std::string out = "<div class=\"box says\"><ul>";
+    for (const Conclusion& conclusion : all) out += fmt::format("<li>{}</li>", markup(conclusion.inWords()));
+    return out + "</ul></div>\n";
 }
 
 std::string skips(const Bench& bench) {
@@ -107,7 +119,9 @@ std::string how(const Bench& bench) {
         "turn, one frame each and again from the first, so that a device that slows down does so for all "
         "alike.</li><li>Passes are medians of as many other frames, each pass timed by itself; the share is "
         "that "
-        "of the passes that make light lists, of all passes.</li>";
+        "of the passes that make light lists, of all passes.</li><li>How many times as long a mode takes is "
+        "the median over frames drawn in the same turn, and the interval is that of a sign test: it holds "
+        "whatever the times' distribution is.</li>";
     for (const std::string& note : commonNotes(bench)) out += "<li>" + markup(note) + "</li>";
     return out + "</ul></div>\n<footer><p><a href=\"bench.json\">bench.json</a>" +
            (bench.rows.empty() ? "" : " <a href=\"bench.svg\">bench.svg</a>") + "</p></footer>\n";
@@ -121,9 +135,9 @@ std::string benchHtml(const Bench& bench) {
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, {0}</title>\n"
         "<style>{1}{2}{3}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>Times side by "
         "side: {0}</h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
-        "{8}{9}{10}{11}{12}</body></html>\n",
+        "{8}{9}{10}{11}{12}{13}</body></html>\n",
         markup(bench.scene), page::style, plotStyle, benchStyle, bench.rows.size(), bench.runs,
-        markup(bench.device.name), markup(bench.device.driver),
+        markup(bench.device.name), markup(bench.device.driver), conclusions(bench),
         bench.rows.empty() ? ""
                            : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
         rows(bench), kernels(bench), skips(bench), how(bench));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
+#include "compare/bench/conclusion.h"
 #include "compare/files/our_files.h"
 
 #include <nlohmann/json.hpp>
@@ -24,6 +25,7 @@ Json jsonOf(const BenchRow& row) {
     return {{"name", modeName(row.settings.path, row.settings.assign)},
             {"path", nameOf(row.settings.path)},
             {"assign", nameOf(row.settings.assign)},
+            {"same_picture", !drawsAnotherPicture(row.settings.assign)},
             {"scene", row.scene},
             {"camera", row.camera},
             {"size", jsonOf(row.settings.size)},
@@ -69,12 +71,29 @@ Json jsonOf(const KernelReport& kernels) {
             {"notes", kernels.notes}};
 }
 
+Json jsonOf(const Conclusion& c) {
+    return {{"size", jsonOf(c.faster->settings.size)},
+            {"lights", c.faster->counters.lights},
+            {"faster", modeName(c.faster->settings.path, c.faster->settings.assign)},
+            {"slower", modeName(c.slower->settings.path, c.slower->settings.assign)},
+            {"ratio", c.ratio.median},
+            {"interval", {c.ratio.low, c.ratio.high}},
+            {"confidence", c.ratio.confidence},
+            {"pairs", c.ratio.pairs},
+            {"sure", c.ratio.isSure()},
+            {"pass", c.pass},
+            {"pass_ms", {c.faster_ms, c.slower_ms}},
+            {"in_words", c.inWords()}};
+}
+
 }  // namespace
 
 std::string benchJson(const Bench& bench, const std::vector<std::string>& files) {
     Json rows = Json::array(), skips = Json::array();
     for (const BenchRow& row : bench.rows) rows.push_back(jsonOf(row));
     for (const BenchSkip& skip : bench.skips) skips.push_back(jsonOf(skip));
+    Json conclusions = Json::array();
+    for (const Conclusion& conclusion : conclusionsOf(bench)) conclusions.push_back(jsonOf(conclusion));
     const Json json = {
         {"schema", 1},
         {"software", softwareName},
@@ -83,6 +102,7 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
         {"scene", bench.scene},
         {"runs", bench.runs},
         {"max_ms", bench.options.max_ms},
+        {"conclusions", conclusions},
         {"frames", rows},
         {"skipped", skips},
         {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},

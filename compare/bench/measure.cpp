@@ -74,6 +74,11 @@ std::vector<std::string> commonNotes(const Bench& bench) {
     return common;
 }
 
+bool hasAnotherPicture(const Bench& bench) {
+    return std::ranges::any_of(bench.rows,
+                               [](const BenchRow& row) { return drawsAnotherPicture(row.settings.assign); });
+}
+
 std::string msText(double ms) {
     return ms < 1000 ? fmt::format("{:.4g}", ms) : fmt::format("{:.0f}", ms);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/bench.h"
+#include "compare/bench/plot_parts.h"
 #include "compare/page/text.h"
 
 #include <fmt/format.h>
@@ -12,8 +12,8 @@ using page::markup;
 
 namespace {
 
-// Of the drawing, in its own units.
-constexpr double width = 720, panel = 380, left = 74, right = 200, top = 34, bottom = 62;
+// Of the drawing, in its own units; the legend follows.
+constexpr double panel = 380, top = 34, bottom = 62;
 
 struct Series {
     Path path;
@@ -53,7 +53,7 @@ std::string groupOf(const Series& series, const std::string& inside) {
                        inside);
 }
 
-std::string panelOf(const Bench& bench, const Size& size, double above) {
+Panel linesOf(const Bench& bench, const Size& size, double above) {
     const std::vector<Series> all = seriesOf(bench, size);
     std::vector<double> lights, ms;
     for (const Series& series : all)
@@ -62,7 +62,7 @@ std::string panelOf(const Bench& bench, const Size& size, double above) {
             ms.insert(ms.end(), {row->time.min, row->time.median, row->time.max});
         }
     const LogAxis across(lights), up(ms);
-    const PlotBox box{left, above + top, width - right, above + panel - bottom};
+    const PlotBox box{plotLeft, above + top, plotWidth - plotRight, above + panel - bottom};
     const auto x = [&](double n) { return box.left + across.place(n) * (box.right - box.left); };
     const auto y = [&](double t) { return box.bottom - up.place(t) * (box.bottom - box.top); };
     Drawing drawing;
@@ -70,7 +70,7 @@ std::string panelOf(const Bench& bench, const Size& size, double above) {
     drawing.text("name", box.left, above + top - 12,
                  fmt::format("{}x{}, {}", size.width, size.height, bench.scene));
     std::string out = drawing.group();
-    double row = box.top + 4;
+    Legend legend(above + panel + 4);
     for (const Series& series : all) {
         std::string line, marks;
         for (const BenchRow* r : series.rows) {
@@ -78,23 +78,19 @@ std::string panelOf(const Bench& bench, const Size& size, double above) {
             line += fmt::format("{}{} {}", line.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
             marks += fmt::format(
                 "<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
-                markup(fmt::format("{}, {} lights: {} ms ({} to {})", modeName(series.path, series.assign),
+                markup(fmt::format("{}, {} lights: {} ms ({} to {})", modeLabel(series.path, series.assign),
                                    r->counters.lights, msText(r->time.median), msText(r->time.min),
                                    msText(r->time.max))),
                 svgNumber(px), svgNumber(y(r->time.min)), svgNumber(y(r->time.max)),
                 markAt(series.path, px, py));
         }
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));
-        const double lx = box.right + 14;
-        out += groupOf(
-            series,
-            fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}<text class=\"tick\" x=\"{}\" "
-                        "y=\"{}\">{}</text>",
-                        svgNumber(lx), svgNumber(row), markAt(series.path, lx + 12, row), svgNumber(lx + 30),
-                        svgNumber(row + 4), markup(modeName(series.path, series.assign))));
-        row += 19;
+        const auto [lx, ly] = legend.next();
+        out += groupOf(series, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}", svgNumber(lx),
+                                           svgNumber(ly), markAt(series.path, lx + 12, ly)) +
+                                   legend.words(modeLabel(series.path, series.assign)));
     }
-    return out;
+    return {out, legend.end()};
 }
 
 }  // namespace
@@ -102,11 +98,16 @@ std::string panelOf(const Bench& bench, const Size& size, double above) {
 std::string benchPlot(const Bench& bench, PlotPlace place) {
     std::string panels;
     double above = 0;
+    const bool oneCount = std::ranges::all_of(bench.rows, [&](const BenchRow& row) {
+        return row.counters.lights == bench.rows.front().counters.lights;
+    });
     for (const Size& size : sizesOf(bench)) {
-        panels += panelOf(bench, size, above);
-        above += panel;
+        const Panel made = oneCount ? barsOf(bench, size, above) : linesOf(bench, size, above);
+        panels += made.markup;
+        above = made.end;
     }
-    return plotElement(width, std::max(above, panel), "Time against light count, " + bench.scene, place,
+    return plotElement(plotWidth, std::max(above, panel),
+                       (oneCount ? "Time by pass, " : "Time against light count, ") + bench.scene, place,
                        panels);
 }
 

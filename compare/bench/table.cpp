@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The benchmark on a terminal.
 #include "compare/bench/bench.h"
+#include "compare/bench/conclusion.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@ namespace diptych::bench {
 std::string benchTable(const Bench& bench, std::size_t first) {
     std::string out;
     if (first == 0)
-        out = fmt::format("{:>8}  {:>9}  {:<12}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9}  {:>6}  passes, ms\n",
+        out = fmt::format("{:>8}  {:>9}  {:<12}  {:<12}  {:>8}  {:>8}  {:>8}  {:>9}  {:>6}  passes, ms\n",
                           "lights", "size", "path", "assign", "ms", "least", "most", "assign ms", "share");
     for (std::size_t i = first; i < bench.rows.size(); ++i) {
         const BenchRow& row = bench.rows[i];
@@ -19,9 +20,9 @@ std::string benchTable(const Bench& bench, std::size_t first) {
         for (const PassTime& pass : row.passes)
             passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
         out += fmt::format(
-            "{:>8}  {:>9}  {:<12}  {:<10}  {:>8}  {:>8}  {:>8}  {:>9.3g}  {:>5.1f}%  {}\n",
+            "{:>8}  {:>9}  {:<12}  {:<12}  {:>8}  {:>8}  {:>8}  {:>9.3g}  {:>5.1f}%  {}\n",
             row.counters.lights, fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
-            nameOf(row.settings.path), nameOf(row.settings.assign), msText(row.time.median),
+            nameOf(row.settings.path), assignLabel(row.settings.assign), msText(row.time.median),
             msText(row.time.min), msText(row.time.max), assignMs(row), 100 * assignShare(row), passes);
     }
     return out;
@@ -52,6 +53,9 @@ std::string benchEnd(const Bench& bench) {
                                row.counters.nonfinite_pixels);
     if (bench.kernels) out += kernelTable(*bench.kernels);
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
+    if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
+    // Last, where it is read first.
+    for (const Conclusion& conclusion : conclusionsOf(bench)) out += conclusion.inWords() + "\n";
     return out;
 }
 

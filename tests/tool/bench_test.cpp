@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Benchmarks through the whole program.
+#include "tests/tool/page_maker.h"
 #include "tests/tool/sweep.h"
 
 #include <set>
@@ -91,6 +92,33 @@ TEST(Bench, WhatItCannotDoIsNamed) {
     EXPECT_TRUE(runTool(folder, "bench no.glb").failedOver("no.glb"));
     EXPECT_TRUE(runTool(folder, "bench --paths deferred --assign per_object").failedOver("nothing to time"));
     EXPECT_FALSE(fs::exists(folder / "diptych-bench"));
+}
+
+// Lines and bars, on a phone: every word is inside its plot, and no two entries of a legend overlap.
+TEST(Bench, PlotsFitAPhone) {
+    SKIP_WITHOUT_BROWSER();
+    for (const std::string counts : {"1,4", "4"}) {
+        const Folder folder;
+        const Ran ran = runTool(folder,
+                                "bench builtin:spheres --size 16x12 --runs 1 --max-ms 1e6 --kernels off -q "
+                                "--light-counts " +
+                                    counts + " -o b");
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        const Visit seen = visit(folder, folder / "b/index.html", R"(
+  document.documentElement.style.width = '390px'; await wait(100);
+  const plot = $('svg.chart').getBoundingClientRect();
+  const boxes = $$('svg.chart text').map(text => [text.textContent, text.getBoundingClientRect()]);
+  const out = boxes.filter(([, b]) => b.left < plot.left || b.right > plot.right || b.bottom > plot.bottom).map(([t]) => t);
+  const legend = boxes.filter(([t, b]) => b.top > plot.bottom - 130);
+  const over = legend.filter(([t, a], i) => legend.some(([, b], k) => k < i && a.left < b.right && b.left < a.right && a.top + 2 < b.bottom && b.top + 2 < a.bottom)).map(([t]) => t);
+  tell({ width: plot.width, words: boxes.length, out, over });)",
+                                 "", 390);
+        ASSERT_TRUE(seen.told.is_object()) << seen.told;
+        EXPECT_LE(seen.told["width"].get<double>(), 390) << counts;
+        EXPECT_GT(seen.told["words"], 10);
+        EXPECT_EQ(seen.told["out"], Json::array()) << counts;
+        EXPECT_EQ(seen.told["over"], Json::array()) << counts;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/conclusion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace diptych::bench {
+namespace {
+
+constexpr double wantedConfidence = 0.95;
+
+// That the median lies between the k-th least and the k-th largest of n: 1 - 2 P(Binomial(n, 1/2) < k).
+double confidenceOf(int n, int k) {
+    double term = std::pow(0.5, n), below = 0;
+    for (int i = 0; i < k; ++i) {
+        below += term;
+        term *= static_cast<double>(n - i) / (i + 1);
+    }
+    return 1 - 2 * below;
+}
+
+bool comparable(const BenchRow& a, const BenchRow& b) {
+    return a.settings.size == b.settings.size && a.counters.lights == b.counters.lights;
+}
+
+void findPass(Conclusion& c) {
+    std::map<std::string, std::pair<double, double>> ms;  // faster, slower
+    for (const PassTime& pass : c.faster->passes) ms[pass.name].first += pass.ms;
+    for (const PassTime& pass : c.slower->passes) ms[pass.name].second += pass.ms;
+    double most = 0;
+    for (const auto& [name, times] : ms) {
+        const double saved = times.second - times.first;
+        if (saved <= most) continue;
+        most = saved;
+        c.pass = name;
+        c.faster_ms = times.first;
+        c.slower_ms = times.second;
+    }
+}
+
+std::string passMs(double ms) {
+    return ms > 0 ? msText(ms) + " ms" : "none";
+}
+
+}  // namespace
+
+PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < std::min(slower.size(), faster.size()); ++i)
+        if (faster[i] > 0) ratios.push_back(slower[i] / faster[i]);
+    PairedRatio result;
+    result.pairs = static_cast<int>(ratios.size());
+    if (ratios.empty()) return result;
+    std::ranges::sort(ratios);
+    result.median = 0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]);
+    int k = 1;
+    while (confidenceOf(result.pairs, k + 1) >= wantedConfidence) ++k;
+    result.confidence = std::max(0.0, confidenceOf(result.pairs, k));
+    result.low = ratios[static_cast<std::size_t>(k) - 1];
+    result.high = ratios[ratios.size() - static_cast<std::size_t>(k)];
+    return result;
+}
+
+std::string Conclusion::inWords() const {
+    const Settings &a = faster->settings, &b = slower->settings;
+    std::string words = fmt::format(
+        "{}x{}, {} lights: {} takes {} ms, {} {:.2f} times as long ({:.2f} to {:.2f} with {:.1f} % "
+        "confidence, {} paired frames)",
+        a.size.width, a.size.height, faster->counters.lights, modeName(a.path, a.assign),
+        msText(faster->time.median), modeName(b.path, b.assign), ratio.median, ratio.low, ratio.high,
+        100 * ratio.confidence, ratio.pairs);
+    if (!ratio.isSure()) return words + ": too close or too few to tell; more --runs may";
+    if (!pass.empty())
+        words += fmt::format("; the pass that decides it is {}, {} against {}", pass, passMs(faster_ms),
+                             passMs(slower_ms));
+    return words;
+}
+
+std::vector<Conclusion> conclusionsOf(const Bench& bench) {
+    std::vector<const BenchRow*> left;
+    for (const BenchRow& row : bench.rows)
+        if (!drawsAnotherPicture(row.settings.assign)) left.push_back(&row);
+    std::vector<Conclusion> conclusions;
+    while (!left.empty()) {
+        std::vector<const BenchRow*> group;
+        for (const BenchRow* row : left)
+            if (comparable(*row, *left.front())) group.push_back(row);
+        std::erase_if(left, [&](const BenchRow* row) { return std::ranges::count(group, row) > 0; });
+        std::ranges::stable_sort(group, {}, [](const BenchRow* row) { return row->time.median; });
+        if (group.size() < 2) continue;
+        const auto other = std::ranges::find_if(
+            group, [&](const BenchRow* row) { return row->settings.path != group.front()->settings.path; });
+        Conclusion c;
+        c.faster = group.front();
+        c.slower = other == group.end() ? group[1] : *other;
+        c.ratio = pairedRatio(c.slower->ms, c.faster->ms);
+        findPass(c);
+        conclusions.push_back(std::move(c));
+    }
+    return conclusions;
+}
+
+}  // namespace diptych::bench

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/plot_parts.h"
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace diptych::bench {
+namespace {
+
+constexpr double entryHeight = 26;                 // of a legend
+constexpr double headHeight = 34, rowHeight = 52;  // of a panel; of a bar and the name above it
+constexpr double barHeight = 20, below = 62;       // of a bar; ticks and the axis' name
+constexpr std::size_t mostColours = 8;             // plot.css; passes beyond are one part
+constexpr const char* otherPasses = "other passes";
+
+// Names of passes in their order, those that take most if there are more than colours.
+std::vector<std::string> passNames(const std::vector<const BenchRow*>& rows) {
+    std::vector<std::string> names;
+    std::map<std::string, double> most;
+    for (const BenchRow* row : rows)
+        for (const PassTime& pass : row->passes) {
+            if (!most.contains(pass.name)) names.push_back(pass.name);
+            most[pass.name] = std::max(most[pass.name], pass.ms);
+        }
+    if (names.size() <= mostColours) return names;
+    std::vector<double> times;
+    for (const auto& [name, ms] : most) times.push_back(ms);
+    std::ranges::sort(times, std::greater<>());
+    std::erase_if(names, [&](const std::string& name) { return most[name] <= times[mostColours - 1]; });
+    names.emplace_back(otherPasses);
+    return names;
+}
+
+// 1, 2 or 5 times a power of ten, so that there are four to nine steps up to `most`.
+double stepOf(double most) {
+    const double power = std::pow(10.0, std::floor(std::log10(most / 4)));
+    const double share = most / 4 / power;
+    return power * (share < 2 ? 1 : share < 5 ? 2 : 5);
+}
+
+}  // namespace
+
+std::pair<double, double> Legend::next() {
+    const int entry = entries_++;
+    return {plotLeft + (entry % 2) * (plotWidth - plotLeft) / 2, top_ + (entry / 2 + 0.5) * entryHeight};
+}
+
+std::string Legend::words(const std::string& text) const {
+    const int entry = entries_ - 1;
+    return fmt::format("<text class=\"tick\" x=\"{}\" y=\"{}\">{}</text>",
+                       svgNumber(plotLeft + (entry % 2) * (plotWidth - plotLeft) / 2 + 30),
+                       svgNumber(top_ + (entry / 2 + 0.5) * entryHeight + 5), page::markup(text));
+}
+
+double Legend::end() const {
+    return top_ + (entries_ + 1) / 2 * entryHeight + 16;
+}
+
+Panel barsOf(const Bench& bench, const Size& size, double above) {
+    std::vector<const BenchRow*> rows;
+    double most = 0;
+    for (const BenchRow& row : bench.rows) {
+        if (row.settings.size != size) continue;
+        rows.push_back(&row);
+        double sum = 0;
+        for (const PassTime& pass : row.passes) sum += pass.ms;
+        most = std::max({most, sum, row.time.max});
+    }
+    if (!(most > 0)) most = 1;
+    const std::vector<std::string> names = passNames(rows);
+    const auto partOf = [&](const std::string& pass) {
+        return static_cast<std::size_t>(std::min(std::ranges::find(names, pass), std::prev(names.end())) -
+                                        names.begin());
+    };
+    const double bottom = above + headHeight + rowHeight * static_cast<double>(rows.size()),
+                 right = plotWidth - plotRight;
+    const auto x = [&](double ms) { return plotLeft + ms / most * (right - plotLeft); };
+    Drawing drawing;
+    drawing.text("name", plotLeft, above + headHeight - 12,
+                 fmt::format("{}x{}, {} lights, {}", size.width, size.height, rows.front()->counters.lights,
+                             bench.scene));
+    const double step = stepOf(most);
+    for (double tick = 0; tick <= most; tick += step) {
+        drawing.line("grid", x(tick), above + headHeight, x(tick), bottom);
+        drawing.text("tick middle", x(tick), bottom + 20, fmt::format("{:.6g}", tick));
+    }
+    drawing.line("axis", plotLeft, bottom, right, bottom);
+    drawing.text("name middle", (plotLeft + right) / 2, bottom + 47, "time of a frame by pass, ms");
+    double y = above + headHeight + rowHeight - barHeight - 8;
+    for (const BenchRow* row : rows) {
+        const std::string label = modeLabel(row->settings.path, row->settings.assign);
+        drawing.text("tick", plotLeft, y - 6, fmt::format("{}: {} ms", label, msText(row->time.median)));
+        double from = 0;
+        for (const PassTime& pass : row->passes) {
+            drawing.add(fmt::format(
+                "<rect class=\"part part{}\" x=\"{}\" y=\"{}\" width=\"{:.2f}\" height=\"{}\"><title>{}"
+                "</title></rect>",
+                partOf(pass.name), svgNumber(x(from)), svgNumber(y), x(pass.ms) - plotLeft, barHeight,
+                page::markup(fmt::format("{}, {}: {} ms", label, pass.name, msText(pass.ms)))));
+            from += pass.ms;
+        }
+        drawing.line("frame", x(row->time.min), y + barHeight / 2, x(row->time.max), y + barHeight / 2);
+        drawing.line("frame", x(row->time.median), y - 2, x(row->time.median), y + barHeight + 2);
+        y += rowHeight;
+    }
+    std::string out = drawing.group();
+    Legend legend(bottom + below);
+    for (std::size_t part = 0; part < names.size(); ++part) {
+        const auto [lx, ly] = legend.next();
+        out += fmt::format("<rect class=\"part part{}\" x=\"{}\" y=\"{}\" width=\"24\" height=\"14\"/>{}",
+                           part, svgNumber(lx), svgNumber(ly - 7), legend.words(names[part]));
+    }
+    return {out, legend.end()};
+}
+
+}  // namespace diptych::bench

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// What a benchmark says in a sentence, and its plot of a single light count.
+#include "compare/bench/conclusion.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <regex>
+#include <string>
+
+namespace diptych {
+namespace {
+
+using namespace bench;
+using Times = std::vector<double>;
+
+BenchRow timed(const char* path, const char* assign, Times ms, std::vector<PassTime> passes,
+               const char* size = "64x48", std::uint32_t lights = 16) {
+    BenchRow made;
+    made.settings.set("path", path);
+    made.settings.set("assign", assign);
+    made.settings.set("size", size);
+    made.counters.lights = lights;
+    Times sorted = ms;
+    std::ranges::sort(sorted);
+    made.time = {sorted[sorted.size() / 2], sorted.front(), sorted.back(), static_cast<int>(ms.size())};
+    made.ms = std::move(ms);
+    made.passes = std::move(passes);
+    return made;
+}
+
+// Both paths twice and per_object, of six frames in turn.
+Bench oneCount() {
+    Bench bench;
+    bench.scene = "hall.glb";
+    bench.rows = {
+        timed("deferred", "clustered", {10, 11, 10, 12, 10, 10},
+              {{"G-buffer", 3}, {"assign lights", 1}, {"light <all>", 6}}),
+        timed("deferred", "tiled", {14, 14, 14, 14, 14, 14}, {{"G-buffer", 3}, {"light <all>", 11}}),
+        timed("forward_plus", "clustered", {20, 22, 21, 26, 20, 21}, {{"assign lights", 2}, {"shade", 19}}),
+        timed("forward_plus", "per_object", {1, 1, 1, 1, 1, 1}, {{"shade", 1}})};
+    return bench;
+}
+
+TEST(PairedRatio, IsTheMedianOfWhatWasTimedTogether) {
+    // The machine slows down by ten from the third frame on: the ratio stays.
+    const PairedRatio ratio = pairedRatio({2, 2, 20, 20, 20, 22}, {1, 1, 10, 10, 10, 10});
+    EXPECT_DOUBLE_EQ(ratio.median, 2);
+    EXPECT_DOUBLE_EQ(ratio.low, 2);
+    EXPECT_DOUBLE_EQ(ratio.high, 2.2);
+    EXPECT_EQ(ratio.pairs, 6);
+    EXPECT_TRUE(ratio.isSure());
+}
+
+// Tables of the sign test: of n values the k-th least and the k-th largest enclose the median with these
+// confidences (n = 6, k = 1: 1 - 2 / 64; n = 9, k = 2: 1 - 2 (1 + 9) / 512; n = 20, k = 6: 0.9586).
+TEST(PairedRatio, TheIntervalIsThatOfTheSignTest) {
+    const auto of = [](int n) {
+        Times slower, faster;
+        for (int i = 1; i <= n; ++i) {
+            slower.push_back(i + 1);
+            faster.push_back(1);
+        }
+        return pairedRatio(slower, faster);
+    };
+    EXPECT_DOUBLE_EQ(of(6).confidence, 1 - 2.0 / 64);
+    EXPECT_DOUBLE_EQ(of(6).low, 2);
+    EXPECT_DOUBLE_EQ(of(9).confidence, 1 - 20.0 / 512);
+    EXPECT_DOUBLE_EQ(of(9).low, 3);
+    EXPECT_DOUBLE_EQ(of(9).high, 9);
+    EXPECT_NEAR(of(20).confidence, 0.9586, 1e-4);
+    EXPECT_DOUBLE_EQ(of(20).low, 7);
+    EXPECT_DOUBLE_EQ(of(5).confidence, 1 - 2.0 / 32) << "as sure as five can be";
+    EXPECT_FALSE(of(3).isSure());
+    EXPECT_EQ(of(1).confidence, 0);
+    EXPECT_FALSE(of(0).isSure());
+}
+
+TEST(BenchConclusion, SaysWhichIsFasterByHowMuchAndWhy) {
+    const Bench bench = oneCount();
+    const std::vector<Conclusion> all = conclusionsOf(bench);
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].faster, &bench.rows[0]) << "per_object draws another picture";
+    EXPECT_EQ(all[0].slower, &bench.rows[2]) << "the other path, although tiled is closer";
+    EXPECT_EQ(all[0].pass, "shade");
+    EXPECT_EQ(
+        all[0].inWords(),
+        "64x48, 16 lights: deferred, clustered takes 10 ms, forward_plus, clustered 2.05 times as long "
+        "(2.00 to 2.17 with 96.9 % confidence, 6 paired frames); the pass that decides it is shade, none "
+        "against 19 ms");
+}
+
+TEST(BenchConclusion, IsNotSureWhereFramesScatter) {
+    Bench bench;
+    bench.rows = {timed("deferred", "clustered", {10, 12, 10, 9, 13, 10}, {{"a", 10}}),
+                  timed("forward_plus", "clustered", {11, 11, 11, 11, 11, 11}, {{"b", 11}})};
+    const std::vector<Conclusion> all = conclusionsOf(bench);
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_FALSE(all[0].ratio.isSure());
+    EXPECT_NE(all[0].inWords().find("to tell"), std::string::npos) << all[0].inWords();
+    EXPECT_EQ(all[0].inWords().find("decides"), std::string::npos);
+}
+
+TEST(BenchConclusion, IsOfEachSizeAndLightCount) {
+    Bench bench = oneCount();
+    bench.rows.push_back(timed("deferred", "tiled", {5, 5, 5, 5, 5, 5}, {}, "32x24"));
+    bench.rows.push_back(timed("deferred", "every", {7, 7, 7, 7, 7, 7}, {}, "32x24"));
+    bench.rows.push_back(timed("deferred", "every", {7, 7, 7, 7, 7, 7}, {}, "32x24", 64));
+    const std::vector<Conclusion> all = conclusionsOf(bench);
+    ASSERT_EQ(all.size(), 2u) << "a row alone says nothing";
+    EXPECT_EQ(all[1].faster->settings.assign, Assignment::tiled);
+    EXPECT_EQ(all[1].slower->settings.assign, Assignment::every) << "of one path, the next";
+    EXPECT_EQ(all[1].pass, "");
+}
+
+TEST(BenchConclusion, StandsInTableJsonAndPage) {
+    const Bench bench = oneCount();
+    const std::string words = conclusionsOf(bench)[0].inWords();
+    const std::string end = benchEnd(bench);
+    EXPECT_TRUE(end.ends_with(words + "\n")) << "the last line: " << end;
+    EXPECT_NE(benchHtml(bench).find(words), std::string::npos);
+    const nlohmann::json json = nlohmann::json::parse(benchJson(bench, {}));
+    EXPECT_EQ(json["conclusions"][0]["in_words"], words);
+    EXPECT_EQ(json["conclusions"][0]["faster"], "deferred, clustered");
+    EXPECT_EQ(json["conclusions"][0]["sure"], true);
+    EXPECT_EQ(json["conclusions"][0]["pass_ms"], (nlohmann::json{0, 19}));
+}
+
+TEST(BenchConclusion, AnotherPictureIsMarked) {
+    const Bench bench = oneCount();
+    EXPECT_NE(benchTable(bench, 0).find("per_object *"), std::string::npos);
+    EXPECT_NE(benchEnd(bench).find(starMeans), std::string::npos);
+    EXPECT_NE(benchHtml(bench).find(starMeans), std::string::npos);
+    EXPECT_NE(benchPlot(bench, PlotPlace::file).find("per_object *"), std::string::npos);
+    const nlohmann::json json = nlohmann::json::parse(benchJson(bench, {}));
+    EXPECT_EQ(json["frames"][0]["same_picture"], true);
+    EXPECT_EQ(json["frames"][3]["same_picture"], false);
+    Bench same = oneCount();
+    same.rows.pop_back();
+    EXPECT_EQ(benchEnd(same).find('*'), std::string::npos);
+}
+
+// The widths of a bar's parts, in their order.
+Times barParts(const std::string& svg, const std::string& mode) {
+    Times widths;
+    const std::regex part("width=\"([0-9.]+)\" height=\"[0-9.]+\"><title>" + mode + ", [^<]*ms</title>");
+    for (std::sregex_iterator at(svg.begin(), svg.end(), part), end; at != end; ++at)
+        widths.push_back(std::stod((*at)[1]));
+    return widths;
+}
+
+TEST(BenchPlot, OfOneLightCountHasABarAModeStackedOfItsPasses) {
+    const std::string svg = benchPlot(oneCount(), PlotPlace::file);
+    EXPECT_EQ(svg.find("class=\"trace\""), std::string::npos) << "a line needs two counts";
+    const Times deferred = barParts(svg, "deferred, clustered"),
+                forward = barParts(svg, "forward_plus, clustered");
+    ASSERT_EQ(deferred.size(), 3u) << svg;
+    ASSERT_EQ(forward.size(), 2u);
+    EXPECT_NEAR(deferred[2] / deferred[0], 2, 0.01) << "lengths are proportional to time";
+    EXPECT_NEAR(forward[1] / deferred[2], 19.0 / 6, 0.01);
+    EXPECT_NE(svg.find(">light &lt;all&gt;</text>"), std::string::npos) << "the legend names passes";
+    EXPECT_NE(svg.find("deferred, clustered: 10 ms"), std::string::npos);
+}
+
+TEST(BenchPlot, PassesBeyondItsColoursAreOnePart) {
+    Bench bench = oneCount();
+    for (int i = 0; i < 12; ++i) bench.rows[0].passes.push_back({"pass " + std::to_string(i), 0.01});
+    const std::string svg = benchPlot(bench, PlotPlace::file);
+    EXPECT_NE(svg.find(">other passes</text>"), std::string::npos);
+    EXPECT_EQ(svg.find("part8"), std::string::npos) << "no colour that is not there";
+    EXPECT_NE(svg.find("deferred, clustered, pass 11: 0.01 ms"), std::string::npos) << "each is named";
+}
+
+}  // namespace
+}  // namespace diptych
