@@ -245,7 +245,8 @@ int runCompare(const Options& options) {
     for (Comparison& comparison : report.comparisons)
         comparison.command = withOption(comparison.command, "-o", againFolder(folder));
     const std::string json =
-        writeReport(report, folder, {picture, options.single_file, options.force, stage.part(comparing, 1)});
+        writeReport(report, folder,
+                    {picture, options.single_file, options.keep, options.force, stage.part(comparing, 1)});
     kept.remove();
     progress.wipe();
     noteLeftByOthers(options, kept);

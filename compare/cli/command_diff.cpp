@@ -28,10 +28,10 @@ int runDiff(const Options& options) {
     const bool passed = diff.passed();
     const std::string text = options.json ? pictureDiffJson(diff) : pictureDiffTable(diff);
     if (output)
-        writePictureDiff(
-            std::move(diff), *output,
-            {pictureChoice(options), options.single_file, options.force, stage.part(measuring, 1)},
-            wordsOfWhatCounts(options));
+        writePictureDiff(std::move(diff), *output,
+                         {pictureChoice(options), options.single_file, options.keep, options.force,
+                          stage.part(measuring, 1)},
+                         wordsOfWhatCounts(options));
     progress.wipe();
     if (options.json)
         fmt::print("{}", text);

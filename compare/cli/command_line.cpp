@@ -123,6 +123,13 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     bench.frames = parsed.kernels != "only";
 }
 
+Keep keepOf(const std::string& word) {
+    for (const auto& [keep, name] :
+         {std::pair{Keep::all, "all"}, {Keep::failing, "failing"}, {Keep::none, "none"}})
+        if (word == name) return keep;
+    throw std::runtime_error(fmt::format("--keep {}: takes all, failing or none", word));
+}
+
 // What each word means together with the others.
 void resolve(Options& options, const ParsedOptions& parsed) {
     options.settings = settingsOf(parsed);
@@ -148,6 +155,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     if (parsed.frames != 1)
         throw std::runtime_error(fmt::format("--frames {} is not built yet; use 1", parsed.frames));
     if (!parsed.not_built.empty()) throw std::runtime_error(parsed.not_built.front() + " is not built yet");
+    options.keep = keepOf(parsed.keep);
     resolveBaseline(options, parsed);
     resolveWhatCounts(options, parsed);
     resolveBench(options.bench, parsed);

@@ -209,6 +209,15 @@ void hideUnread(CLI::App& app, const std::string& command) {
     if (command == "devices") hideGroup(app, pixel_group);
 }
 
+// What a report holds.
+void addReport(CLI::App& app, Options& options, ParsedOptions& parsed) {
+    app.option_defaults()->group(output_group);
+    app.add_option("--keep", parsed.keep, "of which comparisons the report keeps pictures and EXRs (all)")
+        ->type_name("all|failing|none");
+    app.add_flag("--single-file", options.single_file,
+                 "a page that holds its pictures, at half size; beside it only what CI reads");
+}
+
 // What is timed; every list is separated by commas.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("What is timed");
@@ -261,6 +270,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addDiff(app, options.diff, parsed);
         addSelection(app, options.diff.selection, parsed);
         addTolerances(app, options);
+        addReport(app, options, parsed);
         addFiles(
             app, options,
             "X.exr: errors of every channel; X.png: of the one that decides; else a folder for a report; "
@@ -281,7 +291,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                        "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "
                        "compared (deferred)")
             ->type_name("PATH|FILE.exr");
-        app.add_flag("--single-file", options.single_file, "embed the pictures in index.html at half size");
+        addReport(app, options, parsed);
         app.add_flag("--update-baseline", options.update_baseline,
                      "write the --baseline FILE.exr anew; the old one stays as FILE.exr.old");
         addSelection(app, options.selection, parsed);

@@ -31,7 +31,7 @@ struct ParsedOptions {
     std::vector<std::string> not_built;  // options that parse but cannot be done
     int frames = 1;
     double fps = 30;
-    std::string bench_paths, bench_assign, bench_sizes, light_counts, kernels = "on";
+    std::string bench_paths, bench_assign, bench_sizes, light_counts, kernels = "on", keep = "all";
     double max_ms = 2000;
 };
 

@@ -4,6 +4,7 @@
 
 #include "compare/bench/cases.h"
 #include "compare/picture/picture.h"
+#include "compare/report/report_options.h"
 #include "compare/run/color.h"
 #include "compare/verdict/picture_diff.h"
 #include "compare/verdict/selection.h"
@@ -38,6 +39,7 @@ struct Options {
     bool force = false, json = false, quiet = false, verbose = false;
     ColorChoice color = ColorChoice::automatic;
     bool single_file = false, list_scenes = false, list_channels = false;
+    Keep keep = Keep::all;                // compare, diff: of which comparisons a report keeps pictures, EXRs
     SelectionOptions selection;           // compare: pixels
     bool allow_noise = false;             // compare
     std::filesystem::path baseline_file;  // compare: instead of a path; empty: none

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/data_uri.h"
 
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
-
 namespace diptych {
+namespace {
 
 // RFC 4648, section 4.
 std::string base64(std::string_view bytes) {
@@ -23,11 +20,10 @@ std::string base64(std::string_view bytes) {
     return out;
 }
 
-std::string dataUri(const std::filesystem::path& png) {
-    std::ifstream stream(png, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw std::runtime_error(png.string() + ": cannot be read back");
-    return "data:image/png;base64," + base64(bytes);
+}  // namespace
+
+std::string dataUri(std::string_view png) {
+    return "data:image/png;base64," + base64(png);
 }
 
 }  // namespace diptych

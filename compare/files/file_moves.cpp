@@ -86,8 +86,7 @@ std::vector<std::string> removedBy(const FileMoves& moves) {
 // Removes folders that are now empty, such as "1" after "1/lit.png" was removed.
 void removeEmptied(const fs::path& folder, const FileMoves& moves) {
     for (const std::string& name : removedBy(moves))
-        if (const fs::path inner = fs::path(name).parent_path(); !inner.empty())
-            ::rmdir((folder / inner).c_str());
+        for (const fs::path& inner : foldersOf(name)) ::rmdir((folder / inner).c_str());
 }
 
 std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <string_view>
 
@@ -22,12 +23,19 @@ nlohmann::json ourJson(const fs::path& file) {
     return json.is_object() && says("software", softwareName) && says("schema", 1) ? json : nlohmann::json();
 }
 
-bool isPlainName(const fs::path& name) {
+bool isPlainFile(const fs::path& name) {
     constexpr const char* endings[] = {".png", ".exr", ".html",      ".xml",       ".json",
                                        ".csv", ".svg", ".values.js", ".section.js"};
     return name.filename() == name && std::ranges::any_of(endings, [&](const char* ending) {
                return name.native().ends_with(ending) && !name.stem().empty() && name.native().front() != '.';
            });
+}
+
+// As nameOfFolder() in compare/report makes them, and "1" of several Frames.
+bool isPlainFolder(const fs::path& name) {
+    return !name.empty() && std::ranges::all_of(name.native(), [](unsigned char c) {
+        return std::isalnum(c) || c == '-' || c == '_';
+    });
 }
 
 }  // namespace
@@ -51,19 +59,25 @@ bool isOurManifest(const fs::path& file) {
     return ourJson(file).is_object();
 }
 
+bool isOurName(const fs::path& name) {
+    const fs::path folders = name.parent_path();
+    return isPlainFile(name.filename()) && std::ranges::all_of(folders, isPlainFolder);
+}
+
+std::vector<fs::path> foldersOf(const fs::path& name) {
+    std::vector<fs::path> folders;
+    for (fs::path folder = name.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+        folders.push_back(folder);
+    return folders;
+}
+
 std::vector<std::string> listedIn(const fs::path& manifest) {
     const nlohmann::json json = ourJson(manifest);
     std::vector<std::string> names;
     if (json.contains("files") && json["files"].is_array())
         for (const auto& name : json["files"])
-            if (name.is_string() && isPlainName(name.get<std::string>())) names.push_back(name);
+            if (name.is_string() && isOurName(name.get<std::string>())) names.push_back(name);
     return names;
-}
-
-bool isOurName(const fs::path& name) {
-    const std::string folder = name.parent_path().string();
-    return isPlainName(name.filename()) &&
-           std::ranges::all_of(folder, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 std::vector<std::string> manifestFiles(const fs::path& folder, const std::string& manifest) {

@@ -15,14 +15,17 @@ inline constexpr const char* softwareName = "diptych";
 // folder as written by diptych.
 bool isOurManifest(const std::filesystem::path& file);
 
-// The names that a manifest lists under "files". Only plain names with endings that diptych writes are
-// returned, so that an edited list can name neither files outside the folder nor files that diptych never
-// writes. Empty if the file is no manifest.
+// The names that a manifest lists under "files". Only those that isOurName() are returned, so that an edited
+// list can name neither files outside the folder nor files that diptych never writes. Empty if the file is no
+// manifest.
 std::vector<std::string> listedIn(const std::filesystem::path& manifest);
 
-// A file's name as diptych gives them in a folder that it writes: "lit.png" or, of several Frames,
-// "1/lit.png".
+// A file's name as diptych gives them in a folder that it writes, with an ending of its own: "lit.png", or
+// "Box-1c9f03/top/lit.png", where folders are called by letters, digits, hyphens and underscores.
 bool isOurName(const std::filesystem::path& name);
+
+// The folders of a file's name, the innermost first: of "a/b/lit.png" "a/b" and "a".
+std::vector<std::filesystem::path> foldersOf(const std::filesystem::path& name);
 
 // The files that the folder's manifest lists, and the manifest itself. Empty if there is no manifest.
 std::vector<std::string> manifestFiles(const std::filesystem::path& folder, const std::string& manifest);

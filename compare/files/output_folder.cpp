@@ -3,6 +3,7 @@
 
 #include "compare/files/file_moves.h"
 #include "compare/files/folder_lock.h"
+#include "compare/files/our_files.h"
 
 #include "shared/image/atomic_file.h"
 
@@ -35,7 +36,8 @@ fs::path nameOf(const fs::path& folder) {
 bool holdsOnly(const fs::path& folder, const std::vector<std::string>& ours, const fs::path& aside) {
     const std::set<std::string> names(ours.begin(), ours.end());
     std::set<std::string> folders;
-    for (const std::string& name : ours) folders.insert(fs::path(name).parent_path().string());
+    for (const std::string& name : ours)
+        for (const fs::path& inner : foldersOf(name)) folders.insert(inner.string());
     std::error_code error;
     fs::recursive_directory_iterator entry(folder, error);
     for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
@@ -89,8 +91,7 @@ void rescue(const fs::path& from, const fs::path& to, const std::vector<std::str
     std::error_code ignored;
     for (const std::string& name : ours) fs::remove(from / name, ignored);
     for (const std::string& name : ours)
-        if (const fs::path inner = fs::path(name).parent_path(); !inner.empty())
-            ::rmdir((from / inner).c_str());
+        for (const fs::path& inner : foldersOf(name)) ::rmdir((from / inner).c_str());
     for (fs::directory_iterator entry(from, ignored), end; !ignored && entry != end; entry.increment(ignored))
         ::renameat2(AT_FDCWD, entry->path().c_str(), AT_FDCWD, (to / entry->path().filename()).c_str(),
                     RENAME_NOREPLACE);
@@ -107,6 +108,15 @@ OutputFolder::OutputFolder(const fs::path& folder) : folder_(nameOf(folder)) {
     temporary_ = std::make_unique<Temporary>(folder_.parent_path(), folder_);
     if (fs::exists(folder_)) temporary_ = std::make_unique<Temporary>(folder_, folder_);
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
+}
+
+void OutputFolder::makeFolders(const std::vector<std::string>& files) const {
+    for (const std::string& name : files) {
+        const fs::path inner = path() / fs::path(name).parent_path();
+        std::error_code error;
+        fs::create_directories(inner, error);
+        if (error) throw std::runtime_error(writingFailed(finalName(inner), error.value()));
+    }
 }
 
 // Replaces the whole folder at once. If that is not possible, changes nothing and returns false.

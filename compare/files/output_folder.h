@@ -24,6 +24,7 @@ public:
 
     const std::filesystem::path& path() const { return temporary_->path(); }  // where to write
     std::filesystem::path operator/(const std::string& file) const { return path() / file; }
+    void makeFolders(const std::vector<std::string>& files) const;  // those that `files` stand in
 
     // Puts `files` (names such as "lit.png" or "1/lit.png") in place and removes the files of `earlier` that
     // they do not replace; all other files stay. `earlier` is called while no other program can put files

@@ -9,7 +9,7 @@ let current = null;  // the card that keys act on: the last one that was pointed
 
 function cardOf(node) {
   const element = node && node.closest && node.closest('.card');
-  if (!element) return null;
+  if (!element || !element.querySelector('.panel')) return null;  // its pictures may not be kept
   if (!cards.has(element)) cards.set(element, new Card(element));
   return cards.get(element);
 }

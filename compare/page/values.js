@@ -15,19 +15,33 @@ function half(bits) {
   return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
 }
 
-async function inflated(base64) {
-  const bytes = Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+// Two characters for every 13 bits, and of up to 6 bits at the end one.
+function base91Bytes(text) {
+  const pairs = text.length >> 1, odd = text.length & 1, bytes = new Uint8Array(pairs * 13 + odd * 6 >> 3);
+  const digit = i => text.charCodeAt(i) - 35 - (text.charCodeAt(i) > 92);
+  let held = 0, bits = 0, at = 0;
+  const put = (word, more) => {
+    held |= word << bits;
+    for (bits += more; bits > 7; bits -= 8, held >>>= 8) bytes[at++] = held;
+  };
+  for (let i = 0; i < 2 * pairs; i += 2) put(digit(i) * 91 + digit(i + 1), 13);
+  if (odd) put(digit(2 * pairs), 6);
+  return bytes;
+}
+
+async function inflated(text) {
+  const stream = new Blob([base91Bytes(text)]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-function wordsOf(raw, plane, file) {
+// `smooth`: what is stored are the differences to the left neighbours.
+function wordsOf(raw, plane, file, smooth) {
   const pixels = file.width * file.height, bytes = file.bits / 8;
   const words = file.bits === 16 ? new Uint16Array(pixels) : new Uint32Array(pixels);
   for (let i = 0, at = plane * pixels * bytes; i < pixels; ++i) {
     let word = 0;
     for (let byte = 0; byte < bytes; ++byte) word |= raw[at + byte * pixels + i] << 8 * byte;
-    words[i] = word + (i % file.width ? words[i - 1] : 0);
+    words[i] = word + (smooth && i % file.width ? words[i - 1] : 0);
   }
   return words;
 }
@@ -36,7 +50,7 @@ class Values {
   constructor(file, raw) {
     const { components: n, images } = file, planes = n * images + (file.errors ? 1 : 0);
     this.file = file;
-    this.planes = Array.from({ length: planes }, (_, plane) => wordsOf(raw, plane, file));
+    this.planes = Array.from({ length: planes }, (_, plane) => wordsOf(raw, plane, file, plane < n));
     for (let plane = n; plane < n * images; ++plane)
       this.planes[plane].forEach((word, i, all) => { all[i] = word + this.planes[plane - n][i]; });
     if (file.bits === 32) this.planes = this.planes.map(words => new Float32Array(words.buffer));

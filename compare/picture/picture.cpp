@@ -219,9 +219,11 @@ std::array<std::uint8_t, 3> errorColor(double t) {
 }
 
 Image8 errorPicture(const Image& errors, double top) {
-    static const std::vector<Rgb8> map = [] {
-        std::vector<Rgb8> colors(1025);
-        for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = errorColor(static_cast<double>(i) / 1024);
+    // With black and the two colours of what is beyond, a palette holds all.
+    static const std::array<Rgb8, 253> map = [] {
+        std::array<Rgb8, 253> colors;
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = errorColor(static_cast<double>(i) / (colors.size() - 1));
         return colors;
     }();
     Image8 result = blank(errors);
@@ -233,7 +235,8 @@ Image8 errorPicture(const Image& errors, double top) {
             put(result, i, beyondColor);
         else if (e > 0)
             put(result, i,
-                map[static_cast<std::size_t>(std::lround(1024 * std::sqrt(std::min(e / top, 1.0))))]);
+                map[static_cast<std::size_t>(
+                    std::lround((map.size() - 1) * std::sqrt(std::min(e / top, 1.0))))]);
     }
     return result;
 }

@@ -50,13 +50,22 @@ public:
         if (!channel_.reason.empty())
             out += fmt::format("<p class=\"reason\">{}</p>\n", markup(channel_.reason));
         if (!compared) return out + single() + "</div></details>\n";
-        out += "<div class=\"pictures\">" + pair() + "<div>" + difference() + numbers() + "</div></div>\n";
+        out += pictures_.kept ? "<div class=\"pictures\">" + pair() + "<div>" + difference() + numbers() +
+                                    "</div></div>\n"
+                              : notKept() + numbers();
         out += because();
         return out + again() + loupes() + errorFigures(channel_, pictures_, id_) + allFigures() +
                "</div></details>\n";
     }
 
 private:
+    std::string notKept() const {
+        return fmt::format("<p class=\"equal\">{}</p>\n",
+                           layout_.keep == Keep::none
+                               ? "--keep none: no pictures are kept"
+                               : "--keep failing: of what passes no pictures are kept");
+    }
+
     // A picture that can be moved and zoomed; `over` is drawn on top of it and keeps its size.
     std::string panel(const std::string& picture, const std::string& alt,
                       const std::string& over = "") const {
@@ -228,7 +237,7 @@ private:
         const auto loupe = [&](const std::string& picture, const std::string& caption,
                                const std::string& text) {
             std::string glass;
-            if (layout_.embedded.empty())
+            if (!layout_.single_file && !picture.empty())
                 glass = fmt::format(
                     "<span class=\"loupe\"><img loading=\"lazy\" src=\"{}\" alt=\"\" "
                     "style=\"width:{}px;height:{}px;left:{}px;top:{}px\"></span>",
@@ -247,13 +256,16 @@ private:
 
     // A forward-only channel has one picture and no verdict.
     std::string single() const {
+        const std::string why =
+            fmt::format("<p class=\"because\">{}</p>\n", markup(channel_.tolerance.because));
+        if (!pictures_.kept) return notKept() + why;
         const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
         return fmt::format(
             "<div class=\"pictures one\"><figure><div "
             "class=\"stage\">{}</div><figcaption>{}<span>{}</span></figcaption>"
-            "{}</figure></div><p class=\"because\">{}</p>\n",
+            "{}</figure></div>{}",
             panel(picture, std::string(channel_.mode->name)), zoomButtons(), markup(pictures_.scale.words),
-            readout(), markup(channel_.tolerance.because));
+            readout(), why);
     }
 
     const ReportLayout& layout_;

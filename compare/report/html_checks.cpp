@@ -58,13 +58,12 @@ public:
         }
         return fmt::format(
             "<section class=\"checks\" id=\"eye-{}\"><h2>To check by eye</h2>\n"
-            "<p class=\"soft\">Here both paths can be wrong alike, and no comparison shows it. Each place "
-            "leads to "
-            "its picture.</p>\n{}<div class=\"views\">{}</div>\n"
+            "<p class=\"soft\">Here both paths can be wrong alike, and no comparison shows it.{}</p>\n{}<div "
+            "class=\"views\">{}</div>\n"
             "<div class=\"box scroll\"><table><tr><th>feature</th><th>right "
             "if</th><th>places</th></tr>\n{}</table>"
             "</div></section>\n",
-            index_, sources(), views, rows);
+            index_, lit_ == npos ? "" : " Each place leads to its picture.", sources(), views, rows);
     }
 
 private:

@@ -114,10 +114,14 @@ private:
 
 std::string worstList(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
     std::string items;
-    for (const WorstPixel& pixel : pictures.worst)
-        items += fmt::format(
-            "<li><a href=\"#{0}@{1},{2}\" data-pixel=\"{1},{2}\">{1}, {2}</a><span>{3}{4}</span></li>", id,
-            pixel.x, pixel.y, number(pixel.error), unitOf(*channel.mode));
+    for (const WorstPixel& pixel : pictures.worst) {
+        const std::string place =
+            !pictures.kept ? fmt::format("<span>{}, {}</span> ", pixel.x, pixel.y)
+                           : fmt::format("<a href=\"#{0}@{1},{2}\" data-pixel=\"{1},{2}\">{1}, {2}</a>", id,
+                                         pixel.x, pixel.y);
+        items +=
+            fmt::format("<li>{}<span>{}{}</span></li>", place, number(pixel.error), unitOf(*channel.mode));
+    }
     return fmt::format(
         "<div class=\"worst\"><h4>Worst pixels</h4><ol>{}</ol><p class=\"soft\">at least {} pixels "
         "apart</p></div>\n",

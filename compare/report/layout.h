@@ -4,6 +4,7 @@
 
 #include "compare/picture/picture.h"
 #include "compare/report/error_figures.h"
+#include "compare/report/report_options.h"
 #include "compare/verdict/comparison.h"
 
 #include <map>
@@ -15,7 +16,10 @@ namespace diptych {
 // The pictures of one channel and the figures shown with them; a name is empty where there is no such file.
 struct ChannelPictures {
     std::string baseline, test, difference;  // difference: empty if both are equal
-    std::string values;                      // valuesScript() of both Frames
+    std::string same;    // what baseline and test are both called once their pictures turn out to be the same
+    std::string values;  // valuesScript() of both Frames
+    bool differ = false;
+    bool kept = true;  // else --keep leaves the files out
     PictureScale scale;
     double error_top = 0;  // the error at the end of the error map
     // Of the difference; filled in by the writer of its picture.
@@ -40,14 +44,16 @@ struct ReportLayout {
     std::map<std::string, std::string> embedded;  // --single-file: picture -> data URI
     double encode_ms = 0;                         // EXRs, pictures and values
     bool single_file = false;
+    Keep keep = Keep::all;
 
-    std::vector<std::string> files() const;                       // all of a report, sorted
+    std::vector<std::string> files() const;  // all of a report, sorted; not the embedded pictures
     const std::string& source(const std::string& picture) const;  // for the page: its name or data URI
 };
 
-// Names are "deferred.exr", "lit.deferred.png", "lit.values.js"; with several comparisons each one's begin
-// with its number, scene and camera: "2-spheres-top.lit.deferred.png", "2-spheres-top.section.js". A single
-// file has neither values nor sections beside it.
-ReportLayout layoutOf(const Report& report, const PictureChoice& choice, bool singleFile = false);
+// Names are "deferred.exr", "lit.deferred.png", "lit.values.js"; of several scenes or cameras each stands in
+// a folder, "gallery/entrance/comparison.section.js" (ReportFolders). Pictures and EXRs that are not to be
+// kept have no name. A single file has neither EXRs, values nor sections beside it, and its pictures are
+// embedded.
+ReportLayout layoutOf(const Report& report, const ReportOptions& options);
 
 }  // namespace diptych

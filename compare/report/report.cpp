@@ -15,6 +15,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -45,10 +46,11 @@ public:
                             layout_.pictures[i][k]);
         for (std::size_t i = 0; i < report_.closer_paths.size(); ++i)
             for (std::size_t k = 0; k < report_.closer_paths[i].channels.size(); ++k)
-                tasks.push_back([this, i, k] {
-                    const Image& apart = report_.closer_paths[i].channels[k].apart;
-                    write(layout_.closer_paths[i][k], closerPathPicture(apart, closerPathTop(apart)));
-                });
+                if (!layout_.closer_paths[i][k].empty())
+                    tasks.push_back([this, i, k] {
+                        const Image& apart = report_.closer_paths[i].channels[k].apart;
+                        write(layout_.closer_paths[i][k], closerPathPicture(apart, closerPathTop(apart)));
+                    });
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
             tasks[i]();
@@ -59,59 +61,67 @@ public:
 private:
     void addPictures(std::vector<Task>& tasks, const Comparison& comparison, const ChannelDiff& channel,
                      ChannelPictures& pictures) {
-        const DebugMode& mode = *channel.mode;
+        if (!pictures.baseline.empty() || !pictures.test.empty())
+            tasks.push_back([&] { writePair(comparison, *channel.mode, pictures); });
+        if (pictures.differ || !pictures.values.empty())
+            tasks.push_back([&] { writeErrors(comparison, channel, pictures); });
+    }
+
+    // Two pictures that are the same are one file.
+    void writePair(const Comparison& comparison, const DebugMode& mode, ChannelPictures& pictures) {
         const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
-        const auto add = [&](const Frame& frame, const std::string& name) {
-            if (!name.empty())
-                tasks.push_back([&] {
-                    write(name, channelPicture(mode, frame, pictures.scale));
-                    letGo(frame, mode.number);
-                });
+        const auto draw = [&](const Frame& frame, const std::string& name) {
+            return name.empty() ? Image8() : channelPicture(mode, frame, pictures.scale);
         };
-        add(left, pictures.baseline);
-        add(right, pictures.test);
-        if (!pictures.difference.empty() || !pictures.values.empty())
-            tasks.push_back([&] {
-                writeErrors(comparison, channel, pictures);
-                for (const Frame* frame : {&left, &right}) letGo(*frame, mode.number);
-            });
+        const Image8 a = draw(left, pictures.baseline), b = draw(right, pictures.test);
+        if (!pictures.same.empty() && a.data == b.data) {
+            pictures.baseline = pictures.test = pictures.same;
+            write(pictures.same, a);
+        } else {
+            if (!a.data.empty()) write(pictures.baseline, a);
+            if (!b.data.empty()) write(pictures.test, b);
+        }
+        for (const Frame* frame : {&left, &right}) letGo(*frame, mode.number);
     }
 
     // Writes the difference picture, its figures, and the values script, which also holds the errors.
     void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelPictures& pictures) {
         const DebugMode& mode = *channel.mode;
+        const Frame &baseline = report_.baseline(comparison), &test = report_.test(comparison);
         const auto imageOf = [&](const Frame& frame) {
             const auto found = frame.channels.find(mode.number);
             return found == frame.channels.end() ? nullptr : &found->second;
         };
-        const Image *left = imageOf(report_.baseline(comparison)), *right = imageOf(report_.test(comparison));
+        const Image *left = imageOf(baseline), *right = imageOf(test);
         Image errors;
-        if (!pictures.difference.empty()) {
+        if (pictures.differ) {
             errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);
-            write(pictures.difference,
-                  errorPicture(channel.shown_error ? *channel.shown_error : errors, pictures.error_top));
+            if (!pictures.difference.empty())
+                write(pictures.difference,
+                      errorPicture(channel.shown_error ? *channel.shown_error : errors, pictures.error_top));
             pictures.histogram = errorHistogram(errors, comparison.coverage);
             pictures.worst =
                 worstPixels(errors, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
         }
-        if (pictures.values.empty()) return;
-        if (!left) std::swap(left, right);
-        AtomicFile script(folder_ / pictures.values);
-        valuesScript(
-            pictures.values, {left, right, errors.empty() ? nullptr : &errors},
-            [&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), script.stream()); });
+        writeValues(pictures.values, left ? left : right, left ? right : nullptr,
+                    errors.empty() ? nullptr : &errors);
+        for (const Frame* frame : {&baseline, &test}) letGo(*frame, mode.number);
+    }
+
+    void writeValues(const std::string& name, const Image* first, const Image* second, const Image* errors) {
+        if (name.empty()) return;
+        AtomicFile script(folder_ / name);
+        valuesScript(name, {first, second, errors}, [&](std::string_view text) {
+            std::fwrite(text.data(), 1, text.size(), script.stream());
+        });
         script.commit();
     }
 
     void write(const std::string& name, const Image8& image) {
-        const std::filesystem::path file = folder_ / name;
-        if (layout_.single_file) {
-            writePng(file, halfSize(image));
-            std::string uri = dataUri(file);
-            const std::lock_guard lock(mutex_);
-            layout_.embedded[name] = std::move(uri);
-        }
-        writePng(file, image);
+        if (!layout_.single_file) return writePng(folder_ / name, image);
+        std::string uri = dataUri(pngBytes(halfSize(image)));
+        const std::lock_guard lock(mutex_);
+        layout_.embedded[name] = std::move(uri);
     }
 
     const Report& report_;
@@ -120,6 +130,15 @@ private:
     const Stage& progress_;
     std::mutex mutex_;
 };
+
+// What junit.xml may name as a file: of a single page no picture.
+ReportLayout onDisk(const ReportLayout& layout) {
+    ReportLayout files;
+    files.pictures = layout.pictures;
+    for (auto& channels : files.pictures)
+        if (layout.single_file) std::ranges::fill(channels, ChannelPictures());
+    return files;
+}
 
 }  // namespace
 
@@ -138,14 +157,15 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
     earlier();
     OutputFolder folder(path);
     const auto start = std::chrono::steady_clock::now();
-    ReportLayout layout = layoutOf(report, options.picture, options.single_file);
+    ReportLayout layout = layoutOf(report, options);
+    folder.makeFolders(layout.files());
     Encoder(report, layout, folder, options.progress).run();
     layout.encode_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
     std::string json = reportJson(report, &layout);
     writeFile(folder / manifest, json);
-    writeFile(folder / "junit.xml", reportJunit(report, layout, path));
+    writeFile(folder / "junit.xml", reportJunit(report, onDisk(layout), path));
     for (std::size_t i = 0; i < layout.sections.size(); ++i)
         if (!layout.sections[i].empty())
             writeFile(folder / layout.sections[i], sectionScript(report, layout, i));

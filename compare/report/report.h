@@ -2,8 +2,7 @@
 // The report that a comparison writes, for people and for scripts.
 #pragma once
 
-#include "compare/picture/picture.h"
-#include "compare/run/progress.h"
+#include "compare/report/report_options.h"
 #include "compare/verdict/comparison.h"
 
 #include <filesystem>
@@ -12,18 +11,11 @@
 
 namespace diptych {
 
-struct ReportOptions {
-    PictureChoice picture;
-    bool single_file = false;  // index.html holds its pictures, at half size
-    bool force = false;        // also into a folder that is not a report of ours
-    Stage progress{};          // of writing it
-};
-
 // index.html, report.json, junit.xml, an EXR per frame and the page's pictures. Everything is written into a
 // temporary folder first and put in place at once, so an earlier report stays complete until the new one is.
 // Files that the earlier report.json lists and the new one does not are removed; all other files in the
-// folder stay. With several comparisons the names of each one's files begin with its number, scene and
-// camera. Returns the text of report.json. Throws std::runtime_error naming folder or file.
+// folder stay. Of several scenes each has a folder. Returns the text of report.json. Throws
+// std::runtime_error naming folder or file.
 std::string writeReport(const Report& report, const std::filesystem::path& folder,
                         const ReportOptions& options);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/values.h"
 
-#include "compare/files/data_uri.h"
-
 #include <Imath/half.h>
 #include <zlib.h>
 #include <nlohmann/json.hpp>
@@ -46,7 +44,37 @@ bool holdsExactly(const Image& image, int exponent) {
 
 using Write = std::function<void(std::string_view)>;
 
-// Writes planes as differences along rows, split into bytes, deflated and in base64; the page reverses this.
+char base91Letter(unsigned digit) {
+    return static_cast<char>('#' + digit + ('#' + digit >= '\\'));  // without the backslash
+}
+
+// Whole groups of 13 bytes are whole characters, so that pieces of them join.
+constexpr std::size_t base91Group = 13;
+std::string base91(std::string_view bytes) {
+    std::string out;
+    out.reserve((bytes.size() + 1) * 16 / 13);
+    unsigned held = 0, bits = 0;
+    const auto put = [&] {
+        const unsigned word = held & 0x1fff;
+        out += base91Letter(word / 91);
+        out += base91Letter(word % 91);
+        held >>= 13;
+    };
+    for (const char byte : bytes) {
+        held |= static_cast<unsigned>(static_cast<unsigned char>(byte)) << bits;
+        bits += 8;
+        if (bits < 13) continue;
+        put();
+        bits -= 13;
+    }
+    if (bits > 6)
+        put();
+    else if (bits > 0)
+        out += base91Letter(held);
+    return out;
+}
+
+// Writes planes split into bytes, deflated and in base 91; the page reverses this.
 class Planes {
 public:
     Planes(int width, std::size_t pixels, int bits, const Write& write)
@@ -54,19 +82,20 @@ public:
           plane_(pixels * static_cast<std::size_t>(bits) / 8),
           pixels_(pixels),
           write_(write) {
-        // Level 1: a report waits for dozens of these; level 4 takes half again as long to save a thirteenth.
-        if (deflateInit(&stream_, 1) != Z_OK) fail();
+        // Level 4: a report waits for dozens of these; level 6 takes twice as long to save a thirtieth.
+        if (deflateInit(&stream_, 4) != Z_OK) fail();
     }
     ~Planes() { deflateEnd(&stream_); }
     Planes(const Planes&) = delete;
     Planes& operator=(const Planes&) = delete;
 
-    // wordOf(i): the word of pixel i.
+    // wordOf(i): the word of pixel i. `smooth`: neighbours are alike, so that their differences are stored;
+    // those of noise, as errors are, would be noisier.
     template <class Word>
-    void add(const Word& wordOf) {
+    void add(bool smooth, const Word& wordOf) {
         std::uint32_t left = 0;
         for (std::size_t i = 0; i < pixels_; ++i) {
-            if (i % width_ == 0) left = 0;
+            if (!smooth || i % width_ == 0) left = 0;
             const std::uint32_t word = wordOf(i);
             for (std::size_t byte = 0; byte * pixels_ < plane_.size(); ++byte)
                 plane_[byte * pixels_ + i] = static_cast<unsigned char>((word - left) >> (8 * byte));
@@ -94,13 +123,13 @@ private:
             stream_.avail_out = static_cast<uInt>(piece.size());
             if (deflate(&stream_, flush) == Z_STREAM_ERROR) fail();
             deflated_.append(reinterpret_cast<const char*>(piece.data()), piece.size() - stream_.avail_out);
-            pass(deflated_.size() / 3 * 3);  // whole groups of three, so that pieces join
+            pass(deflated_.size() / base91Group * base91Group);
         } while (stream_.avail_out == 0);
     }
 
     void pass(std::size_t bytes) {
         if (bytes == 0) return;
-        write_(base64(std::string_view(deflated_).substr(0, bytes)));
+        write_(base91(std::string_view(deflated_).substr(0, bytes)));
         deflated_.erase(0, bytes);
     }
 
@@ -152,12 +181,13 @@ void valuesScript(const std::string& name, const ChannelValues& values, const Wr
         return image.pixel(pixel)[static_cast<std::size_t>(c)];
     };
     for (int c = 0; c < first.components; ++c)
-        planes.add([&](std::size_t i) { return word(at(first, i, c)); });
+        planes.add(true, [&](std::size_t i) { return word(at(first, i, c)); });
     for (int c = 0; values.test && c < first.components; ++c)
-        planes.add([&](std::size_t i) { return word(at(*values.test, i, c)) - word(at(first, i, c)); });
+        planes.add(false,
+                   [&](std::size_t i) { return word(at(*values.test, i, c)) - word(at(first, i, c)); });
     if (values.errors) {
         const WordOf unscaled{word.bits, 1};
-        planes.add([&](std::size_t i) {
+        planes.add(false, [&](std::size_t i) {
             const double e = values.errors->data[i];
             return unscaled(static_cast<float>(unit > 0 && std::isfinite(e) ? e / unit : e));
         });

@@ -19,8 +19,12 @@ struct Image8 {
     std::vector<std::uint8_t> data;
 };
 
-// Written beside `file` and renamed. Throws std::runtime_error naming the file.
+// Written beside `file` and renamed; with a palette where an RGB picture has at most 256 colours. Throws
+// std::runtime_error naming the file.
 void writePng(const std::filesystem::path& file, const Image8& image);
+
+// The bytes that writePng() writes.
+std::string pngBytes(const Image8& image);
 
 // The values of a PNG without colour conversion: value / 255 or value / 65535 for each component.
 struct PngPicture {

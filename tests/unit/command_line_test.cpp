@@ -254,6 +254,7 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"compare", "--settings", "no/such/file.json"}, "no/such/file.json"},
         {{"compare", "--settings", "/"}, "folder"},
         {{"compare", "-q", "-v"}, "--verbose"},
+        {{"compare", "--keep", "some"}, "--keep some: takes all, failing or none"},
         {{"diff", "a.exr"}, "images"},
         {{"devices", "scene.glb"}, "scene.glb"},
     };

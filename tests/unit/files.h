@@ -37,4 +37,13 @@ inline std::vector<std::string> namesIn(const std::filesystem::path& path) {
     return names;
 }
 
+// The names of all files in the folder and in those inside it, sorted: "a.txt", "inner/b.txt".
+inline std::vector<std::string> filesIn(const std::filesystem::path& path) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+        if (!entry.is_directory()) names.push_back(entry.path().lexically_relative(path).string());
+    std::ranges::sort(names);
+    return names;
+}
+
 }  // namespace diptych

@@ -2,6 +2,7 @@
 // Image files: what is written is read back, and no incomplete file ever has the final name.
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
+#include "shared/image/picture_file.h"
 #include "shared/image/png.h"
 #include "tests/unit/files.h"
 
@@ -136,6 +137,26 @@ TEST(Png, EveryByteComesBackAsRgba) {
     EXPECT_NE(contentsOf(file).substr(0, 200).find("diptych"), std::string::npos)
         << "its own files are known by this";
     EXPECT_EQ(namesIn(file.parent_path()), std::vector<std::string>{"a.png"});
+}
+
+// At most 256 colours take a byte a pixel and no more than their deflated places; one colour more takes
+// three.
+TEST(Png, FewColoursAreAPalette) {
+    const fs::path file = folder() / "a.png";
+    for (const int count : {1, 2, 256, 257}) {
+        Image8 image{100, 60, 3, {}};
+        for (int i = 0; i < 100 * 60; ++i)
+            for (const int byte : {(i * 7 % count) % 251, (i * 7 % count) / 251, 9})
+                image.data.push_back(static_cast<std::uint8_t>(byte));
+        writePng(file, image);
+        const std::string bytes = contentsOf(file);
+        EXPECT_EQ(bytes[25], count <= 256 ? 3 : 2) << "the colour type of the header, of " << count;
+        EXPECT_EQ(pngBytes(image), bytes);
+        const Image8 back = readPng(file);
+        for (std::size_t i = 0; i < 100 * 60; ++i)
+            for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(back.data[4 * i + c], image.data[3 * i + c]) << i;
+        EXPECT_EQ(readPicture(file).layers[0].image.components, 3) << "read as any other picture of colours";
+    }
 }
 
 TEST(Png, BrokenFilesAreNamed) {

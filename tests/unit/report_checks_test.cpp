@@ -114,7 +114,7 @@ TEST(ReportChecks, NoPictureIsEncodedOrNamedTwice) {
     writeReport(reportOf(bothFrames()), out / "without", {});
     EXPECT_EQ(namesIn(out / "with"), namesIn(out / "without"));
     const std::string page = contentsOf(out / "with" / "index.html");
-    EXPECT_EQ(countOf(page, "href=\"lit.deferred.png\""), 1u) << "however many figures use it";
+    EXPECT_EQ(countOf(page, "href=\"lit.png\""), 2u) << "of each side, however many figures use it";
     EXPECT_EQ(contentsOf(out / "without" / "index.html").find("To check by eye"), std::string::npos);
 }
 

@@ -203,9 +203,9 @@ TEST(ReportJunit, FailingChannelsAttachTheirPictures) {
                 }
             }
     fs::current_path(before);
-    EXPECT_EQ(attached, (std::vector<std::string>{"out/report/2-two-glb.roughness.difference.png",
-                                                  "out/report/2-two-glb.roughness.deferred.png",
-                                                  "out/report/2-two-glb.roughness.forward_plus.png"}))
+    EXPECT_EQ(attached, (std::vector<std::string>{"out/report/two-ac240a/roughness.difference.png",
+                                                  "out/report/two-ac240a/roughness.deferred.png",
+                                                  "out/report/two-ac240a/roughness.forward_plus.png"}))
         << "the difference first: some servers show one";
 }
 

@@ -2,7 +2,6 @@
 // The values beside the page come back as the Frames' numbers: exactly, or as near as the file says.
 #include "compare/report/html.h"
 #include "compare/report/values.h"
-#include "tests/unit/base64.h"
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
 
@@ -26,6 +25,21 @@ struct Decoded {
     std::vector<std::vector<double>> planes;
 };
 
+// Every 13 bits are two letters, the lowest bits first; up to 6 at the end one.
+std::string fromBase91(const std::string& text) {
+    const auto digit = [](char c) { return static_cast<unsigned>(c - '#') - (c > '\\'); };
+    std::vector<bool> bits;
+    for (std::size_t i = 0; i < text.size(); i += 2) {
+        const bool pair = i + 1 < text.size();
+        const unsigned word = pair ? digit(text[i]) * 91 + digit(text[i + 1]) : digit(text[i]);
+        for (int k = 0; k < (pair ? 13 : 6); ++k) bits.push_back((word >> k & 1) != 0);
+    }
+    std::string bytes(bits.size() / 8, '\0');
+    for (std::size_t i = 0; i < 8 * bytes.size(); ++i)
+        if (bits[i]) bytes[i / 8] = static_cast<char>(bytes[i / 8] | 1 << i % 8);
+    return bytes;
+}
+
 // As values.h describes the file, not as the page's script or its writer do it.
 Decoded decoded(const std::string& script) {
     const std::string start = "diptychValues(\"a.values.js\",";
@@ -36,7 +50,7 @@ Decoded decoded(const std::string& script) {
                       components = head["components"], images = head["images"],
                       planes = components * images + head["errors"].get<bool>(),
                       bytes = head["bits"].get<std::size_t>() / 8;
-    const std::string packed = fromBase64(head["data"]);
+    const std::string packed = fromBase91(head["data"]);
     std::vector<unsigned char> raw(planes * pixels * bytes + 1);
     uLongf size = static_cast<uLongf>(raw.size());
     EXPECT_EQ(uncompress(raw.data(), &size, reinterpret_cast<const Bytef*>(packed.data()),
@@ -50,7 +64,7 @@ Decoded decoded(const std::string& script) {
             std::uint32_t word = 0;
             for (std::size_t byte = 0; byte < bytes; ++byte)
                 word += std::uint32_t{raw[(plane * bytes + byte) * pixels + i]} << (8 * byte);
-            const bool first = i % head["width"].get<std::size_t>() == 0;
+            const bool first = i % head["width"].get<std::size_t>() == 0 || plane >= components;
             words[plane][i] = (word + (first ? 0 : words[plane][i - 1])) & mask;
         }
     for (std::size_t plane = components; plane < components * images; ++plane)

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "compare/report/folders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+constexpr std::size_t longestFolder = 40;
+constexpr std::size_t nowhere = ~std::size_t{0};
+
+// FNV-1a of 32 bits, of which a folder shows 24: a thousand scenes of one name have one chance in thirty of a
+// pair.
+std::uint32_t hashOf(std::string_view text) {
+    std::uint32_t hash = 2166136261u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+    return hash;
+}
+
+std::string sceneFolder(const std::string& scene) {
+    constexpr std::string_view builtin = "builtin:";
+    if (scene.starts_with(builtin)) {
+        const std::string name = scene.substr(builtin.size());
+        return nameOfFolder(name, name);
+    }
+    const std::filesystem::path path = std::filesystem::path(scene).lexically_normal();
+    return nameOfFolder(path.stem().string(), path.string());
+}
+
+// The comparisons that share a Frame are of one scene and camera: its number, per frame and comparison.
+struct Views {
+    std::vector<std::size_t> frames, comparisons;
+    std::vector<const Frame*> shown;  // per view: a Frame that was drawn in this run
+    std::vector<std::size_t> sizes;   // per view: its comparisons
+};
+
+Views viewsOf(const Report& report) {
+    Views views{std::vector<std::size_t>(report.frames.size(), nowhere), {}, {}, {}};
+    for (const Comparison& comparison : report.comparisons) {
+        std::size_t& left = views.frames[comparison.baseline];
+        std::size_t& right = views.frames[comparison.test];
+        const std::size_t view = std::min({left, right, views.shown.size()});
+        if (view == views.shown.size()) {
+            views.shown.push_back(&report.test(comparison));
+            views.sizes.push_back(0);
+        }
+        left = right = view;
+        ++views.sizes[view];
+        views.comparisons.push_back(view);
+    }
+    return views;
+}
+
+}  // namespace
+
+std::string nameOfFolder(const std::string& text, const std::string& identity) {
+    std::string name;
+    for (const char c : text) {
+        const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+        if (kept)
+            name += c;
+        else if (!name.empty() && name.back() != '-')
+            name += '-';
+    }
+    name.resize(std::min(name.size(), longestFolder));
+    while (name.ends_with('-')) name.pop_back();
+    if (name == identity) return name;
+    return fmt::format("{}{}{:06x}", name, name.empty() ? "" : "-", hashOf(identity) & 0xffffff);
+}
+
+ReportFolders reportFolders(const Report& report) {
+    const Views views = viewsOf(report);
+    std::vector<std::string> folders(views.shown.size());
+    std::map<std::string, int> times;
+    for (std::size_t i = 0; i < folders.size() && folders.size() > 1; ++i) {
+        const Frame& frame = *views.shown[i];
+        std::string& name = folders[i] = sceneFolder(frame.scene);
+        if (!frame.settings.camera.empty())
+            name += "/" + nameOfFolder(frame.settings.camera, frame.settings.camera);
+        if (const int time = ++times[name]; time > 1) name += fmt::format("-{}", time);
+        name += "/";
+    }
+    ReportFolders result;
+    for (const std::size_t view : views.frames)
+        result.frames.push_back(view == nowhere ? std::string() : folders[view]);
+    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+        const Comparison& comparison = report.comparisons[i];
+        std::string& name = result.comparisons.emplace_back(folders[views.comparisons[i]]);
+        if (views.sizes[views.comparisons[i]] > 1)
+            name +=
+                fmt::format("{}-against-{}/", report.test(comparison).name, report.baseline(comparison).name);
+    }
+    return result;
+}
+
+}  // namespace diptych

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The folders of a report that has several scenes or cameras.
+#pragma once
+
+#include "compare/verdict/comparison.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// A name for a folder that depends on `text` alone: letters, digits, hyphens and underscores of it, at most
+// 40, and where that is not all of `identity` six hexadecimal digits of the latter. "gallery" of "gallery";
+// "Box-1c9f03" of "Box" of "scenes/Box.glb".
+std::string nameOfFolder(const std::string& text, const std::string& identity);
+
+// Where the files of frames and of comparisons stand, each empty or ending in a slash.
+struct ReportFolders {
+    std::vector<std::string> frames, comparisons;
+};
+
+// One scene and camera: all stands in the report's own folder. Otherwise every scene has a folder, named
+// after it alone, so that it is called the same whatever else is compared, and in it every camera that was
+// asked for has one. Where a scene and camera have several comparisons, each of these has one of its own in
+// there: "forward_plus-against-reference/". Who asks for one scene and camera twice finds the second under
+// "NAME-2/".
+ReportFolders reportFolders(const Report& report);
+
+}  // namespace diptych

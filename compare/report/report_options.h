@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What a report holds.
+#pragma once
+
+#include "compare/picture/picture.h"
+#include "compare/run/progress.h"
+
+namespace diptych {
+
+// The comparisons whose pictures, values and EXRs a report keeps.
+enum class Keep { all, failing, none };
+
+struct ReportOptions {
+    PictureChoice picture;
+    bool single_file = false;  // index.html holds its pictures, at half size; no EXR
+    Keep keep = Keep::all;
+    bool force = false;  // also into a folder that is not a report of ours
+    Stage progress{};    // of writing it
+};
+
+}  // namespace diptych
