@@ -15,7 +15,7 @@ const Command commands[] = {
      "diptych compare helmet.glb --lights point:32 -o helmet-report", true},
     {"render", "Draws one Frame: an EXR with every channel, and a PNG",
      "diptych render helmet.glb --path deferred --debug normals -o normals.png", true},
-    {"diff", "Compares any two EXR, PNG, HDR or PFM images, whoever rendered them",
+    {"diff", "Compares any two EXR, PNG, JPEG, TIFF, HDR or PFM images, whoever rendered them",
      "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference", true},
     {"tradeoff", "Draws a scene under many Settings: time against error of each, and the Pareto front",
      "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff", true},
@@ -63,7 +63,9 @@ void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except
             ->type_name(acceptedValues(option));
     }
     app.add_option("--camera", parsed.cameras,
-                   std::string(settingField("camera").help) + "; may be given several times")
+                   std::string(settingField("camera").help) +
+                       "; may be given several times. A scene without a camera is seen from (+1, +0.6, +1) "
+                       "around it, or from another side or from inside where that shows clearly more")
         ->type_name("CAMERA")
         ->allow_extra_args(false);
     app.add_option("--settings", parsed.settings_file,
@@ -80,7 +82,8 @@ void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
     app.add_flag(
         "--heat", options.heat,
         "the picture shows how many lights each pixel evaluates, with a legend, whatever --debug says");
-    app.add_option("--channels", parsed.channels, "the channels to make, separated by commas (all)")
+    app.add_option("--channels", parsed.channels,
+                   "the channels to make, separated by commas (all); render: a PNG of each")
         ->type_name("NAME|NUMBER,...");
     app.add_flag("--list-channels", options.list_channels, "name all channels and end");
     CLI::Option* exposure =

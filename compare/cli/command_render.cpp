@@ -78,14 +78,26 @@ void checkChannels(const Options& options) {
     check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");
 }
 
-// What the files need: an EXR the channels asked for; a picture the one that it shows, lit for its exposure,
+// What pictures show: the channels asked for by name, and --debug; without either, lit.
+ShownChannels shownChannels(const Options& options) {
+    ShownChannels shown;
+    for (const int channel : options.channels) shown.push_back(&debugMode(channel));
+    if ((shown.empty() || options.debug_given || options.heat) &&
+        std::ranges::count(options.channels, options.shown) == 0)
+        shown.push_back(&debugMode(options.shown));
+    return shown;
+}
+
+// What the files need: an EXR the channels asked for; pictures those that they show, lit for its exposure,
 // and which pixels are background.
 std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> requested) {
     constexpr auto lit = static_cast<int>(gpu::DEBUG_lit),
                    background = static_cast<int>(gpu::DEBUG_material_id);
     if (kind == OutputKind::exr) return requested;
-    if (kind == OutputKind::png) return {lit, options.shown, background};
-    for (const int needed : {lit, options.shown, background})
+    if (kind == OutputKind::png) requested.clear();
+    for (const DebugMode* mode : shownChannels(options))
+        if (std::ranges::count(requested, mode->number) == 0) requested.push_back(mode->number);
+    for (const int needed : {lit, background})
         if (std::ranges::count(requested, needed) == 0) requested.push_back(needed);
     return requested;
 }
@@ -125,15 +137,26 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
     return frames;
 }
 
+// "x.lit.png, x.normals.png"
+std::string pictureNames(const std::vector<std::filesystem::path>& files) {
+    std::string names;
+    for (const std::filesystem::path& file : files)
+        names += (names.empty() ? "" : ", ") + file.filename().string();
+    return names;
+}
+
 // Everything or nothing of it. Returns where each Frame is.
 std::vector<std::filesystem::path> writeAll(const Options& options, const std::vector<Frame>& frames,
                                             Json& result, const ReportDevice& device, const Stage& progress) {
     const Output output = outputIn(options);
-    const DebugMode& shown = debugMode(options.shown);
+    const ShownChannels shown = shownChannels(options);
     if (output.kind != OutputKind::folder) {
         progress.at(0, "write");
         writeFrame(frames.front(), device, output, shown, options.picture);
-        return {output.path};
+        if (output.kind != OutputKind::png) return {output.path};
+        const std::vector<std::filesystem::path> files = pictureFiles(output.path, shown);
+        for (const std::filesystem::path& file : files) result["frames"][0]["files"].push_back(file.string());
+        return {files.size() == 1 ? output.path : output.path.parent_path() / pictureNames(files)};
     }
     const auto earlier = [&] {
         checkFolder(output, frames.size(), options.force);
@@ -183,7 +206,11 @@ int runRender(const Options& options) {
     if (count > 1 && output.kind != OutputKind::folder)
         throw std::runtime_error(fmt::format(
             "-o {}: holds one Frame, and several were asked for; give a folder", output.path.string()));
-    checkFolder(output, count, options.force);
+    if (output.kind == OutputKind::png)
+        for (const std::filesystem::path& file : pictureFiles(output.path, shownChannels(options)))
+            checkReplaceable({OutputKind::png, file}, single_manifest, options.force);
+    else
+        checkFolder(output, count, options.force);
 
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));

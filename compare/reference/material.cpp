@@ -101,7 +101,7 @@ double Materials::opacity(const Hit& hit, const PixelRay& ray) const {
 // glTF 2.0, 3.7.2.1 and 3.9.3: normals are transformed by the inverse transpose, tangents as the surface;
 // the bitangent is w cross(normal, tangent). Both are interpolated without normalisation, as MikkTSpace
 // requires. On a back face the normal is flipped.
-glm::dvec3 Materials::shadingNormal(const Hit& hit, const PixelRay& ray) const {
+void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Primitive& primitive = geometry_.primitive(hit.id);
     const glm::dmat3 world(geometry_.instance(hit.id).world_from_object);
     const glm::dvec3 facing =
@@ -130,10 +130,14 @@ glm::dvec3 Materials::shadingNormal(const Hit& hit, const PixelRay& ray) const {
         t.x *= double{m.normal_scale};
         t.y *= double{m.normal_scale};
         n = t.x * tangent + t.y * sign * glm::cross(n, tangent) + t.z * n;
+        if (m.normal_scale != 0) {  // which takes all effect from the map: the paths do not read it then
+            s.tangent = unitOrZero(tangent);
+            s.handedness = sign;
+            s.tangent_normal = unitOrZero(t);
+        }
     }
     const double length = glm::length(n);
-    if (!(length > 0)) return facing;
-    return hit.front ? n / length : -n / length;
+    s.normal = !(length > 0) ? facing : hit.front ? n / length : -n / length;
 }
 
 Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
@@ -142,7 +146,7 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     s.position = hit.position;
     s.geometric_normal =
         glm::dot(hit.geometric_normal, ray.direction) > 0 ? -hit.geometric_normal : hit.geometric_normal;
-    s.normal = shadingNormal(hit, ray);
+    shadeNormal(hit, ray, s);
     s.material = geometry_.primitive(hit.id).material;
     s.texcoord = footprint(hit, TextureSlot{}, nullptr).uv;
     const glm::dvec3 color(baseColor(hit, &ray));

@@ -38,7 +38,8 @@ private:
     Footprint footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const;
     glm::dvec4 lookUp(const Hit& hit, const TextureSlot& slot, bool srgb, const PixelRay* ray) const;
     glm::dvec4 baseColor(const Hit& hit, const PixelRay* ray) const;
-    glm::dvec3 shadingNormal(const Hit& hit, const PixelRay& ray) const;
+    // Fills the normal, and what a normal map is read with and holds.
+    void shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const;
 
     const Scene& scene_;
     const Geometry& geometry_;

@@ -85,6 +85,14 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return glm::dvec3(s.dielectric_f90);
         case gpu::DEBUG_lightmap:
             return s.lightmap;
+        case gpu::DEBUG_tangent:
+            return s.tangent;
+        case gpu::DEBUG_handedness:
+            return glm::dvec3(s.handedness);
+        case gpu::DEBUG_tangent_normal:
+            return s.tangent_normal;
+        case gpu::DEBUG_dielectric_f0:
+            return s.dielectric_f0;
     }
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
 }
@@ -112,12 +120,7 @@ public:
         s.lightmap = value(gpu::DEBUG_lightmap, pixel);
         s.dielectric_f90 = value(gpu::DEBUG_dielectric_f90, pixel).x;
         s.material = static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
-        // The channel holds the mix of the dielectric's and the metal's F0. For a metallic of 1 the
-        // dielectric's cannot be recovered, and is not needed.
-        if (s.metallic < 1)
-            s.dielectric_f0 =
-                glm::max((value(gpu::DEBUG_specular, pixel) - s.albedo * s.metallic) / (1 - s.metallic),
-                         glm::dvec3(0));
+        s.dielectric_f0 = value(gpu::DEBUG_dielectric_f0, pixel);
         return s;
     }
 

@@ -25,6 +25,10 @@ struct Surface {
     double dielectric_f90 = 1;
     int material = -1;
     glm::dvec2 texcoord{0};
+    // What a normal map is read with and holds; 0 without one or where its scale is 0.
+    glm::dvec3 tangent{0};         // unit, world
+    double handedness = 0;         // bitangent = handedness * cross(normal, tangent)
+    glm::dvec3 tangent_normal{0};  // unit, tangent space
 };
 
 // A quantity for each of the two lobes: radiance, W/(sr m^2), or a factor of it.

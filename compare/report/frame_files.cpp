@@ -31,27 +31,40 @@ void writePicture(const std::filesystem::path& file, const Frame& frame, const D
 
 }  // namespace
 
-void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
-                const PictureChoice& choice) {
-    if (output.kind == OutputKind::exr)
-        writeFrameExr(output.path, frame, device);
-    else
-        writePicture(output.path, frame, shown, choice);
+std::vector<std::filesystem::path> pictureFiles(const std::filesystem::path& png,
+                                                const ShownChannels& shown) {
+    if (shown.size() == 1) return {png};
+    std::vector<std::filesystem::path> files;
+    for (const DebugMode* mode : shown) {
+        std::filesystem::path file = png;
+        files.push_back(file.replace_extension(fmt::format(".{}.png", mode->name)));
+    }
+    return files;
+}
+
+void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output,
+                const ShownChannels& shown, const PictureChoice& choice) {
+    if (output.kind == OutputKind::exr) return writeFrameExr(output.path, frame, device);
+    const std::vector<std::filesystem::path> files = pictureFiles(output.path, shown);
+    for (std::size_t i = 0; i < files.size(); ++i) writePicture(files[i], frame, *shown[i], choice);
 }
 
 std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
-                                          const std::filesystem::path& folder, const DebugMode& shown,
+                                          const std::filesystem::path& folder, const ShownChannels& shown,
                                           const PictureChoice& choice) {
-    const std::vector<std::string> files{frame.name + ".exr", std::string(shown.name) + ".png", "frame.json"};
+    std::vector<std::string> files{frame.name + ".exr", "frame.json"};
     writeFrameExr(folder / files[0], frame, device);
-    writePicture(folder / files[1], frame, shown, choice);
+    for (const DebugMode* mode : shown) {
+        files.push_back(std::string(mode->name) + ".png");
+        writePicture(folder / files.back(), frame, *mode, choice);
+    }
     const nlohmann::ordered_json json{
         {"schema", 1},
         {"software", softwareName},
         {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
         {"frame", jsonOf(frame)},
         {"files", files}};
-    writeFile(folder / files[2],
+    writeFile(folder / files[1],
               json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     return files;
 }

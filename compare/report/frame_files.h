@@ -13,15 +13,21 @@
 
 namespace diptych {
 
-// Writes one Frame: an EXR of the requested channels, or a PNG of channel `shown`. Throws std::runtime_error
-// naming the file, or the channel where the Frame does not have it.
-void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output, const DebugMode& shown,
-                const PictureChoice& choice);
+// The channels that pictures show; at least one.
+using ShownChannels = std::vector<const DebugMode*>;
 
-// Writes FRAME.exr, CHANNEL.png and frame.json, which lists all three, into an existing folder; returns their
-// names.
+// Of an output of kind png: "x.png", or "x.CHANNEL.png" of each where there are several.
+std::vector<std::filesystem::path> pictureFiles(const std::filesystem::path& png, const ShownChannels& shown);
+
+// Writes one Frame: an EXR of the requested channels, or pictureFiles(). Throws std::runtime_error naming the
+// file, or the channel where the Frame does not have it.
+void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output,
+                const ShownChannels& shown, const PictureChoice& choice);
+
+// Writes FRAME.exr, a CHANNEL.png each and frame.json, which lists all, into an existing folder; returns
+// their names.
 std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
-                                          const std::filesystem::path& folder, const DebugMode& shown,
+                                          const std::filesystem::path& folder, const ShownChannels& shown,
                                           const PictureChoice& choice);
 
 }  // namespace diptych

@@ -37,6 +37,7 @@ bool isGeometry(const DebugMode& mode) {
         case gpu::DEBUG_depth:
         case gpu::DEBUG_position:
         case gpu::DEBUG_texcoords:
+        case gpu::DEBUG_tangent:
             return true;
         default:
             return false;
@@ -179,12 +180,15 @@ private:
             case gpu::DEBUG_normals:
                 // Three components of 2 t - 1.
                 return 2 * std::sqrt(3.0) * code * degreesPerRadian;
+            case gpu::DEBUG_tangent_normal:
+                return 2 * std::sqrt(3.0) * code;
             case gpu::DEBUG_albedo:
+            case gpu::DEBUG_dielectric_f0:
             case gpu::DEBUG_specular: {
                 double most = 0;
                 for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
-                // F0 is albedo's mix by metallic.
-                return most + (mode.number == static_cast<int>(gpu::DEBUG_specular) ? code : 0);
+                // F0 is scaled by the specular texture, and is albedo's mix by metallic.
+                return most + (mode.number == static_cast<int>(gpu::DEBUG_albedo) ? 0 : code);
             }
             case gpu::DEBUG_emission:
             case gpu::DEBUG_lightmap:

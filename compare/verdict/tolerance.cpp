@@ -131,6 +131,10 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
             if (!pair.needs.dielectric_specular)
                 return {0, "every dielectric has F90 = 1: nothing is stored"};
             return unormTolerance(gpu::SPECULAR_BITS);
+        case gpu::DEBUG_dielectric_f0:
+            if (!pair.needs.dielectric_specular)
+                return {0, "every dielectric has F0 = 0.04: nothing is stored"};
+            return {squareBound(gpu::SPECULAR_BITS), "square root in 8 bits"};
         case gpu::DEBUG_material_id:
             return {0, "the index is carried whole"};
         case gpu::DEBUG_light_count:

@@ -29,6 +29,10 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_lit_ambient: return vec4(radiance.ambient, 1.0);
         case DEBUG_dielectric_f90: return vec4(s.dielectric_f90);
         case DEBUG_lightmap: return vec4(s.lightmap, 1.0);
+        case DEBUG_tangent: return vec4(s.tangent, 1.0);
+        case DEBUG_handedness: return vec4(s.handedness);
+        case DEBUG_tangent_normal: return vec4(s.tangent_normal, 1.0);
+        case DEBUG_dielectric_f0: return vec4(s.dielectric_f0, 1.0);
     }
     return vec4(0.0);
 }

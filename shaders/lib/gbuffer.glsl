@@ -65,11 +65,13 @@ GBufferTexel encodeGBuffer(Surface s) {
     return t;
 }
 
-// Everything but the position, which comes from depth, and the texture coordinates, which are not stored.
+// Everything but the position, which comes from depth, and what is forward+'s alone, which is not stored.
 Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     Surface s;
     s.position = position;
     s.texcoord = vec2(0.0);
+    s.tangent = s.tangent_normal = vec3(0.0);
+    s.handedness = 0.0;
     s.emission = vec3(0.0);
     s.lightmap = vec3(0.0);
     s.object_irradiance = vec3(0.0);  // not stored

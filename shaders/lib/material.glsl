@@ -59,6 +59,19 @@ vec3 triangleNormal(vec3 towards) {
     return dot(unit, towards) < 0.0 ? -unit : unit;
 }
 
+// In tangent space, scaled, not of unit length.
+vec3 mappedNormal() {
+    vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
+    t.xy *= material.normal_scale;
+    return t;
+}
+
+// `v` as a unit vector, or 0 where it has no direction.
+vec3 directionOf(vec3 v) {
+    float length2 = dot(v, v);
+    return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
+}
+
 // glTF 2.0: tangent space is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as MikkTSpace
 // defines it; on the back face of a double-sided material the result is negated. `triangle`, the triangle's
 // normal, replaces a normal that vanished, flattened by the node's scale or by interpolation; only variants
@@ -66,8 +79,7 @@ vec3 triangleNormal(vec3 towards) {
 vec3 shadingNormal(vec3 triangle) {
     vec3 n = v_normal;
     if (on(feature_normal_texture)) {
-        vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
-        t.xy *= material.normal_scale;
+        vec3 t = mappedNormal();
         vec3 bitangent = v_tangent.w * crossProduct(v_normal, v_tangent.xyz);
         n = t.x * v_tangent.xyz + t.y * bitangent + t.z * v_normal;
     }
@@ -87,6 +99,13 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.normal = shadingNormal(s.geometric_normal);
     s.material_id = constants.material;
     s.texcoord = v_texcoord;
+    s.tangent = s.tangent_normal = vec3(0.0);
+    s.handedness = 0.0;
+    if (on(feature_captured) && on(feature_normal_texture)) {
+        s.tangent = directionOf(v_tangent.xyz);
+        s.handedness = v_tangent.w;
+        s.tangent_normal = directionOf(mappedNormal());
+    }
     s.lightmap = vec3(0.0);
     s.object_irradiance = vec3(0.0);
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)

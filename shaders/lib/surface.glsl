@@ -20,6 +20,11 @@ struct Surface {
     float dielectric_f90;
     uint material_id;
     vec2 texcoord;          // forward+ only
+    // What a normal map is read with and holds; 0 without one or where its scale is 0. For channels alone,
+    // forward+ only.
+    vec3 tangent;           // unit, world
+    float handedness;       // bitangent = handedness * cross(normal, tangent)
+    vec3 tangent_normal;    // unit, tangent space
     vec3 object_irradiance; // forward+ with object_lights: of those that are not shaded per pixel, W/m^2
 };
 

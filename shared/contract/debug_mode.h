@@ -36,7 +36,11 @@
     X(41, lit_specular,     3, relative, color,  any,      both,         "reflected by the specular lobe, W/(sr m^2)") \
     X(42, lit_ambient,      3, relative, color,  any,      both,         "reflected ambient light, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
-    X(51, lightmap,         3, relative, color,  positive, both,         "irradiance of the lightmap over pi, W/(sr m^2)")
+    X(51, lightmap,         3, relative, color,  positive, both,         "irradiance of the lightmap over pi, W/(sr m^2)") \
+    X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent that the normal map is read with, world; 0 without one") \
+    X(53, handedness,       1, exact,    scalar, any,      forward_only, "sign of the bitangent, 1 or -1; 0 without a normal map") \
+    X(54, tangent_normal,   3, absolute, vector, any,      forward_only, "the normal map's normal in tangent space, unit; 0 without one") \
+    X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer alone")
 // clang-format on
 
 CONTRACT_BEGIN

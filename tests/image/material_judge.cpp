@@ -34,8 +34,11 @@ unsigned slotsOf(int mode) {
         case gpu::DEBUG_position:
         case gpu::DEBUG_geometric_normal:
         case gpu::DEBUG_texcoords:
+        case gpu::DEBUG_tangent:
+        case gpu::DEBUG_handedness:
             return base;
         case gpu::DEBUG_normals:
+        case gpu::DEBUG_tangent_normal:
             return base | slotBit(gpu::SLOT_normal);
         case gpu::DEBUG_metallic:
         case gpu::DEBUG_roughness:
@@ -48,6 +51,8 @@ unsigned slotsOf(int mode) {
             return base | rough | slotBit(gpu::SLOT_specular) | slotBit(gpu::SLOT_specular_color);
         case gpu::DEBUG_dielectric_f90:
             return base | slotBit(gpu::SLOT_specular);
+        case gpu::DEBUG_dielectric_f0:
+            return base | slotBit(gpu::SLOT_specular) | slotBit(gpu::SLOT_specular_color);
         case gpu::DEBUG_lightmap:
             return base | slotBit(gpu::SLOT_lightmap);
         default:
@@ -100,6 +105,8 @@ double roundingOf(int mode, const std::vector<double>& expected) {
             return 0;
         case gpu::DEBUG_normals:
         case gpu::DEBUG_geometric_normal:
+        case gpu::DEBUG_tangent:
+        case gpu::DEBUG_tangent_normal:
             return 1e-6;
         case gpu::DEBUG_texcoords:
             return 1e-6;

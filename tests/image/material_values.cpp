@@ -16,7 +16,8 @@ namespace {
 
 struct CellSurface {
     glm::dvec3 albedo{0}, normal{0, 0, 1}, emission{0}, f0{0}, lightmap{0};
-    double metallic = 0, roughness = 1, occlusion = 1, f90 = 0;
+    glm::dvec3 tangent{0}, tangent_normal{0}, layer_f0{0};
+    double metallic = 0, roughness = 1, occlusion = 1, f90 = 0, handedness = 0;
 };
 
 std::vector<double> components(const glm::dvec3& v) {
@@ -26,7 +27,7 @@ std::vector<double> components(const glm::dvec3& v) {
 // glTF 2.0, 3.7.2.1 and 3.9.3: (T, w cross(N, T), N), to the world as normals and as directions are; a
 // mirroring node turns the cross product round. Seen from behind it is negated. MikkTSpace's tangent points
 // to where u grows, its bitangent to where v falls.
-glm::dvec3 cellNormal(const Cell& cell, const glm::dvec3& texel) {
+void mapNormal(const Cell& cell, const glm::dvec3& texel, CellSurface& s) {
     glm::dvec3 tangent(std::cos(cell.tangent_angle), std::sin(cell.tangent_angle), 0);
     double w = cell.tangent_w;
     if (cell.tangents_made) {
@@ -43,7 +44,11 @@ glm::dvec3 cellNormal(const Cell& cell, const glm::dvec3& texel) {
     const glm::dvec3 scaled = texel * glm::dvec3(cell.normal_scale, cell.normal_scale, 1);
     const glm::dvec3 world =
         glm::normalize(t * scaled.x + glm::cross(n, t) * (hand * scaled.y) + n * scaled.z);
-    return cell.fromBehind() ? -world : world;
+    s.normal = cell.fromBehind() ? -world : world;
+    if (cell.normal_scale == 0) return;  // the map has no effect, and is not read
+    s.tangent = t;
+    s.handedness = hand;
+    s.tangent_normal = glm::normalize(scaled);
 }
 
 // Of the square in its object space, seen from its front: (0, 0) in the upper left corner.
@@ -151,7 +156,7 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         s.metallic = cell.metallic * orm.b;
         s.roughness = cell.roughness * orm.g;
         if (cell.textures[gpu::SLOT_normal].picture >= 0)
-            s.normal = cellNormal(cell, glm::dvec3(texel(gpu::SLOT_normal, false)) * 2.0 - 1.0);
+            mapNormal(cell, glm::dvec3(texel(gpu::SLOT_normal, false)) * 2.0 - 1.0, s);
         s.occlusion = 1 + cell.occlusion_strength * (texel(gpu::SLOT_occlusion, false).r - 1);
         if (cell.textures[gpu::SLOT_occlusion].picture < 0) s.occlusion = 1;
         s.emission =
@@ -162,7 +167,8 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         const double r = ior == 0 ? 1 : (ior - 1) / (ior + 1);
         s.f90 = cell.specular * texel(gpu::SLOT_specular, false).a;
         const glm::dvec3 tint = cell.specular_color * glm::dvec3(texel(gpu::SLOT_specular_color, true));
-        s.f0 = glm::mix(glm::min(r * r * tint, glm::dvec3(1)) * s.f90, s.albedo, s.metallic);
+        s.layer_f0 = glm::min(r * r * tint, glm::dvec3(1)) * s.f90;
+        s.f0 = glm::mix(s.layer_f0, s.albedo, s.metallic);
     }
     const glm::dvec2 texcoord = firstTexcoord(cell, place.at);
     const std::pair<gpu::uint, std::vector<double>> values[] = {
@@ -180,6 +186,10 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         {gpu::DEBUG_geometric_normal, {0, 0, 1}},
         {gpu::DEBUG_dielectric_f90, {s.f90}},
         {gpu::DEBUG_lightmap, components(s.lightmap)},
+        {gpu::DEBUG_tangent, components(s.tangent)},
+        {gpu::DEBUG_handedness, {s.handedness}},
+        {gpu::DEBUG_tangent_normal, components(s.tangent_normal)},
+        {gpu::DEBUG_dielectric_f0, components(s.layer_f0)},
     };
     std::map<int, std::vector<double>> byChannel;
     for (const auto& [mode, value] : values) byChannel[static_cast<int>(mode)] = value;

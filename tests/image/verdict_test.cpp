@@ -164,6 +164,10 @@ const NegativeControl negativeControls[] = {
      [](Scene& s) {
          for (Material& m : s.materials) m.specular *= 0.99f;
      }},
+    {"dielectric_f0",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.ior += 0.2f;
+     }},
     {"lightmap",
      [](Scene& s) {
          for (Material& m : s.materials) m.lightmap_intensity *= 1.005f;

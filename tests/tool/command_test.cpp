@@ -213,6 +213,30 @@ TEST(Command, PlanSaysOfAPathTheSameAloneAndBesideAnother) {
     }
 }
 
+TEST(Command, RenderDrawsAPictureOfEachChannelAskedFor) {
+    const Folder folder;
+    const auto pngs = [&](const char* in) {
+        std::set<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder / in))
+            if (isPng(entry.path())) names.insert(entry.path().filename());
+        return names;
+    };
+    using Names = std::set<std::string>;
+    EXPECT_EQ(runTool(folder, "render --channels normals,albedo -o a.png" + quickTriangle).code, 0);
+    EXPECT_EQ(pngs("."), (Names{"a.albedo.png", "a.normals.png"}));
+    EXPECT_EQ(runTool(folder, "render --channels normals -o b.png" + quickTriangle).code, 0);
+    EXPECT_TRUE(fs::exists(folder / "b.png")) << "one is the picture itself";
+    EXPECT_EQ(runTool(folder, "render --channels normals,albedo -o c" + quickTriangle).code, 0);
+    EXPECT_EQ(pngs("c"), (Names{"albedo.png", "normals.png"}));
+    EXPECT_EQ(runTool(folder, "render --channels normals --debug depth -o d" + quickTriangle).code, 0);
+    EXPECT_EQ(pngs("d"), (Names{"depth.png", "normals.png"}));
+    // Somebody else's file among them is kept.
+    folder.write("e.albedo.png", "mine");
+    EXPECT_TRUE(runTool(folder, "render --channels normals,albedo -o e.png" + quickTriangle)
+                    .failedOver("e.albedo.png"));
+    EXPECT_FALSE(fs::exists(folder / "e.normals.png"));
+}
+
 TEST(Command, RenderWritesWhatTheEndingSays) {
     const Folder folder;
     EXPECT_EQ(runTool(folder, "render -o a.exr" + quickTriangle).code, 0);

@@ -95,6 +95,9 @@ TEST(ReferenceDraw, Channels) {
     EXPECT_NEAR(value(gpu::DEBUG_position, 2), -3, 1e-6);
     EXPECT_EQ(value(gpu::DEBUG_material_id), 0);
     EXPECT_NEAR(value(gpu::DEBUG_texcoords, 1), 0.5, 1e-6);
+    EXPECT_NEAR(value(gpu::DEBUG_dielectric_f0, 1), 0.5 * 0.04, 1e-8) << "whatever the metal is";
+    for (const gpu::uint mode : {gpu::DEBUG_tangent, gpu::DEBUG_handedness, gpu::DEBUG_tangent_normal})
+        EXPECT_EQ(value(mode), 0) << "there is no normal map";
     const Drawn empty = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 9}, 1, 1, 0.01));
     for (const DebugMode& mode : debugModes()) {
         if (mode.maker == MadeBy::paths_only) continue;
