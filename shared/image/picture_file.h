@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads pictures of any renderer: OpenEXR, PNG, Radiance HDR and PFM files as layers of float32.
+// Reads pictures of any renderer: OpenEXR, PNG, JPEG, TIFF, Radiance HDR and PFM files as layers of float32.
 #pragma once
 
 #include "shared/image/limits.h"

@@ -38,7 +38,7 @@ struct PictureLayer {
 
 struct PictureFile {
     int width = 0, height = 0;      // of every layer, pixels
-    std::string format;             // "OpenEXR", "PNG", "Radiance HDR", "PFM"
+    std::string format;             // "OpenEXR", "PNG", "JPEG", "TIFF", "Radiance HDR", "PFM"
     bool display_referred = false;  // sRGB-encoded, 0 to 1; else linear
     std::vector<PictureLayer> layers;
     // An EXR's string attributes as they are in the file (to be passed through oneLine() before they are

@@ -6,6 +6,7 @@
 
 #include <jpeglib.h>
 #include <png.h>
+#include <tiffio.h>
 
 #include <cstdlib>
 #include <string>
@@ -130,6 +131,36 @@ void writePfmSeeds(const fs::path& out) {
               "PF 1 2 0.5\n" + turned + turned + turned + turned + turned + turned + "\n");
 }
 
+// By libtiff itself: every packing, strips and tiles, integers and floats.
+void writeTiffSeeds(const fs::path& out) {
+    fs::create_directories(out / "tiff");
+    for (const int packing :
+         {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE, COMPRESSION_PACKBITS})
+        for (const int bits : {8, 16, 32}) {
+            const std::string name = std::to_string(packing) + "-" + std::to_string(bits) + ".tif";
+            TIFF* tiff = TIFFOpen((out / "tiff" / name).c_str(), bits == 16 ? "wb" : "wl");
+            if (!tiff) std::abort();
+            TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 17);
+            TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 17);
+            TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, bits == 8 ? 3 : 1);
+            TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits);
+            TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, bits == 32 ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
+            TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, bits == 8 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
+            TIFFSetField(tiff, TIFFTAG_COMPRESSION, packing);
+            TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+            std::vector<unsigned char> tile(16 * 16 * 4, 17);
+            if (bits == 16) {
+                TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 16);
+                TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
+                for (std::uint32_t i = 0; i < 4; ++i) TIFFWriteEncodedTile(tiff, i, tile.data(), 16 * 16 * 2);
+            } else {
+                TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
+                for (std::uint32_t y = 0; y < 17; ++y) TIFFWriteScanline(tiff, tile.data(), y, 0);
+            }
+            TIFFClose(tiff);
+        }
+}
+
 }  // namespace
 
 void writeImageSeeds(const fs::path& out) {
@@ -137,6 +168,7 @@ void writeImageSeeds(const fs::path& out) {
     writeJpegSeeds(out);
     writeHdrSeeds(out);
     writePfmSeeds(out);
+    writeTiffSeeds(out);
 }
 
 }  // namespace diptych::fuzz

@@ -13,7 +13,7 @@ inline constexpr std::size_t largest_seed = std::size_t{64} << 10;
 void writeSeed(const std::filesystem::path& out, const char* target, std::string_view name,
                std::string_view bytes);
 
-void writeImageSeeds(const std::filesystem::path& out);  // hdr, pfm, png, texture
+void writeImageSeeds(const std::filesystem::path& out);  // hdr, pfm, png, texture, tiff
 void writeExrSeeds(const std::filesystem::path& out);
 void writeGltfSeeds(const std::filesystem::path& out);
 void writeTextSeeds(const std::filesystem::path& out);  // lights, settings

@@ -89,6 +89,22 @@ TEST(DiffCommand, FormatsMeet) {
         << ran.out;
 }
 
+// A TIFF of one white pixel, byte by byte, beside PNGs of the same and of another.
+TEST(DiffCommand, TiffsMeetPngs) {
+    const Folder folder;
+    std::string tiff("II*\0\x08\0\0\0\x08\0", 10);
+    const std::uint8_t tags[][2] = {{0, 1}, {1, 1}, {2, 8}, {3, 1}, {6, 1}, {17, 110}, {21, 1}, {23, 1}};
+    for (const auto& [tag, value] : tags)
+        tiff += std::string{static_cast<char>(tag), 1, 4, 0, 1, 0, 0, 0, static_cast<char>(value), 0, 0, 0};
+    folder.write("a.tif", tiff + std::string("\0\0\0\0\xff", 5));
+    writePng(folder / "same.png", {1, 1, 3, {255, 255, 255}});
+    writePng(folder / "other.png", {1, 1, 3, {255, 250, 255}});
+    EXPECT_EQ(runTool(folder, "diff a.tif same.png --metric max").code, 0);
+    EXPECT_EQ(runTool(folder, "diff a.tif other.png --metric max").code, 1);
+    folder.write("cut.tif", tiff);
+    EXPECT_TRUE(runTool(folder, "diff cut.tif same.png").failedOver("cut.tif"));
+}
+
 TEST(DiffCommand, NanAgainstANumberIsADifference) {
     const Folder folder;
     Image a = noise(3), b = a;

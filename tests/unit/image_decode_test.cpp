@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Images of every kind that glTF may use, written by libpng and libjpeg, are decoded to the stored numbers.
+#include "shared/image/picture_file.h"
 #include "shared/scene/image/decode.h"
 
 #include <gtest/gtest.h>
@@ -384,4 +385,37 @@ TEST(ImageDecode, ArithmeticCodingIsNamed) {
     for (std::size_t i = 0; i + 1 < file.size(); ++i)
         if (file[i] == 0xff && file[i + 1] == 0xc0) file[i + 1] = 0xc9;
     EXPECT_EQ(failure(file), "is a JPEG with arithmetic coding: not read");
+}
+
+// ---- as a picture ------------------------------------------------------------------------------------
+
+// One reader: diff compares the bytes that a texture has.
+TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
+    for (const bool grey : {false, true}) {
+        const Bytes file =
+            grey ? jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}) : jpeg(JCS_RGB, JCS_YCbCr, {200, 30, 90});
+        const TextureImage texture = decodeImage(file);
+        const PictureFile picture = readPicture(std::as_bytes(std::span(file)), "a.png");
+        EXPECT_EQ(picture.format, "JPEG");
+        EXPECT_TRUE(picture.display_referred);
+        ASSERT_EQ(picture.layers.size(), 1u);
+        const Image& image = picture.layers[0].image;
+        ASSERT_EQ(image.components, grey ? 1 : 3);
+        ASSERT_EQ(image.pixels(), 256u);
+        for (std::size_t i = 0; i < image.pixels(); ++i)
+            for (int c = 0; c < image.components; ++c)
+                EXPECT_EQ(image.pixel(i)[c],
+                          static_cast<float>(texture.rgba[4 * i + static_cast<std::size_t>(c)]) / 255);
+    }
+    const Bytes file = jpeg(JCS_RGB, JCS_YCbCr, {1, 2, 3});
+    const auto faultOf = [](std::span<const unsigned char> bytes, std::uint64_t most) -> std::string {
+        try {
+            readPicture(std::as_bytes(bytes), "a.jpg", {}, most);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "reads";
+    };
+    EXPECT_TRUE(faultOf(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: ")) << "cut";
+    EXPECT_TRUE(faultOf(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";
 }

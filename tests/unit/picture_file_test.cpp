@@ -73,9 +73,11 @@ TEST(PictureFile, TheFirstBytesSayWhatItIsNotTheEnding) {
 
 TEST(PictureFile, WhatIsNotReadIsToldInOneLine) {
     const std::string none =
-        "a: is no picture that is read: by their first bytes OpenEXR, PNG, Radiance HDR and PFM are";
+        "a: is no picture that is read: by their first bytes OpenEXR, PNG, JPEG, TIFF, Radiance HDR and PFM "
+        "are";
     EXPECT_EQ(pictureFault(""), none);
-    EXPECT_EQ(pictureFault("\xff\xd8\xff\xe0 a JPEG"), none);
+    EXPECT_EQ(pictureFault("GIF89a"), none);
+    EXPECT_EQ(pictureFault("\xff\xd8\xff\xe0 a JPEG"), "a: does not decode: Premature end of JPEG file");
     EXPECT_EQ(pictureFault("P6\n1 1\n255\nabc"), none);
     EXPECT_EQ(pictureFault("\x89PNG\n"), none) << "its line ends were changed on the way";
     EXPECT_EQ(pictureFault("\x76\x2f\x31\x01"), "a: is not an EXR file");

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include "shared/image/tiff.h"
+
+#include "shared/text/fail.h"
+#include "shared/text/named.h"
+#include "shared/text/one_line.h"
+
+#include <Imath/half.h>
+#include <fmt/format.h>
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+namespace diptych {
+namespace {
+
+// A file in memory, as libtiff reads it, and the first thing it had to say.
+struct TiffBytes {
+    std::span<const std::byte> bytes;
+    std::uint64_t at = 0;
+    std::string error{};
+};
+
+TiffBytes& tiffBytes(thandle_t handle) {
+    return *static_cast<TiffBytes*>(handle);
+}
+
+tmsize_t readTiffBytes(thandle_t handle, void* to, tmsize_t wanted) {
+    TiffBytes& file = tiffBytes(handle);
+    const std::uint64_t left = file.at < file.bytes.size() ? file.bytes.size() - file.at : 0;
+    const std::uint64_t count = std::min(left, static_cast<std::uint64_t>(std::max<tmsize_t>(wanted, 0)));
+    if (count > 0) std::memcpy(to, file.bytes.data() + file.at, count);
+    file.at += count;
+    return static_cast<tmsize_t>(count);
+}
+
+toff_t seekTiffBytes(thandle_t handle, toff_t to, int from) {
+    TiffBytes& file = tiffBytes(handle);
+    file.at = from == SEEK_SET ? to : from == SEEK_CUR ? file.at + to : file.bytes.size() + to;
+    return file.at;
+}
+
+int keepError(TIFF*, void* user, const char*, const char* format, va_list arguments) {
+    TiffBytes& file = tiffBytes(user);
+    if (!file.error.empty()) return 1;
+    char text[256];
+    std::vsnprintf(text, sizeof text, format, arguments);
+    file.error = oneLine(text);
+    return 1;
+}
+
+int ignoreWarning(TIFF*, void*, const char*, const char*, va_list) {
+    return 1;
+}
+
+using OpenTiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
+
+// libtiff takes no piece of memory larger than `most`, whatever the file claims.
+OpenTiff openTiff(TiffBytes& file, std::uint64_t most) {
+    const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
+                                                                                   TIFFOpenOptionsFree);
+    TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(),
+                                        static_cast<tmsize_t>(std::min<std::uint64_t>(most, 1ull << 40)));
+    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keepError, &file);
+    TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignoreWarning, nullptr);
+    // "m": no mapping of the file into memory, which is there already.
+    return OpenTiff(
+        TIFFClientOpenExt(
+            "", "rm", &file, readTiffBytes, [](thandle_t, void*, tmsize_t) -> tmsize_t { return 0; },
+            seekTiffBytes, [](thandle_t) { return 0; },
+            [](thandle_t handle) -> toff_t { return tiffBytes(handle).bytes.size(); }, nullptr, nullptr,
+            options.get()),
+        TIFFClose);
+}
+
+template <class T>
+T tagOf(TIFF* tiff, std::uint32_t tag, T otherwise) {
+    T value = otherwise;
+    return TIFFGetFieldDefaulted(tiff, tag, &value) == 1 ? value : otherwise;
+}
+
+// What the directory says of the picture.
+struct TiffLayout {
+    std::uint32_t width = 0, height = 0;
+    std::uint16_t components = 1, bits = 1, format = SAMPLEFORMAT_UINT, colours = 0, compression = 0;
+    std::uint16_t orientation = ORIENTATION_TOPLEFT;
+    bool planes = false, tiled = false;
+
+    std::size_t bytesPerSample() const { return bits / 8u; }
+};
+
+// The most bytes that one byte of the file decodes to; 0: not read. LZW: a code of 9 to 12 bits stands for at
+// most 4096 bytes. PackBits: two bytes for 128.
+std::uint64_t ratioOf(std::uint16_t compression) {
+    switch (compression) {
+        case COMPRESSION_NONE:
+            return 1;
+        case COMPRESSION_PACKBITS:
+            return 64;
+        case COMPRESSION_LZW:
+            return 4096;
+        case COMPRESSION_DEFLATE:
+        case COMPRESSION_ADOBE_DEFLATE:
+            return limits::deflate_ratio;
+        default:
+            return 0;
+    }
+}
+
+bool isFloat(const TiffLayout& layout) {
+    return layout.format == SAMPLEFORMAT_IEEEFP;
+}
+
+std::string sampleOf(const TiffLayout& layout) {
+    if (isFloat(layout)) return layout.bits == 16 ? "half" : "float";
+    return fmt::format("{} bit", layout.bits);
+}
+
+TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
+    TiffLayout layout;
+    layout.width = tagOf<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0);
+    layout.height = tagOf<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0);
+    layout.components = tagOf<std::uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+    layout.bits = tagOf<std::uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE, 1);
+    layout.format = tagOf<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    layout.compression = tagOf<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    layout.orientation = tagOf<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+    layout.planes =
+        layout.components > 1 &&
+        tagOf<std::uint16_t>(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
+    layout.tiled = TIFFIsTiled(tiff) != 0;
+    if (TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &layout.colours) != 1)
+        layout.colours = layout.components < 3 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB;
+
+    const bool grey = layout.colours == PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_MINISWHITE;
+    if (!grey && layout.colours != PHOTOMETRIC_RGB)
+        fail(fmt::format("is a TIFF of photometric interpretation {}: grey (0, 1) and RGB (2) are read",
+                         layout.colours));
+    const int colours = grey ? 1 : 3;
+    if (layout.components < colours || layout.components > colours + 1)
+        fail(fmt::format("is a TIFF of {} samples a pixel: {} and one of alpha are read", layout.components,
+                         grey ? "1 of grey" : "3 of RGB"));
+    const bool read = isFloat(layout) ? layout.bits == 16 || layout.bits == 32
+                                      : layout.format == SAMPLEFORMAT_UINT &&
+                                            (layout.bits == 8 || layout.bits == 16 || layout.bits == 32);
+    if (!read)
+        fail(fmt::format(
+            "is a TIFF of {} bit samples of format {}: unsigned integers (1) of 8, 16 and 32 bits "
+            "and floats (3) of 16 and 32 are read",
+            layout.bits, layout.format));
+    if (layout.orientation < ORIENTATION_TOPLEFT || layout.orientation > ORIENTATION_BOTLEFT)
+        fail(fmt::format("is a TIFF of orientation {}: 1 to 4 are read, whose rows are horizontal",
+                         layout.orientation));
+    const std::uint64_t ratio = ratioOf(layout.compression);
+    if (ratio == 0)
+        fail(
+            fmt::format("is a TIFF of compression {}: none (1), LZW (5), Deflate (8, 32946) and PackBits "
+                        "(32773) are read",
+                        layout.compression));
+    checkImageSize(layout.width, layout.height, static_cast<std::int64_t>(sizeof(float)) * layout.components,
+                   most);
+    const std::uint64_t stored =
+        std::uint64_t{layout.width} * layout.height * layout.components * layout.bytesPerSample();
+    if (stored / ratio > fileBytes) failToHold(layout.width, layout.height, fileBytes);
+    return layout;
+}
+
+float valueOf(const TiffLayout& layout, const unsigned char* sample) {
+    const auto as = [&]<class T>(T value) {
+        std::memcpy(&value, sample, sizeof value);
+        return value;
+    };
+    switch (layout.bits) {
+        case 8:
+            return static_cast<float>(*sample) / 255.0f;
+        case 16: {
+            const auto code = as(std::uint16_t{});
+            if (!isFloat(layout)) return static_cast<float>(code) / 65535.0f;
+            Imath::half half;
+            half.setBits(code);
+            return half;
+        }
+        default:
+            return isFloat(layout) ? as(0.0f) : static_cast<float>(as(std::uint32_t{}) / 4294967295.0);
+    }
+}
+
+// The pieces that libtiff decodes, strips or tiles, put where they belong.
+class Pieces {
+public:
+    Pieces(TIFF* tiff, const TiffLayout& layout, Image& image) : tiff_(tiff), layout_(layout), image_(image) {
+        width_ = layout.tiled ? tagOf<std::uint32_t>(tiff, TIFFTAG_TILEWIDTH, 0) : layout.width;
+        height_ = layout.tiled ? tagOf<std::uint32_t>(tiff, TIFFTAG_TILELENGTH, 0)
+                               : std::min(tagOf<std::uint32_t>(tiff, TIFFTAG_ROWSPERSTRIP, layout.height),
+                                          layout.height);
+        samples_ = layout.planes ? 1 : layout.components;
+    }
+
+    // Whether all could be read; `most` bytes for one.
+    bool read(std::uint64_t most) {
+        if (width_ < 1 || height_ < 1 || width_ > limits::image_side || height_ > limits::image_side)
+            return false;
+        const std::uint64_t size = std::uint64_t{width_} * height_ * samples_ * layout_.bytesPerSample();
+        const tmsize_t expected = layout_.tiled ? TIFFTileSize(tiff_) : TIFFStripSize(tiff_);
+        if (size > most || expected < 0 || static_cast<std::uint64_t>(expected) != size) return false;
+        std::vector<unsigned char> piece(size);
+        std::uint32_t number = 0;
+        for (int plane = 0; plane < (layout_.planes ? layout_.components : 1); ++plane)
+            for (std::uint32_t y = 0; y < layout_.height; y += height_)
+                for (std::uint32_t x = 0; x < layout_.width; x += width_, ++number) {
+                    const auto wanted = static_cast<tmsize_t>(
+                        layout_.tiled ? size : size / height_ * std::min(height_, layout_.height - y));
+                    const tmsize_t got = layout_.tiled
+                                             ? TIFFReadEncodedTile(tiff_, number, piece.data(), wanted)
+                                             : TIFFReadEncodedStrip(tiff_, number, piece.data(), wanted);
+                    if (got != wanted) return false;
+                    put(piece.data(), x, y, plane);
+                }
+        return true;
+    }
+
+private:
+    void put(const unsigned char* from, std::uint32_t x0, std::uint32_t y0, int plane) {
+        const bool right =
+            layout_.orientation == ORIENTATION_TOPRIGHT || layout_.orientation == ORIENTATION_BOTRIGHT;
+        const bool bottom =
+            layout_.orientation == ORIENTATION_BOTRIGHT || layout_.orientation == ORIENTATION_BOTLEFT;
+        const bool inverted = layout_.colours == PHOTOMETRIC_MINISWHITE && !isFloat(layout_);
+        const std::size_t step = layout_.bytesPerSample();
+        for (std::uint32_t y = y0; y < std::min(y0 + height_, layout_.height); ++y)
+            for (std::uint32_t x = x0; x < std::min(x0 + width_, layout_.width); ++x)
+                for (std::uint32_t s = 0; s < samples_; ++s) {
+                    const std::size_t pixel = std::size_t{y - y0} * width_ + (x - x0);
+                    const int component = layout_.planes ? plane : static_cast<int>(s);
+                    const float value = valueOf(layout_, from + (pixel * samples_ + s) * step);
+                    image_.at(static_cast<int>(right ? layout_.width - 1 - x : x),
+                              static_cast<int>(bottom ? layout_.height - 1 - y : y), component) =
+                        inverted && component == 0 ? 1 - value : value;
+                }
+    }
+
+    TIFF* tiff_;
+    const TiffLayout& layout_;
+    Image& image_;
+    std::uint32_t width_ = 0, height_ = 0, samples_ = 1;  // of a piece
+};
+
+}  // namespace
+
+bool isTiff(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                                std::min<std::size_t>(bytes.size(), 4));
+    using namespace std::string_view_literals;
+    return text == "II*\0"sv || text == "MM\0*"sv || text == "II+\0"sv || text == "MM\0+"sv;
+}
+
+TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+    return named(name, [&] {
+        TiffBytes file{bytes};
+        const OpenTiff tiff = openTiff(file, most);
+        const auto failToDecode = [&] {
+            fail("is a TIFF that does not decode: " +
+                 (file.error.empty() ? "its pieces have no place" : file.error));
+        };
+        if (!tiff) failToDecode();
+        const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), most);
+        TiffPicture picture;
+        picture.image =
+            Image(static_cast<int>(layout.width), static_cast<int>(layout.height), layout.components);
+        picture.sample = sampleOf(layout);
+        picture.linear = isFloat(layout);
+        if (!Pieces(tiff.get(), layout, picture.image).read(most)) failToDecode();
+        std::uint32_t size = 0;
+        void* profile = nullptr;
+        if (TIFFGetField(tiff.get(), TIFFTAG_ICCPROFILE, &size, &profile) == 1)
+            picture.notes.emplace_back("its colour profile is not applied");
+        if (TIFFLastDirectory(tiff.get()) == 0) picture.notes.emplace_back("its first page alone is read");
+        return picture;
+    });
+}
+
+}  // namespace diptych

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// TIFF 6.0 (Adobe 1992) with the sample formats of its supplements; BigTIFF too. Read with libtiff.
+#pragma once
+
+#include "shared/image/image.h"
+#include "shared/image/limits.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+struct TiffPicture {
+    Image image;          // Y, YA, RGB or RGBA, row 0 on top
+    std::string sample;   // "8 bit", "16 bit", "32 bit", "half" or "float"
+    bool linear = false;  // floats; integers are divided by their largest and count as sRGB-encoded
+    std::vector<std::string> notes{};  // pages and colour profiles that are not read, one line each
+};
+
+// Whether the bytes begin as a TIFF's do.
+bool isTiff(std::span<const std::byte> bytes);
+
+// Reads the first page: grey or RGB, with one alpha or none, of unsigned integers of 8, 16 or 32 bits or of
+// floats of 16 or 32; in strips or tiles, interleaved or by plane; not packed, or by LZW, Deflate or
+// PackBits. Refuses what needs more than `most` bytes decoded. Throws std::runtime_error, one line naming
+// file and fault.
+TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name,
+                     std::uint64_t most = limits::imageBytes());
+
+}  // namespace diptych
