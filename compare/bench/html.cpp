@@ -20,12 +20,15 @@ namespace {
 std::string cell(const std::string& text) {
     return "<td>" + markup(text) + "</td>";
 }
+std::string wholeCell(const std::string& text) {
+    return "<td class=\"whole\">" + markup(text) + "</td>";
+}
 std::string numberCell(const std::string& text) {
     return "<td class=\"n\">" + markup(text) + "</td>";
 }
 
 std::string head(std::initializer_list<std::pair<const char*, bool>> columns) {
-    std::string out = "<div class=\"box scroll rows\"><table><thead><tr>";
+    std::string out = "<div class=\"box scroll rows\"><table class=\"stack\"><thead><tr>";
     for (const auto& [name, isNumber] : columns)
         out += fmt::format("<th{}>{}</th>", isNumber ? " class=\"n\"" : "", markup(name));
     return out + "</tr></thead>\n<tbody>";
@@ -64,8 +67,8 @@ std::string rows(const Bench& bench) {
                numberCell(msText(row.time.median)) + numberCell(msText(row.time.min)) +
                numberCell(msText(row.time.max)) + numberCell(fmt::format("{:.3g}", assignMs(row))) +
                numberCell(fmt::format("{:.1f} %", 100 * assignShare(row))) +
-               numberCell(bytes(row.bytes.images + row.bytes.buffers)) + cell(passes) +
-               cell(fmt::format("{}", fmt::join(ownNotes(row, common), "; "))) + "</tr>\n";
+               numberCell(bytes(row.bytes.images + row.bytes.buffers)) + wholeCell(passes) +
+               wholeCell(fmt::format("{}", fmt::join(ownNotes(row, common), "; "))) + "</tr>\n";
     }
     out += "</tbody></table></div>\n";
     if (hasAnotherPicture(bench)) out += fmt::format("<p class=\"soft\">{}</p>\n", starMeans);
@@ -100,7 +103,7 @@ std::string kernels(const Bench& bench) {
             report.runs, report.threads) +
         head({{"kernel", false}, {"ns", true}, {"over the CPU's", true}, {"goal", true}});
     for (const KernelRow& row : report.rows)
-        out += "<tr>" + cell(row.name) + numberCell(fmt::format("{:.3f}", row.ns)) +
+        out += "<tr>" + wholeCell(row.name) + numberCell(fmt::format("{:.3f}", row.ns)) +
                numberCell(row.ratio ? fmt::format("{:.2f}", *row.ratio) : "") +
                numberCell(row.goal ? fmt::format("at most {:.1f}", *row.goal) : "") + "</tr>\n";
     out += "</tbody></table></div>\n";
@@ -133,14 +136,15 @@ std::string benchHtml(const Bench& bench) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: times, {0}</title>\n"
-        "<style>{1}{2}{3}</style></head>\n<body>\n<header><p class=\"brand\">Diptych</p><h1>Times side by "
+        "<style>{1}{2}{3}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
+        "table</a><header><p class=\"brand\">Diptych</p><h1>Times side by "
         "side: {0}</h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
-        "{8}{9}{10}{11}{12}{13}</body></html>\n",
+        "{8}{9}<div id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
         markup(bench.scene), page::style, plotStyle, benchStyle, bench.rows.size(), bench.runs,
         markup(bench.device.name), markup(bench.device.driver), conclusions(bench),
         bench.rows.empty() ? ""
                            : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
-        rows(bench), kernels(bench), skips(bench), how(bench));
+        rows(bench), kernels(bench), skips(bench), how(bench), page::tables);
 }
 
 }  // namespace diptych::bench

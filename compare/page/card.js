@@ -29,7 +29,8 @@ class Card {
     this.zoom = 1;
     this.x = this.y = 0;   // where the picture's corner is, of its width and height; 0 or less
     this.worst = -1;       // which of the worst pixels is shown
-    this.pixel = null;
+    this.pixel = null;     // that the values are of
+    this.pinned = null;    // the one that was clicked or led to: the address has it
   }
 
   // left, right, wipe, side or flicker
@@ -50,6 +51,7 @@ class Card {
       button.classList.toggle('on', button.dataset.show === mode);
       button.setAttribute('aria-pressed', button.dataset.show === mode);
     }
+    remember(this);
   }
   wipeTo(at) {
     this.pair.style.setProperty('--w', at + '%');
@@ -58,9 +60,8 @@ class Card {
 
   // Zooms so that what was at (fromX, fromY) of the panel comes to (fx, fy); a pixel grows to 48 of the screen's.
   zoomTo(zoom, fx = 0.5, fy = 0.5, fromX = fx, fromY = fy) {
-    const most = Math.max(1, 48 * this.width / Math.max(this.panels[0].clientWidth, 1));
     const u = fromX / this.zoom - this.x, v = fromY / this.zoom - this.y;
-    this.zoom = clamp(zoom, 1, most);
+    this.zoom = clamp(zoom, 1, this.mostZoom());
     this.moveTo(fx / this.zoom - u, fy / this.zoom - v);
   }
   moveTo(x, y) {
@@ -70,7 +71,14 @@ class Card {
       this.element.style.setProperty(name, value);
     this.element.classList.toggle('zoomed', this.zoom > 1);
     this.panels.forEach(panel => this.sharpen(panel));
+    remember(this);
   }
+  // The corner that brings pixel (x, y) to the middle, as far as the picture reaches.
+  corner(x, y) {
+    const along = (at, size) => clamp(0.5 / this.zoom - (at + 0.5) / size, 1 / this.zoom - 1, 0);
+    return [along(x, this.width), along(y, this.height)];
+  }
+  centre(x, y) { this.moveTo(...this.corner(x, y)); }
   // Shows a pixel as a square once it is larger than a pixel of the screen.
   sharpen(panel) {
     panel.classList.toggle('enlarged', panel.clientWidth * this.zoom > this.width);
@@ -94,11 +102,18 @@ class Card {
     this.element.style.setProperty('--v', (this.pixel[1] + 0.5) / this.height);
     this.read();
   }
+  mostZoom() { return Math.max(1, 48 * this.width / Math.max(this.panels[0].clientWidth, 1)); }
   // 24 pixels across, with this one in the middle.
+  lookZoom() { return clamp(this.width / 24, 1, this.mostZoom()); }
+  looksAt(x, y) {
+    const [left, top] = this.corner(x, y);
+    return Math.abs(this.zoom - this.lookZoom()) < 1e-6 && Math.abs(this.x - left) < 1e-6 && Math.abs(this.y - top) < 1e-6;
+  }
   look(x, y) {
-    this.zoomTo(this.width / 24);
-    this.moveTo(0.5 / this.zoom - (x + 0.5) / this.width, 0.5 / this.zoom - (y + 0.5) / this.height);
+    this.zoomTo(this.lookZoom());
+    this.centre(x, y);
     this.pointAt(x, y);
+    this.pinned = this.pixel;
   }
   step(by) {
     const links = [...this.element.querySelectorAll('[data-pixel]')];

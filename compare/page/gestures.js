@@ -18,6 +18,8 @@ addEventListener('pointerdown', event => {
   pointers.set(event.pointerId, event);
   if (event.isTrusted) panel.setPointerCapture(event.pointerId);  // a drag may leave the window
   card.point(panel, event);
+  card.pinned = card.pixel;
+  remember(card);
   (card.slider || panel).focus({ preventScroll: true });
   if (pointers.size === 2) {
     drag = { card, panel, kind: 'pinch', last: spread() };
@@ -92,13 +94,14 @@ addEventListener('click', event => {
   if (link && card && !event.ctrlKey && !event.metaKey) {
     event.preventDefault();
     current = card;
-    history.replaceState(null, '', link.href);
     card.worst = [...card.element.querySelectorAll('[data-pixel]')].indexOf(link) - 1;
     card.step(1);
     card.element.querySelector('.pictures').scrollIntoView({ block: 'nearest' });
   }
+  const opened = event.target.closest('.card:not([open]) > summary');
+  if (card && (button || opened)) current = card;
+  if (card && opened) remember(card);
   if (!button) return;
-  if (card) current = card;
   if (button.dataset.show) card.show(button.dataset.show, button.dataset.show === 'wipe' ? 50 : undefined);
   else if (button.dataset.do === 'copy') copy(button);
   else if (button.dataset.do) actions[button.dataset.do](card);

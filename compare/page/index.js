@@ -4,7 +4,9 @@
 const arriving = new Map();  // comparison -> what to do once its section is there
 
 window.diptychSection = (index, html) => {
-  document.getElementById('sections').insertAdjacentHTML('beforeend', html);
+  const sections = document.getElementById('sections');
+  sections.insertAdjacentHTML('beforeend', html);
+  prepare(sections.lastElementChild);
   for (const then of arriving.get(index) || []) then();
   arriving.delete(index);
 };
@@ -18,22 +20,6 @@ function fetchSection(index, then) {
   else if (line.dataset.section) addScript(line.dataset.section, () => { line.title = line.dataset.section + ' is not beside this page'; });
 }
 
-// Where the address leads: "#c0-lit" or "#c0-lit@247,89", a pixel of it.
-function arrive() {
-  const [, id, x, y] = location.hash.match(/^#?(.*?)(?:@(\d+),(\d+))?$/);
-  const element = document.getElementById(id), comparison = /^(?:c|s|eye-)(\d+)/.exec(id);
-  if (!element && comparison)
-    return fetchSection(+comparison[1], () => { if (document.getElementById(id)) location.replace(location.href), arrive(); });
-  if (!element) return;
-  const card = element.matches('.card') && cardOf(element);
-  if (card) {
-    current = card;
-    element.open = true;
-    if (x !== undefined) card.look(+x, +y);
-  }
-  if (card && x !== undefined || comparison) element.scrollIntoView({ behavior: 'instant' });
-}
-addEventListener('hashchange', arrive);
 arrive();
 
 const index = document.querySelector('.index');

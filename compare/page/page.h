@@ -5,6 +5,7 @@
 namespace diptych::page {
 
 extern const char* const style;
-extern const char* const script;
+extern const char* const tables;  // of every page that has a table or a plot; before its other scripts
+extern const char* const script;  // of a report's page
 
 }  // namespace diptych::page

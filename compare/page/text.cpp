@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -62,12 +63,44 @@ std::string number(double value) {
     return fmt::format("{:.3g}", value);
 }
 
+std::string percent(double share) {
+    return number(100 * share) + " %";
+}
+
 std::string bytes(std::uint64_t count) {
     if (count < 1024) return fmt::format("{} B", count);
     double value = static_cast<double>(count);
     std::size_t unit = 0;
     for (; value >= 1024 && unit < 4; ++unit) value /= 1024;
     return fmt::format("{:.4g} {}iB", value, " KMGT"[unit]);
+}
+
+std::string commonFolder(const std::vector<std::string>& paths) {
+    const std::string* first = nullptr;
+    std::size_t length = 0;
+    for (const std::string& path : paths) {
+        if (path.find(':') < path.find('/')) continue;
+        const std::size_t folder = path.rfind('/') + 1;
+        if (!first) length = folder;
+        if (!first) first = &path;
+        length = std::min(length, folder);
+        while (length > 0 && path.compare(0, length, *first, 0, length) != 0)
+            length = length < 2 ? 0 : path.rfind('/', length - 2) + 1;
+    }
+    return first ? first->substr(0, length) : "";
+}
+
+std::string inFolder(std::string_view path, std::string_view folder) {
+    return std::string(path.starts_with(folder) ? path.substr(folder.size()) : path);
+}
+
+std::string breakable(std::string_view name) {
+    std::string out;
+    for (const char& c : markup(name)) {
+        out += c;
+        if (c == '_') out += "<wbr>";
+    }
+    return out;
 }
 
 const char* unitOf(const DebugMode& mode) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace diptych::page {
 
@@ -16,9 +17,20 @@ namespace diptych::page {
 std::string markup(std::string_view text);
 
 std::string number(double value);        // three digits: "0.0123", "1.2e-07", "inf"
+std::string percent(double share);       // "2.31 %"
 std::string bytes(std::uint64_t count);  // "1.25 MiB"
 
 const char* unitOf(const DebugMode& mode);  // unit of the channel's errors: a degree sign or empty
+
+// The folders that all of `paths` are in, with a slash at the end; of a single path all of its own. What
+// begins with a word and a colon ("builtin:gallery") is no path and does not count.
+std::string commonFolder(const std::vector<std::string>& paths);
+
+// `path` without `folder`: "c/Box.glb" of "/a/b/c/Box.glb" in "/a/b/".
+std::string inFolder(std::string_view path, std::string_view folder);
+
+// A name that may be broken into lines after its underscores, escaped.
+std::string breakable(std::string_view name);
 
 // The camera's name, else --camera as given, else "default view".
 std::string cameraTitle(const Frame& frame);

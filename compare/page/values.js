@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page's own script, in the order values, card, gestures, index. It works from file://: whatever it loads is a
-// picture, or a script beside the page.
-'use strict';
+// The script of a report's page, in the order tables, values, card, gestures, address, index. It works from file://:
+// whatever it loads is a picture, or a script beside the page.
 
 // ---- The values behind the pictures: compare/report/values.h says how they are stored.
 

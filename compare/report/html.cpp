@@ -14,24 +14,27 @@
 
 namespace diptych {
 
+using page::breakable;
 using page::cameraTitle;
+using page::inFolder;
 using page::markup;
 using page::number;
 
 namespace {
 
-std::string titleOf(const Report& report, const Comparison& comparison) {
+std::string titleOf(const Report& report, const ReportLayout& layout, const Comparison& comparison) {
     if (report.device.name.empty())  // two files
-        return report.test(comparison).origin.file + " against " + report.baseline(comparison).origin.file;
+        return inFolder(report.test(comparison).origin.file, layout.folder) + " against " +
+               inFolder(report.baseline(comparison).origin.file, layout.folder);
     const Frame& left = report.baseline(comparison);
     const Frame& frame = left.origin.file.empty() ? left : report.test(comparison);
-    std::string title = fmt::format("{} \u00b7 {}", frame.scene, cameraTitle(frame));
+    std::string title = fmt::format("{} \u00b7 {}", inFolder(frame.scene, layout.folder), cameraTitle(frame));
     // Several comparisons of one scene and camera are told apart by their pair.
     if (hasSeveralPairs(report)) title += " \u00b7 " + pairTitle(report, comparison);
     return title;
 }
 
-std::string header(const Report& report) {
+std::string header(const Report& report, const ReportLayout& layout) {
     const char* verdict = report.passed() ? "pass" : "fail";
     const std::size_t count = report.comparisons.size();
     const std::string title =
@@ -39,7 +42,7 @@ std::string header(const Report& report) {
     std::string drawn;
     if (count == 1) {
         const Frame& frame = report.baseline(report.comparisons[0]);
-        drawn = fmt::format("{} \u00b7 {}\u00d7{}", titleOf(report, report.comparisons[0]),
+        drawn = fmt::format("{} \u00b7 {}\u00d7{}", titleOf(report, layout, report.comparisons[0]),
                             frame.settings.size.width, frame.settings.size.height);
         if (!report.device.name.empty())
             drawn += fmt::format(" \u00b7 {} G-buffer \u00b7 ", nameOf(frame.settings.gbuffer));
@@ -59,8 +62,8 @@ std::string listBox(const char* style, const char* heading, const std::string& i
 }
 
 // "builtin:gallery \u00b7 entrance: ", where there are others.
-std::string whereOf(const Report& report, const Comparison& comparison) {
-    return report.comparisons.size() > 1 ? markup(titleOf(report, comparison)) + ": " : "";
+std::string whereOf(const Report& report, const ReportLayout& layout, const Comparison& comparison) {
+    return report.comparisons.size() > 1 ? markup(titleOf(report, layout, comparison)) + ": " : "";
 }
 
 // The first of `items` as a list; if there are more, their number and where to find them.
@@ -84,7 +87,7 @@ std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
     for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
-        const std::string where = whereOf(report, comparison);
+        const std::string where = whereOf(report, layout, comparison);
         for (const std::string& failure : comparison.failures) items.push_back(where + markup(failure));
         for (const ChannelDiff& channel : comparison.channels)
             if (channel.verdict == Verdict::fail)
@@ -102,8 +105,8 @@ std::string warnings(const Report& report, const ReportLayout& layout) {
         for (const ChannelDiff& channel : report.comparisons[i].channels)
             if (!channel.warning.empty())
                 items.push_back(fmt::format("{}<a href=\"#c{}-{}\">{}</a>: {}",
-                                            whereOf(report, report.comparisons[i]), i, channel.mode->name,
-                                            channel.mode->name, markup(channel.warning)));
+                                            whereOf(report, layout, report.comparisons[i]), i,
+                                            channel.mode->name, channel.mode->name, markup(channel.warning)));
     return listBox("notes", "Warnings", firstOf(items, "report.json has all of them"));
 }
 
@@ -130,7 +133,7 @@ std::string checksLinks(const Report& report, const ReportLayout& layout) {
         if (line.empty()) continue;
         const std::size_t colon = line.find(':');
         items.push_back(fmt::format("{}<a href=\"#eye-{}\">{}</a><span class=\"soft\">{}</span>",
-                                    whereOf(report, comparison), i, markup(line.substr(0, colon)),
+                                    whereOf(report, layout, comparison), i, markup(line.substr(0, colon)),
                                     markup(line.substr(colon))));
     }
     return listBox("notes", "Both paths may be wrong alike", firstOf(items, "each comparison lists its own"));
@@ -154,37 +157,74 @@ std::string usedText(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("<span class=\"soft\">the encoding leaves {} pixels unexplained</span>",
                            *channel.unexplained_pixels);
-    if (!channel.rule.empty()) return fmt::format("<span class=\"soft\">{}</span>", markup(channel.rule));
+    if (!channel.rule.empty())
+        return fmt::format("<span class=\"soft wide\">{}</span>", markup(channel.rule));
     const double share = std::min(usedShare(channel), 1.0);
     return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
                        nameOf(channel.verdict), 100 * share);
 }
 
-std::string overview(const Comparison& comparison, std::size_t index) {
-    std::string out =
-        "<div class=\"box scroll\"><table><tr><th>channel</th><th class=\"optional\">metric</th><th "
-        "class=\"n\">max</th>"
-        "<th class=\"n optional\">mean</th><th class=\"n optional\">p99.9</th><th class=\"n\">tolerance</th>"
-        "<th class=\"optional\">max of tolerance</th><th>verdict</th></tr>";
+// The figure that the limit is on: the largest error, or that which all but a thousandth of the pixels hold.
+const char* judgedFigure(const ChannelDiff& channel) {
+    return channel.tolerance.most_pixels ? "p99.9" : "max";
+}
+
+// What a channel's errors are held to: a number and the figure that it is on, or where else it comes from.
+std::string limitCells(const ChannelDiff& channel) {
+    const bool judgedByPixel = channel.unexplained_pixels.has_value() || channel.footprints.has_value();
+    const std::string limit = std::isfinite(channel.tolerance.max) ? number(channel.tolerance.max) : "rule";
+    const char* const on = !channel.rule.empty() ? "rule" : judgedByPixel ? "pixel" : judgedFigure(channel);
+    return fmt::format("<td class=\"n\">{}</td><td class=\"soft\">{}</td>", limit, on);
+}
+
+// Of a channel that fails: the share of the pixels that do.
+std::string beyondText(const Comparison& comparison, const ChannelDiff& channel,
+                       const ChannelPictures& pictures) {
+    if (channel.verdict != Verdict::fail || comparison.coverage.count == 0) return {};
+    const std::uint64_t pixels = channel.unexplained_pixels.value_or(pictures.beyond);
+    if (pixels == 0) return {};
+    return fmt::format(
+        "<span class=\"beyond\">{} of the pixels</span>",
+        page::percent(static_cast<double>(pixels) / static_cast<double>(comparison.coverage.count)));
+}
+
+std::string overview(const Comparison& comparison, const ReportLayout& layout, std::size_t index) {
+    const bool byMost = std::ranges::any_of(comparison.channels,
+                                            [](const ChannelDiff& c) { return c.tolerance.most_pixels; });
+    const std::string max = byMost ? " optional" : "", p999 = byMost ? "" : " optional";
+    std::string out = fmt::format(
+        "<div class=\"box scroll\"><table class=\"overview\"><thead><tr><th>channel</th><th "
+        "class=\"optional\">metric</th><th class=\"n{}\">max</th><th class=\"n optional\">mean</th><th "
+        "class=\"n{}\">p99.9</th><th class=\"n\">limit</th><th>on</th><th class=\"optional\">used of it</th>"
+        "<th>verdict</th></tr></thead>\n<tbody>",
+        max, p999);
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
+        const std::string name = markup(channel->mode->name);
         out += fmt::format("<tr><td><a href=\"#c{}-{}\">{}</a></td><td class=\"optional soft\">{}</td>",
-                           index, channel->mode->name, channel->mode->name, nameOf(channel->mode->metric));
+                           index, name, breakable(channel->mode->name), nameOf(channel->mode->metric));
         if (channel->verdict == Verdict::forward_only)
-            out +=
-                "<td class=\"n\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
-                "optional\">\u2013</td>"
-                "<td class=\"n\">\u2013</td><td class=\"optional\"></td>";
+            out += fmt::format(
+                "<td class=\"n{}\">\u2013</td><td class=\"n optional\">\u2013</td><td "
+                "class=\"n{}\">\u2013</td><td class=\"n\">\u2013</td><td></td><td class=\"optional\"></td>",
+                max, p999);
         else
             out += fmt::format(
-                "<td class=\"n\">{}</td><td class=\"n optional\">{}</td><td class=\"n optional\">{}</td>"
-                "<td class=\"n\">{}</td><td class=\"optional\">{}</td>",
-                number(s.max), number(s.mean), number(s.p999),
-                std::isfinite(channel->tolerance.max) ? number(channel->tolerance.max) : "rule",
+                "<td class=\"n{}\">{}</td><td class=\"n optional\">{}</td><td class=\"n{}\">{}</td>{}<td "
+                "class=\"optional\">{}</td>",
+                max, number(s.max), number(s.mean), p999, number(s.p999), limitCells(*channel),
                 usedText(*channel));
-        out += fmt::format("<td><span class=\"verdict {0}\">{0}</span></td></tr>", nameOf(channel->verdict));
+        const auto which = static_cast<std::size_t>(channel - comparison.channels.data());
+        out +=
+            fmt::format("<td><span class=\"verdict {0}\">{0}</span>{1}</td></tr>\n", nameOf(channel->verdict),
+                        beyondText(comparison, *channel, layout.pictures[index][which]));
     }
-    return out + "</table></div>\n";
+    return out +
+           "</tbody></table><p class=\"soft small\">A limit is on the largest error (max), on the one that "
+           "999 of "
+           "1000 pixels stay below (p99.9), or on each pixel by itself (pixel): then the largest is "
+           "named.</p>"
+           "</div>\n";
 }
 
 std::string footer(const Report& report, const ReportLayout& layout) {
@@ -213,8 +253,8 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
     const Comparison& comparison = report.comparisons[index];
     const bool several = report.comparisons.size() > 1;
     return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", index,
-                       several ? markup(titleOf(report, comparison)) : "Channels") +
-           overview(comparison, index) + channelCards(report, layout, index) +
+                       several ? markup(titleOf(report, layout, comparison)) : "Channels") +
+           overview(comparison, layout, index) + channelCards(report, layout, index) +
            checksSection(report, layout, index) + "<h2>What was compared</h2>\n" +
            frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
 }
@@ -232,7 +272,7 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 }  // namespace
 
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
-    std::string body = header(report) + firstNotes(report) + failures(report, layout) +
+    std::string body = header(report, layout) + firstNotes(report) + failures(report, layout) +
                        warnings(report, layout) + notes(report) + checksLinks(report, layout) +
                        closerPathSection(report, layout) + indexTable(report, layout) + legend +
                        "<div id=\"sections\">\n";
@@ -242,8 +282,9 @@ std::string reportHtml(const Report& report, const ReportLayout& layout) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: {}</title>\n<style>{}</style>"
-        "</head>\n<body>\n{}{}<script>{}</script>\n</body></html>\n",
-        markup(verdictLine(report)), page::style, body, footer(report, layout), page::script);
+        "</head>\n<body>\n<a class=\"skip\" href=\"#sections\">Skip to the "
+        "channels</a>{}{}<script>{}{}</script>\n</body></html>\n",
+        markup(verdictLine(report)), page::style, body, footer(report, layout), page::tables, page::script);
 }
 
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index) {

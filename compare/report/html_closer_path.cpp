@@ -93,8 +93,9 @@ std::string closerPathSection(const Report& report, const ReportLayout& layout) 
         const Frame& reference = report.frames[closer.reference];
         out += "<section class=\"box closer\">\n";
         if (report.closer_paths.size() > 1)
-            out += fmt::format("<h3>{} \u00b7 {}</h3>\n", markup(reference.scene),
-                               markup(cameraTitle(reference)));
+            out +=
+                fmt::format("<h3>{} \u00b7 {}</h3>\n", markup(page::inFolder(reference.scene, layout.folder)),
+                            markup(cameraTitle(reference)));
         std::string lines;
         for (const CloserPathChannel& channel : closer.channels)
             lines += "<li>" + markup(closerPathLine(closer, channel, report.frames)) + "</li>";

@@ -111,11 +111,12 @@ std::string camera(const Frame& frame) {
     const std::string lens =
         c.fov_degrees > 0 ? fmt::format("{:.4g}\u00b0 vertical", c.fov_degrees) : "orthographic";
     return fmt::format(
-        "<p class=\"soft camera\">Camera {}{}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, {:.5g}; "
-        "{}; "
+        "<p class=\"soft camera\">Scene {}. Camera {}{}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, "
+        "{:.5g}; {}; "
         "near {:.4g}, far {:.4g} m</p>\n",
-        markup(cameraTitle(frame)), c.choice.empty() ? "" : fmt::format(" ({})", markup(c.choice)), c.eye[0],
-        c.eye[1], c.eye[2], c.target[0], c.target[1], c.target[2], lens, c.near, c.far);
+        markup(frame.scene), markup(cameraTitle(frame)),
+        c.choice.empty() ? "" : fmt::format(" ({})", markup(c.choice)), c.eye[0], c.eye[1], c.eye[2],
+        c.target[0], c.target[1], c.target[2], lens, c.near, c.far);
 }
 
 // The files of pictures that were not drawn in this run.

@@ -64,11 +64,12 @@ std::string line(const Report& report, const ReportLayout& layout, std::size_t i
     const std::string& file = layout.sections[index];
     return fmt::format(
         "<tr data-comparison=\"{0}\"{1}><td><span class=\"verdict {2}\">{2}</span></td><td class=\"wide\"><a "
-        "href=\"#s{0}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}{8}</tr>\n",
+        "href=\"#s{0}\" title=\"{9}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}{8}</tr>\n",
         index, file.empty() ? "" : fmt::format(" data-section=\"{}\"", markup(file)), verdict,
-        markup(left.scene),
+        markup(page::inFolder(left.scene, layout.folder)),
         markup(hasSeveralPairs(report) ? pairTitle(report, comparison) : cameraTitle(left)),
-        worstCell(comparison, index), litCell(comparison), timeCell(left), timeCell(right));
+        worstCell(comparison, index), litCell(comparison), timeCell(left), timeCell(right),
+        markup(left.scene));
 }
 
 }  // namespace
@@ -78,19 +79,25 @@ std::string indexTable(const Report& report, const ReportLayout& layout) {
     std::string lines;
     for (const std::size_t i : layout.order) lines += line(report, layout, i);
     const Comparison& first = report.comparisons[0];
+    const bool pairs = hasSeveralPairs(report);
+    std::string heads;
+    for (const auto& [name, isNumber] : {std::pair<std::string, bool>{"verdict", false},
+                                         {"scene", false},
+                                         {pairs ? "pair" : "camera", false},
+                                         {"worst channel", false},
+                                         {"of its limit", true},
+                                         {"lit max", true},
+                                         {(pairs ? "left" : report.baseline(first).name) + ", ms", true},
+                                         {(pairs ? "right" : report.test(first).name) + ", ms", true}})
+        heads += fmt::format("<th{}><button type=\"button\">{}</button></th>",
+                             isNumber ? " class=\"n optional\"" : "", markup(name));
     return fmt::format(
         "<section class=\"index\"><h2>Comparisons <span class=\"shown soft\"></span></h2>"
         "<p><input type=\"search\" placeholder=\"filter: scene, camera, channel, fail\" "
         "aria-label=\"filter\"></p>"
-        "<div class=\"box scroll\"><table><thead><tr><th>verdict</th><th>scene</th><th>{}</th>"
-        "<th>worst channel</th><th class=\"n optional\">of tolerance</th><th class=\"n optional\">lit "
-        "max</th>"
-        "<th class=\"n optional\">{}, ms</th><th class=\"n optional\">{}, "
-        "ms</th></tr></thead>\n<tbody>{}</tbody>"
+        "<div class=\"box scroll\"><table><thead><tr>{}</tr></thead>\n<tbody>{}</tbody>"
         "</table></div></section>\n",
-        hasSeveralPairs(report) ? "pair" : "camera",
-        hasSeveralPairs(report) ? "left" : markup(report.baseline(first).name),
-        hasSeveralPairs(report) ? "right" : markup(report.test(first).name), lines);
+        heads, lines);
 }
 
 }  // namespace diptych

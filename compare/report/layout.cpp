@@ -97,6 +97,7 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
     ReportLayout layout;
     layout.single_file = options.single_file;
     layout.keep = options.keep;
+    layout.folder = folderOfAll(report);
     layout.order = failingFirst(report);
     std::vector<std::size_t> places(layout.order.size());
     for (std::size_t i = 0; i < places.size(); ++i) places[layout.order[i]] = i;

@@ -25,6 +25,7 @@ struct ChannelPictures {
     // Of the difference; filled in by the writer of its picture.
     ErrorHistogram histogram;
     std::vector<WorstPixel> worst;
+    std::uint64_t beyond = 0;  // covered pixels whose error exceeds the tolerance
 };
 inline constexpr std::size_t worstShown = 10;
 inline constexpr int worstApart = 8;  // pixels
@@ -39,6 +40,7 @@ struct ReportLayout {
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
     // A picture's name per Report::closer_paths and channel of it.
     std::vector<std::vector<std::string>> closer_paths;
+    std::string folder;                           // of all scenes: names in the page leave it out
     std::vector<std::size_t> order;               // the comparisons as the page shows them
     std::vector<std::string> sections;            // per comparison: its file, where it has one
     std::map<std::string, std::string> embedded;  // --single-file: picture -> data URI

@@ -17,6 +17,13 @@ std::string pairTitle(const Report& report, const Comparison& comparison) {
     return fmt::format("{} against {}", report.test(comparison).name, report.baseline(comparison).name);
 }
 
+std::string folderOfAll(const Report& report) {
+    std::vector<std::string> paths;
+    const bool files = report.device.name.empty();  // diff draws nothing
+    for (const Frame& frame : report.frames) paths.push_back(files ? frame.origin.file : frame.scene);
+    return page::commonFolder(paths);
+}
+
 std::vector<std::size_t> failingFirst(const Report& report) {
     std::vector<std::size_t> order(report.comparisons.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -16,6 +16,9 @@ bool hasSeveralPairs(const Report& report);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);
 
+// The folder that all scenes are in, or the two files that diff compared: pages leave it out.
+std::string folderOfAll(const Report& report);
+
 // The numbers of the comparisons, failing ones first.
 std::vector<std::size_t> failingFirst(const Report& report);
 

@@ -124,7 +124,8 @@ std::string numberCell(double value, const std::string& text) {
 
 std::string table(const Tradeoff& tradeoff) {
     std::string out =
-        "<h2>Every row</h2>\n<div class=\"box scroll rows\"><table><thead><tr><th><button "
+        "<h2>Every row</h2>\n<div class=\"box scroll rows\" id=\"rows\"><table "
+        "class=\"stack\"><thead><tr><th><button "
         "type=\"button\">row</button>"
         "</th><th><button type=\"button\">settings</button></th>";
     std::vector<std::string> heads{"ms", "least", "most"};
@@ -139,9 +140,9 @@ std::string table(const Tradeoff& tradeoff) {
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         const Spread time = timeOf(row);
-        out +=
-            fmt::format("<tr data-row=\"{0}\"><td>{0}</td><td><i class=\"swatch {1}\"></i>{2}</td>", i + 1,
-                        nameOf(row.settings.path), markup(inWords(choicesOf(row.settings, tradeoff.given))));
+        out += fmt::format(
+            "<tr data-row=\"{0}\"><td>{0}</td><td class=\"whole\"><i class=\"swatch {1}\"></i>{2}</td>",
+            i + 1, nameOf(row.settings.path), markup(inWords(choicesOf(row.settings, tradeoff.given))));
         for (const double ms : {time.value, time.low, time.high})
             out += numberCell(ms, fmt::format("{:.4g}", ms));
         std::vector<std::string> fronts;
@@ -151,7 +152,7 @@ std::string table(const Tradeoff& tradeoff) {
         }
         out += numberCell(static_cast<double>(memoryOf(row)), bytes(memoryOf(row)));
         out += fmt::format(
-            "<td>{}</td><td><span class=\"again\"><code>{}</code><button type=\"button\" "
+            "<td>{}</td><td class=\"whole\"><span class=\"again\"><code>{}</code><button type=\"button\" "
             "data-do=\"copy\">copy</button></span></td></tr>\n",
             markup(fmt::format("{}", fmt::join(fronts, ", "))), markup(measuringCommand(tradeoff, row)));
     }
@@ -204,9 +205,10 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, {}</title>\n"
-        "<style>{}{}{}</style></head>\n<body>\n{}{}{}{}{}{}<script>{}</script>\n</body></html>\n",
+        "<style>{}{}{}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
+        "table</a>{}{}{}{}{}{}<script>{}{}</script>\n</body></html>\n",
         markup(tradeoff.scene), page::style, plotStyle, tradeoffStyle, header(tradeoff), switches(),
-        plots(tradeoff), table(tradeoff), skips(tradeoff), how(tradeoff), tradeoffScript);
+        plots(tradeoff), table(tradeoff), skips(tradeoff), how(tradeoff), page::tables, tradeoffScript);
 }
 
 }  // namespace diptych::tradeoff

@@ -26,14 +26,16 @@ struct Visit {
 
 // Opens a copy of `page`, beside it, that ends in `script`, and waits until the script has called
 // tell(value). In it, wait(ms) and until(condition) are promises, and $ and $$ find elements. `hash`: what
-// follows the page's name. The window is `width` pixels wide.
+// follows the page's name. The page is `width` pixels wide: Chromium's window is at least 500, and a narrower
+// page stands in a frame of that width, for which media queries and lengths of the view hold as on a phone.
 inline Visit visit(const Folder& scratch, const fs::path& page, const std::string& script,
                    const std::string& hash = "", int width = 1200, const std::string& flags = "") {
     static const std::string tools = R"(
 const $ = s => document.querySelector(s), $$ = s => [...document.querySelectorAll(s)];
 const wait = ms => new Promise(done => setTimeout(done, ms));
 const until = async condition => { for (let i = 0; i < 200 && !condition(); ++i) await wait(20); return condition(); };
-const tell = value => { const out = document.createElement('pre'); out.id = 'told'; out.textContent = 'TOLD' + JSON.stringify(value) + 'END'; document.body.append(out); };
+const tell = value => { if (parent !== window) return parent.postMessage(value, '*'); show(value); };
+const show = value => { const out = document.createElement('pre'); out.id = 'told'; out.textContent = 'TOLD' + JSON.stringify(value) + 'END'; document.body.append(out); };
 const key = (name, more = {}) => (document.activeElement || document.body).dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true, cancelable: true, ...more }));
 // A pointer at a part of an element, 0 to 1 from its left and top.
 const at = (element, x, y) => { const box = element.getBoundingClientRect(); return { clientX: box.left + x * box.width, clientY: box.top + y * box.height }; };
@@ -46,6 +48,11 @@ const pointer = (type, element, x, y, more = {}) => element.dispatchEvent(new Po
     text.insert(text.rfind("</body>"), own);
     const fs::path copy = page.parent_path() / "visited.html";
     std::ofstream(copy, std::ios::binary) << text;
+    const fs::path frame = page.parent_path() / "frame.html";
+    if (width < 500)
+        std::ofstream(frame) << "<!doctype html><body style=margin:0><script>" << tools
+                             << "onmessage = event => show(event.data);</script><iframe style=border:0 width="
+                             << width << " height=900 src='visited.html" << hash << "'></iframe></body>";
     const Ran ran =
         runShell(scratch,
                  "timeout 120 " + browser() +
@@ -53,9 +60,10 @@ const pointer = (type, element, x, y, more = {}) => element.dispatchEvent(new Po
                      "--user-data-dir='" + (scratch / "profile").string() +
                      "' --window-size=" + std::to_string(width) +
                      ",900 --virtual-time-budget=20000 --enable-logging=stderr --v=0 " + flags +
-                     " --dump-dom 'file://" + copy.string() + hash + "'",
+                     " --dump-dom 'file://" + (width < 500 ? frame.string() : copy.string() + hash) + "'",
                  scratch.path());
     fs::remove(copy);
+    fs::remove(frame);
     Visit visit;
     visit.dom = ran.out;
     for (std::size_t from = 0; from < ran.err.size();) {

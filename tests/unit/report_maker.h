@@ -84,6 +84,6 @@ inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<Featur
     return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, std::move(checks));
 }
 // Elements that HTML closes by itself.
-inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br"};
+inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br", "wbr"};
 
 }  // namespace diptych

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// After compare/page/tables.js.
 const $ = (selector, from = document) => from.querySelector(selector);
 const $$ = (selector, from = document) => [...from.querySelectorAll(selector)];
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+'use strict';
+
+// ---- Tables: decimal points one below the other, and cells that know their column's head, which stands beside them where
+// a narrow page shows a row as a list.
+
+const plainNumber = /^-?\d+(\.\d+)?(e[+-]?\d+)?( ?(%|[KMGT]?i?B|\u00b0))?$/;
+const fraction = text => text.length - (text.match(/^-?\d+/)?.[0].length ?? text.length);
+
+function prepareTable(table) {
+  const heads = [...table.querySelectorAll('thead th, tr:first-child th')].map(head => head.textContent);
+  const columns = [];
+  for (const row of table.rows) {
+    let column = 0;
+    for (const cell of row.cells) {
+      if (cell.matches('td')) {
+        if (heads[column]) cell.dataset.head = heads[column];
+        if (cell.matches('.n') && plainNumber.test(cell.textContent)) (columns[column] ??= []).push(cell);
+      }
+      column += cell.colSpan;
+    }
+  }
+  for (const cells of columns.filter(Boolean)) {
+    const widths = cells.map(cell => fraction(cell.textContent)), most = Math.max(...widths);
+    const pad = i => Object.assign(document.createElement('span'), { className: 'pad', textContent: '\u00a0'.repeat(most - widths[i]) });
+    cells.forEach((cell, i) => { if (widths[i] < most) cell.append(pad(i)); });
+  }
+}
+
+// ---- One tab stop for a table, a list, a row of buttons or a plot; arrows move inside.
+
+const groups = 'table, .buttons, .worst ol, svg.chart';
+const stops = 'a[href], button, .point[tabindex]';
+const stopsOf = group => [...group.querySelectorAll(stops)];
+
+function prepare(root) {
+  root.querySelectorAll('table').forEach(prepareTable);
+  for (const group of root.querySelectorAll(groups)) stopsOf(group).forEach((stop, i) => { stop.tabIndex = i ? -1 : 0; });
+}
+
+addEventListener('focusin', event => {
+  const group = event.target.matches(stops) && event.target.closest(groups);
+  if (!group) return;
+  for (const stop of stopsOf(group)) stop.tabIndex = -1;
+  event.target.tabIndex = 0;
+});
+
+const middle = element => {
+  const box = element.getBoundingClientRect();
+  return [box.left + box.width / 2, box.top + box.height / 2];
+};
+
+// Left and right: the neighbour in reading order, in a plot the next in time. Up and down: the nearest one above or below.
+function neighbour(group, from, key) {
+  const seen = stopsOf(group).filter(stop => stop.getBoundingClientRect().height > 0);
+  const [x, y] = middle(from), across = { ArrowLeft: -1, ArrowRight: 1 }[key], down = { ArrowUp: -1, ArrowDown: 1 }[key];
+  if (key === 'Home' || key === 'End') return seen.at(key === 'Home' ? 0 : -1);
+  if (across) {
+    if (group.matches('svg')) seen.sort((a, b) => middle(a)[0] - middle(b)[0]);
+    return seen[seen.indexOf(from) + across];
+  }
+  if (!down) return undefined;
+  const far = stop => (middle(stop)[1] - y) * down;
+  const least = group.matches('svg') ? 0 : from.getBoundingClientRect().height / 2;
+  const beyond = seen.filter(stop => stop !== from && far(stop) > least);
+  const cost = stop => far(stop) * 4 + Math.abs(middle(stop)[0] - x);
+  return beyond.sort((a, b) => cost(a) - cost(b))[0];
+}
+
+addEventListener('keydown', event => {
+  const group = event.target.matches?.(stops) && event.target.closest(groups);
+  if (!group || event.ctrlKey || event.metaKey || event.altKey) return;
+  const next = neighbour(group, event.target, event.key);
+  if (!next) return;
+  event.preventDefault();
+  event.stopImmediatePropagation();
+  next.focus();
+});
+
+prepare(document);

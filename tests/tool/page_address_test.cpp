@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The page's address leads back to what is seen, and a keyboard reaches everything in few steps.
+#include "tests/tool/page_maker.h"
+
+namespace diptych {
+namespace {
+
+using nlohmann::json;
+
+// What a person sees of the card: how both pictures stand, which part of them, the pixel whose values are
+// read.
+constexpr const char* cardLook = R"(
+  const card = $('#c0-roughness'), pair = card.querySelector('.pair'), panel = card.querySelector('.panel');
+  const seen = () => { const f = panel.getBoundingClientRect(), i = panel.querySelector('img').getBoundingClientRect();
+    return [card.open, pair.dataset.mode, pair.style.getPropertyValue('--w'), card.querySelector('.readout').textContent.slice(0, 6),
+            ...[(f.left - i.left) / i.width, (f.top - i.top) / i.height, f.width / i.width].map(v => +v.toFixed(2))]; };
+  await until(() => document.readyState === 'complete'); await wait(300);
+)";
+
+TEST(PageAddress, LeadsBackToWhatWasSeen) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const fs::path page = written(folder, reportOf(rampFrames()));
+    for (const char* actions : {
+             "key('s');",
+             "pair.querySelector('input').value = 30; pair.querySelector('input').dispatchEvent(new "
+             "Event('input', { bubbles: true }));",
+             "key('+'); key('+'); key('+');",
+             "key('+'); key('+'); key('+'); for (let i = 0; i < 9; ++i) key('ArrowRight'); key('2');",
+             "card.querySelectorAll('[data-pixel]')[1].click();",
+             "card.querySelectorAll('[data-pixel]')[0].click(); key('-'); key('1');",
+         }) {
+        const Visit first = visit(folder, page, std::string(cardLook) + R"(
+          pointer('pointerdown', panel, .3, .6, { button: 0, pointerType: 'touch' }); pointer('pointerup', panel, .3, .6, { pointerType: 'touch' });
+          )" + actions + R"(
+          await wait(600); tell({ hash: location.hash, seen: seen() });)");
+        EXPECT_EQ(first.console, "");
+        ASSERT_TRUE(first.told.is_object()) << actions << first.told;
+        const std::string hash = first.told["hash"];
+        ASSERT_TRUE(hash.starts_with("#c0-roughness@")) << actions << hash;
+        const Visit again =
+            visit(folder, page, std::string(cardLook) + "await wait(300); tell(seen());", hash);
+        EXPECT_EQ(again.console, "");
+        EXPECT_EQ(again.told, first.told["seen"]) << actions << hash;
+    }
+}
+
+// Pointing at a picture changes nothing of the address: a link has the pixel that was clicked.
+TEST(PageAddress, PointingAloneDoesNotChangeIt) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const fs::path page = written(folder, reportOf(rampFrames()));
+    const Visit seen = visit(folder, page, std::string(cardLook) + R"(
+      pointer('pointermove', panel, .5, .5); await wait(400); const pointed = location.hash;
+      $('#c0-normals > summary').click(); await wait(400); const opened = location.hash;
+      tell([pointed, opened]);)");
+    EXPECT_EQ(seen.told, (json{"", "#c0-normals"}));
+}
+
+TEST(PageKeys, ATableIsOneStopAndArrowsMoveInIt) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    std::vector<Frame> frames;
+    for (int i = 0; i < 12; ++i)
+        for (Frame& frame : bothFrames("scenes/" + std::to_string(i) + ".glb"))
+            frames.push_back(std::move(frame));
+    const Visit seen = visit(folder, written(folder, reportOf(std::move(frames))), R"(
+      await until(() => document.readyState === 'complete');
+      const table = $('.index table'), stops = () => [...table.querySelectorAll('a, button')].filter(e => e.tabIndex === 0).length;
+      const told = { links: table.querySelectorAll('a').length, first: stops() };
+      const here = () => document.activeElement.textContent;
+      table.querySelector('tbody a').focus(); told.start = here();
+      key('ArrowDown'); told.down = here(); key('ArrowDown'); key('ArrowUp'); told.up = here();
+      key('ArrowRight'); told.right = here(); key('End'); told.end = here() === [...table.querySelectorAll('a')].at(-1).textContent;
+      told.still = stops();
+      told.toolbar = $$('.card .buttons').map(group => [...group.querySelectorAll('button')].filter(b => b.tabIndex === 0).length);
+      // The first stop of the page leads past everything before the channels.
+      const first = $$('a[href], button, input, summary').find(e => e.tabIndex >= 0);
+      told.skip = [first.className, !!$(first.getAttribute('href'))];
+      tell(told);)");
+    EXPECT_EQ(seen.console, "");
+    const json& told = seen.told;
+    ASSERT_TRUE(told.is_object()) << told;
+    EXPECT_EQ(told["links"], 24);
+    EXPECT_EQ(told["first"], 1);
+    EXPECT_EQ(told["start"], "0.glb");
+    EXPECT_EQ(told["down"], "1.glb");
+    EXPECT_EQ(told["up"], "1.glb");
+    EXPECT_NE(told["right"], "1.glb");
+    EXPECT_EQ(told["end"], true);
+    EXPECT_EQ(told["still"], 1) << "the one where the focus was last";
+    for (const json& group : told["toolbar"]) EXPECT_EQ(group, 1);
+    EXPECT_EQ(told["skip"], (json{"skip", true}));
+}
+
+TEST(PageKeys, APlotIsOneStop) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "tradeoff builtin:triangle --size 32x24 --runs 2 -q -o t").code, 0);
+    const Visit seen = visit(folder, folder / "t/index.html", R"(
+      const plot = $('svg.chart'), points = [...plot.querySelectorAll('.point[tabindex]')];
+      const stops = () => points.filter(point => point.tabIndex === 0).length, x = () => document.activeElement.getBoundingClientRect().left;
+      const told = { points: points.length, first: stops() }, times = [];
+      points[0].focus(); key('Home');
+      const order = points.map(point => { const box = point.getBoundingClientRect(); return box.left + box.width / 2; });
+      points[order.indexOf(Math.min(...order))].focus();
+      for (let i = 0; i < points.length - 1; ++i) { const before = document.activeElement; key('ArrowRight'); times.push(document.activeElement !== before); }
+      told.reached = times.every(Boolean); told.last = stops();
+      told.card = $$('.row-card').filter(card => card.offsetHeight > 0).map(card => card.dataset.row)[0] === document.activeElement.dataset.row;
+      tell(told);)");
+    EXPECT_EQ(seen.console, "");
+    ASSERT_TRUE(seen.told.is_object()) << seen.told;
+    EXPECT_GT(seen.told["points"], 10);
+    EXPECT_EQ(seen.told["first"], 1);
+    EXPECT_EQ(seen.told["reached"], true) << "every point, by its time";
+    EXPECT_EQ(seen.told["last"], 1);
+    EXPECT_EQ(seen.told["card"], true) << "and its row is shown";
+}
+
+}  // namespace
+}  // namespace diptych

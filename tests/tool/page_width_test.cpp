@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// No page scrolls sideways, on a phone nothing in it does either; and what is printed needs no mouse.
+#include "tests/tool/page_maker.h"
+
+#include <fmt/format.h>
+
+namespace diptych {
+namespace {
+
+using nlohmann::json;
+
+// What a page of that width tells of itself, with everything in it open: how much wider than its window it
+// is; which boxes scroll sideways; which elements and words reach over the right edge.
+constexpr const char* measure = R"(
+addEventListener('load', () => setTimeout(() => {
+  const all = s => [...document.querySelectorAll(s)], seen = e => e.getClientRects().length > 0;
+  all('details').forEach(d => d.open = true);
+  const name = e => e.tagName + '.' + (e.className.baseVal ?? e.className), wide = innerWidth + 1;
+  const scrolls = all('body *').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1 && /auto|scroll/.test(getComputedStyle(e).overflowX));
+  const over = all('body *').filter(e => seen(e) && !e.closest('.scroll, .loupe, .panel, svg, .skip') && e.getBoundingClientRect().right > wide);
+  const cut = all('.buttons, .readout, .again, dl, .box, summary').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1);
+  parent.postMessage({ which: WHICH, body: document.scrollingElement.scrollWidth - innerWidth,
+                       scrolls: scrolls.map(name), over: [...over, ...cut].map(name).slice(0, 5) }, '*');
+}, 300));)";
+
+// Opens the page in frames of several widths, as on a screen and as printed, and gives what each tells.
+json measured(const Folder& scratch, const fs::path& page, const std::string& planted = "") {
+    const std::string text = contentsOf(page);
+    const fs::path home = page.parent_path();
+    std::string frames;
+    for (const bool print : {false, true})
+        for (const int width : {390, 768, 1400, 2560}) {
+            std::string copy = text;
+            const std::string which = fmt::format("{}{}", print ? "print" : "screen", width);
+            for (std::size_t i = copy.find("@media print"); print && i != std::string::npos;
+                 i = copy.find("@media print", i))
+                copy.replace(i, 12, "@media all");
+            std::string script = measure;
+            script.replace(script.find("WHICH"), 5, "'" + which + "'");
+            copy.insert(copy.rfind("</body>"), planted + "<script>" + script + "</script>");
+            std::ofstream(home / (which + ".html"), std::ios::binary) << copy;
+            frames += fmt::format("<iframe width={} height=900 src='{}.html'></iframe>", width, which);
+        }
+    std::ofstream(home / "host.html")
+        << "<!doctype html><body><script>const told = {}; onmessage = event => { "
+           "told[event.data.which] = event.data; };</script>"
+        << frames << "</body>";
+    const Visit seen =
+        visit(scratch, home / "host.html", "await until(() => Object.keys(told).length === 8); tell(told);");
+    EXPECT_EQ(seen.console, "") << page;
+    return seen.told;
+}
+
+void expectFits(const json& told, const std::string& page) {
+    ASSERT_EQ(told.size(), 8u) << page << told;
+    for (const auto& [which, of] : told.items()) {
+        EXPECT_LE(of["body"], 0) << page << " " << which << of;
+        if (which.ends_with("390")) {
+            EXPECT_EQ(of["scrolls"], json::array()) << page << " " << which;
+            EXPECT_EQ(of["over"], json::array()) << page << " " << which;
+        }
+    }
+}
+
+std::vector<Frame> longNames(int count) {
+    std::vector<Frame> frames;
+    for (int i = 0; i < count; ++i)
+        for (Frame frame : rampFrames()) {
+            frame.scene =
+                fmt::format("/a/very/long/path/of/folders/scene_number_{}/{}.glb", i, std::string(80, 'm'));
+            frame.camera.name = std::string(60, 'c');
+            frames.push_back(std::move(frame));
+        }
+    return frames;
+}
+
+TEST(PageWidth, NoReportScrollsSideways) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    writeReport(reportOf(rampFrames()), folder / "one", {});
+    expectFits(measured(folder, folder / "one/index.html"), "a comparison");
+    writeReport(reportOf(longNames(6)), folder / "index", {});
+    expectFits(measured(folder, folder / "index/index.html"), "an index");
+    ASSERT_EQ(runTool(folder, "diff one/deferred.exr one/forward_plus.exr -q -o diff").code, 1);
+    expectFits(measured(folder, folder / "diff/index.html"), "a difference of two files");
+}
+
+TEST(PageWidth, NeitherDoPagesOfTimes) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    ASSERT_EQ(runTool(folder, "tradeoff builtin:triangle --size 32x24 --runs 2 -q -o t").code, 0);
+    expectFits(measured(folder, folder / "t/index.html"), "a sweep");
+    ASSERT_EQ(runTool(folder, "bench builtin:triangle --size 32x24 --runs 2 --kernels off -q -o b").code, 0);
+    expectFits(measured(folder, folder / "b/index.html"), "a benchmark");
+}
+
+// Negative control: what is too wide is found, whichever way.
+TEST(PageWidth, WhatIsTooWideIsFound) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const fs::path page = written(folder, reportOf(rampFrames()));
+    const json wide = measured(folder, page, "<p class='planted' style='width:800px'>wide</p>");
+    EXPECT_GT(wide["screen390"]["body"], 0);
+    EXPECT_GT(wide["print768"]["body"], 0);
+    EXPECT_LE(wide["screen1400"]["body"], 0);
+    EXPECT_EQ(wide["screen390"]["over"][0], "P.planted");
+    const json scrolls =
+        measured(folder, page,
+                 "<div class='scroll'><p style='width:800px'>wide</p></div><div class='box'>&nbsp;</div>");
+    EXPECT_LE(scrolls["screen390"]["body"], 0);
+    EXPECT_EQ(scrolls["screen390"]["scrolls"], json{"DIV.scroll"});
+}
+
+TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const fs::path page = written(folder, reportOf(rampFrames()));
+    for (const bool print : {false, true}) {
+        std::string text = contentsOf(page);
+        for (std::size_t i = text.find("@media print"); print && i != std::string::npos;
+             i = text.find("@media print", i))
+            text.replace(i, 12, "@media all");
+        std::ofstream(page.parent_path() / "copy.html", std::ios::binary) << text;
+        const Visit seen = visit(folder, page.parent_path() / "copy.html", R"(
+          await until(() => document.readyState === 'complete');
+          const shown = s => $$(s).filter(e => e.getClientRects().length > 0).length;
+          const box = s => $('#c0-roughness ' + s).getBoundingClientRect();
+          const cut = getComputedStyle($('#c0-roughness .left')).clipPath;
+          tell({ buttons: shown('button'), readouts: shown('.readout'), sliders: shown('.pair input'), keys: shown('.keys'),
+                 dividers: shown('.divider'), pictures: shown('.card[open] .panel img'), whole: cut === 'none',
+                 beside: box('.right').left >= box('.left').right, commands: shown('.again code') });)");
+        EXPECT_EQ(seen.console, "");
+        const json& told = seen.told;
+        ASSERT_TRUE(told.is_object()) << told;
+        for (const char* what : {"buttons", "readouts", "sliders", "keys", "dividers"})
+            EXPECT_EQ(told[what] > 0, !print) << what;
+        EXPECT_EQ(told["whole"], print);
+        EXPECT_EQ(told["beside"], print) << "both pictures, not one over the other";
+        EXPECT_GT(told["pictures"], 2);
+        EXPECT_EQ(told["commands"], 1) << "a person can type it";
+    }
+}
+
+}  // namespace
+}  // namespace diptych
