@@ -4,6 +4,7 @@
 #include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
 #include "compare/render/reference_frame.h"
+#include "compare/report/exposure_line.h"
 #include "compare/report/frame_files.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
@@ -12,6 +13,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -112,7 +115,10 @@ double drawnShare(const RenderOptions& render) {
     return framesIn(render) / (framesIn(render) + 5);
 }
 
-std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& settings, Device& device,
+// In files of a reference that was drawn without any device: what made it.
+constexpr const char* withoutDevice = "double precision, no Vulkan device";
+
+std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& settings, Device* device,
                            KeptReferences& kept, Progress& progress) {
     const Output output = outputIn(options);
     RenderOptions render = renderOptions(options);
@@ -131,8 +137,10 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
         const double loading = loadingShare(name, render, settings.size());
         const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
         render.progress = stage.part(loading, 1);
-        for (Frame& frame : renderAll(device, scene, settings, render)) frames.push_back(std::move(frame));
-        checkValidation(device);
+        std::ranges::move(
+            device ? renderAll(*device, scene, settings, render) : drawWithoutDevice(scene, settings, render),
+            std::back_inserter(frames));
+        if (device) checkValidation(*device);
     }
     return frames;
 }
@@ -146,13 +154,14 @@ std::string pictureNames(const std::vector<std::filesystem::path>& files) {
 }
 
 // Everything or nothing of it. Returns where each Frame is.
-std::vector<std::filesystem::path> writeAll(const Options& options, const std::vector<Frame>& frames,
-                                            Json& result, const ReportDevice& device, const Stage& progress) {
+std::vector<std::filesystem::path> writeAll(const Options& options, const PictureChoice& picture,
+                                            const std::vector<Frame>& frames, Json& result,
+                                            const ReportDevice& device, const Stage& progress) {
     const Output output = outputIn(options);
     const ShownChannels shown = shownChannels(options);
     if (output.kind != OutputKind::folder) {
         progress.at(0, "write");
-        writeFrame(frames.front(), device, output, shown, options.picture);
+        writeFrame(frames.front(), device, output, shown, picture);
         if (output.kind != OutputKind::png) return {output.path};
         const std::vector<std::filesystem::path> files = pictureFiles(output.path, shown);
         for (const std::filesystem::path& file : files) result["frames"][0]["files"].push_back(file.string());
@@ -169,8 +178,7 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const std::v
         progress.at(static_cast<double>(i) / static_cast<double>(frames.size()), "write");
         const std::string inner = frames.size() > 1 ? std::to_string(i + 1) : "";
         if (!inner.empty()) std::filesystem::create_directory(folder / inner);
-        for (const std::string& name :
-             writeFrameFolder(frames[i], device, folder / inner, shown, options.picture))
+        for (const std::string& name : writeFrameFolder(frames[i], device, folder / inner, shown, picture))
             files.push_back(inner.empty() ? name : inner + "/" + name);
         places.push_back(inner.empty() ? output.path : output.path / inner);
         result["frames"][i]["file"] = places.back().string();
@@ -201,6 +209,7 @@ int runRender(const Options& options) {
     refuseUndrawn(settings);
     checkChannels(options);
     noteIgnored(options);
+    const PictureChoice picture = pictureChoice(options);
     const Output output = outputIn(options);
     const std::size_t count = settings.size() * options.scenes.size();
     if (count > 1 && output.kind != OutputKind::folder)
@@ -213,22 +222,24 @@ int runRender(const Options& options) {
         checkFolder(output, count, options.force);
 
     Progress progress(progressOutput(options));
-    Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
-    const ReportDevice made = reportDevice(device);
+    std::optional<Device> device;
+    if (std::ranges::any_of(settings, needsDevice)) device.emplace(deviceOptions(options));
+    const ReportDevice made =
+        device ? reportDevice(*device) : ReportDevice{withoutDevice, softwareName, "cpu"};
+    say(options, "on " + made.name);
     Json result{{"schema", 1},
                 {"software", softwareName},
                 {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
                 {"frames", Json::array()}};
     // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
     KeptReferences kept(output.path, output.kind == OutputKind::folder);
-    const std::vector<Frame> frames = drawAll(options, settings, device, kept, progress);
+    const std::vector<Frame> frames = drawAll(options, settings, device ? &*device : nullptr, kept, progress);
     for (const Frame& frame : frames) {
         result["frames"].push_back(jsonOf(frame));
         result["frames"].back()["file"] = output.path.string();
     }
     const std::vector<std::filesystem::path> places =
-        writeAll(options, frames, result, made,
+        writeAll(options, picture, frames, result, made,
                  Stage(progress, output.path.string()).part(drawnShare(renderOptions(options)), 1));
     kept.remove();
     progress.wipe();
@@ -238,6 +249,7 @@ int runRender(const Options& options) {
         fmt::print("{}: {}, {}x{}{}\n", places[i].string(), frame.scene, frame.settings.size.width,
                    frame.settings.size.height,
                    frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
+        if (output.kind != OutputKind::exr) fmt::print("  picture: {}\n", exposureLine(frame, picture));
         for (const std::string& line : frame.notes) fmt::print("  note: {}\n", line);
     }
     if (options.json) fmt::print("{}", jsonText(result));

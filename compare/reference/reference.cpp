@@ -5,6 +5,7 @@
 #include "compare/reference/geometry.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/material.h"
+#include "compare/reference/pace.h"
 #include "compare/reference/picture_key.h"
 #include "compare/reference/pixel_rays.h"
 #include "compare/reference/sampling.h"
@@ -12,11 +13,13 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/model/axes.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -300,7 +303,7 @@ public:
     Picture operator()() {
         const std::size_t pixels = std::size_t{tileSide} * tileSide;
         Checkpoint* const checkpoint =
-            request_.keep ? &request_.keep(keyOf(request_), pixels * static_cast<std::size_t>(floats_))
+            request_.keep ? &request_.keep(keyOf(request_), 1 + pixels * static_cast<std::size_t>(floats_))
                           : nullptr;
         const auto tiles = static_cast<std::uint64_t>(across_) * static_cast<std::uint64_t>(down_);
         std::vector<bool> there(tiles, false);
@@ -309,6 +312,8 @@ public:
                 if (record.number < tiles) {
                     put(record.number, record.values);
                     there[record.number] = true;
+                    picture_.kept_share += 1.0 / static_cast<double>(tiles);
+                    picture_.kept_seconds += double{record.values.front()} / tbb::info::default_concurrency();
                 }
         // Tiles are drawn in an order scattered over the picture, so that the finished part predicts the
         // remaining time.
@@ -321,6 +326,10 @@ public:
 
         if (!order.empty()) {
             const PixelRenderer renderer(request_);
+            if (request_.expected)
+                if (const auto seconds = expectedSeconds(request_.view.width, request_.view.height,
+                                                         [&](int x, int y) { renderer.render(x, y); }))
+                    request_.expected(*seconds * (1 - picture_.kept_share));
             std::atomic<std::size_t> done{0};
             tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
                 const std::vector<float> values = renderTile(renderer, order[i]);
@@ -344,8 +353,10 @@ private:
             for (int x = x0; x < std::min(x0 + tileSide, request_.view.width); ++x) visit(x, y);
     }
 
+    // The seconds that the tile took, and its pixels' values.
     std::vector<float> renderTile(const PixelRenderer& renderer, std::uint64_t tile) const {
-        std::vector<float> values;
+        const auto start = std::chrono::steady_clock::now();
+        std::vector<float> values{0};
         eachPixel(tile, [&](int x, int y) {
             const Pixel pixel = renderer.render(x, y);
             for (const DebugMode* mode : drawn_) {
@@ -354,11 +365,12 @@ private:
             }
             values.push_back(static_cast<float>(pixel.shading.uncertainty));
         });
+        values.front() = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
         return values;
     }
 
     void put(std::uint64_t tile, const std::vector<float>& values) {
-        const float* next = values.data();
+        const float* next = values.data() + 1;  // behind the seconds
         eachPixel(tile, [&](int x, int y) {
             for (const DebugMode* mode : drawn_) {
                 Image& image = picture_.channels[mode->number];
@@ -370,7 +382,7 @@ private:
 
     const Request& request_;
     const int across_, down_;
-    int floats_ = 0;  // number of floats for each pixel
+    int floats_ = 0;  // number of floats for each pixel; a tile has one more
     std::vector<const DebugMode*> drawn_;
     Picture picture_;
 };

@@ -41,6 +41,8 @@ struct Request {
     std::string_view program = {};
     // Called from any thread with the fraction that is done.
     std::function<void(double fraction)> progress = {};
+    // Called once, soon, with the seconds that all of the picture is expected to take; not for a short one.
+    std::function<void(double seconds)> expected = {};
 };
 
 }  // namespace diptych::reference

@@ -7,6 +7,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/left_out.h"
 #include "compare/run/interruption.h"
+#include "compare/run/progress.h"
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -48,9 +49,8 @@ double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverag
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    const std::string step = settings.reference_mode == ReferenceMode::surface
-                                 ? "reference: shade every surface"
-                                 : "reference: trace every pixel";
+    std::string step = settings.reference_mode == ReferenceMode::surface ? "reference: shade every surface"
+                                                                         : "reference: trace every pixel";
     const reference::Request request{
         .scene = scene,
         .pose = view.pose,
@@ -64,7 +64,13 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .surfaces = surfaces ? &surfaces->channels : nullptr,
         .keep = options.keep,
         .program = commitName(),
-        .progress = [&](double fraction) { options.progress.at(fraction, step); }};
+        .progress = [&](double fraction) { options.progress.at(fraction, step); },
+        // Before any tile is drawn.
+        .expected =
+            [&](double seconds) {
+                step += fmt::format(", about {} in all", clockText(seconds));
+                options.progress.at(0, step);
+            }};
     reference::Picture picture = reference::draw(request);
 
     Frame frame = describedFrame(scene, view, settings);
@@ -83,10 +89,32 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     std::erase_if(frame.channels, [&](const auto& entry) {
         return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;
     });
-    frame.made_in_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() +
-        (surfaces ? surfaces->made_in_ms : 0);
+    const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (picture.kept_share > 0)
+        frame.notes.push_back(fmt::format(
+            "the reference went on from {:.0f} % that a command that did not end had drawn in {}; the rest "
+            "took {}",
+            std::floor(100 * picture.kept_share), clockText(picture.kept_seconds), clockText(now)));
+    frame.made_in_ms = 1000 * (now + picture.kept_seconds) + (surfaces ? surfaces->made_in_ms : 0);
     return frame;
+}
+
+bool needsDevice(const Settings& settings) {
+    return settings.path != Path::reference || settings.reference_mode != ReferenceMode::scene;
+}
+
+std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Settings>& settings,
+                                     const RenderOptions& options) {
+    SceneViews views(scene);
+    std::vector<Frame> frames;
+    const auto count = static_cast<double>(settings.size());
+    for (const Settings& each : settings) {
+        RenderOptions drawing = options;
+        const auto done = static_cast<double>(frames.size());
+        drawing.progress = options.progress.part(done / count, (done + 1) / count);
+        frames.push_back(drawReferenceFrame(scene, views.at(viewRequest(each)), each, nullptr, drawing));
+    }
+    return frames;
 }
 
 KeptReferences::KeptReferences(const fs::path& output, bool isFolder)

@@ -22,6 +22,14 @@ namespace diptych {
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options);
 
+// Whether a Frame of these Settings is drawn with a Vulkan device: all but the reference of mode scene, which
+// makes its surfaces itself.
+bool needsDevice(const Settings& settings);
+
+// One Frame per Settings, in order, none of which needsDevice().
+std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Settings>& settings,
+                                     const RenderOptions& options);
+
 // Where references keep what is done of them until a command ends: beside its output, one file each, named
 // after the picture (.NAME.reference-HASH). They are gone on from when the same command is given again.
 // Programs with one output each have their own files.

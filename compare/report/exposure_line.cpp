@@ -21,6 +21,10 @@ Exposure exposureOf(const Frame& frame, const Coverage& coverage, const PictureC
 
 }  // namespace
 
+std::string exposureLine(const Frame& frame, const PictureChoice& choice) {
+    return exposureOf(frame, coverage(frame, frame), choice).because;
+}
+
 std::string exposureLine(const Report& report, const PictureChoice& choice) {
     std::vector<Exposure> all;
     for (const Comparison& comparison : report.comparisons)

@@ -12,6 +12,7 @@ namespace diptych {
 
 // "exposure 1.3, automatic: 0.18 / log-average luminance 0.14"; of several comparisons with exposures of
 // their own the range, and how all get the same.
+std::string exposureLine(const Frame& frame, const PictureChoice& choice);
 std::string exposureLine(const Report& report, const PictureChoice& choice);
 
 // The factor that a picture of this linear file gets by itself: of lit, or of the first colours of another

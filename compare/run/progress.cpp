@@ -106,6 +106,12 @@ Stage Stage::about(std::string what) const {
     return stage;
 }
 
+std::string clockText(double seconds) {
+    const auto whole = static_cast<long>(std::ceil(seconds));
+    return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+                         : fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
 std::string timeLeft(std::chrono::duration<double> elapsed, double fraction) {
     constexpr double soonest = 2, least = 0.02;
     // Beyond a hundred hours the figure would be the estimate's noise, not a time.
@@ -113,9 +119,7 @@ std::string timeLeft(std::chrono::duration<double> elapsed, double fraction) {
     if (!(elapsed.count() >= soonest) || !(fraction >= least)) return "";
     const double seconds = std::ceil(elapsed.count() * (1 - std::min(fraction, 1.0)) / fraction);
     if (seconds >= longest) return "";
-    const auto whole = static_cast<long>(seconds);
-    return whole >= 3600 ? fmt::format("{}:{:02}:{:02} left", whole / 3600, whole / 60 % 60, whole % 60)
-                         : fmt::format("{}:{:02} left", whole / 60, whole % 60);
+    return clockText(seconds) + " left";
 }
 
 std::string progressLine(const std::string& what, double fraction, const std::string& step,

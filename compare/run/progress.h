@@ -68,6 +68,9 @@ void wipeProgress();
 std::string progressLine(const std::string& what, double fraction, const std::string& step,
                          std::size_t columns);
 
+// "3:20" or "1:02:05", rounded up to seconds.
+std::string clockText(double seconds);
+
 // The remaining time at the pace so far, "0:07 left" or "1:02:05 left". Empty during the first two seconds
 // and the first two percent, from which no estimate is possible.
 std::string timeLeft(std::chrono::duration<double> elapsed, double fraction);

@@ -330,5 +330,28 @@ TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     EXPECT_EQ(diff.out.find("uncertainty"), std::string::npos) << diff.out;
 }
 
+// Mode scene needs no Vulkan at all.
+TEST(ReferenceTool, ModeSceneIsDrawnWithoutADevice) {
+    const Folder folder;
+    const std::string words =
+        " render --path reference --reference-mode scene builtin:spots --size 16x9 --runs 0 -o ";
+    const auto run = [&](const char* environment, const std::string& file) {
+        return runShell(folder, environment + (" '" DIPTYCH_PROGRAM "'" + words) + file, folder.path());
+    };
+    const Ran without = run("VK_DRIVER_FILES=/no/such/driver.json", "without.exr");
+    EXPECT_EQ(without.code, 0) << without.err;
+    EXPECT_EQ(run("", "with.exr").code, 0);
+    EXPECT_EQ(runTool(folder, "diff with.exr without.exr -q --metric max").code, 0);
+    EXPECT_EQ(readExr(folder / "without.exr").attributes.at("device"), "double precision, no Vulkan device");
+    const Ran surface = runShell(folder,
+                                 "VK_DRIVER_FILES=/no/such/driver.json '" DIPTYCH_PROGRAM
+                                 "' render --path reference builtin:spots -o x.exr",
+                                 folder.path());
+    EXPECT_EQ(surface.code, 2);
+    EXPECT_NE(surface.err.find("VK_DRIVER_FILES is set and names /no/such/driver.json, which does not exist"),
+              std::string::npos)
+        << surface.err;
+}
+
 }  // namespace
 }  // namespace diptych

@@ -3,14 +3,19 @@
 #include "tests/unit/reference_scene.h"
 
 #include "compare/reference/checkpoint.h"
+#include "compare/reference/pace.h"
 #include "shared/frame/debug_modes.h"
 #include "tests/unit/files.h"
 
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 
 namespace diptych::reference {
 namespace {
@@ -339,6 +344,33 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
         EXPECT_EQ(namesIn(keep.parent_path()).size(), 2u)
             << name << ": what is kept of the first is left alone";
     }
+}
+
+// What a picture will take is known from pixels spread over all of it, and soon.
+TEST(ReferencePace, ComesFromPixelsOfTheWholePicture) {
+    std::array<std::array<std::atomic<int>, 4>, 4> drawn{};
+    const auto slow = [&](int x, int y) {
+        ++drawn[static_cast<std::size_t>(y / 50)][static_cast<std::size_t>(x / 50)];
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    const auto seconds = reference::expectedSeconds(200, 200, slow);
+    ASSERT_TRUE(seconds.has_value());
+    // 40,000 pixels of at least 1 ms, on all cores.
+    EXPECT_GE(*seconds, 40.0 / tbb::info::default_concurrency() / 2);
+    int all = 0;
+    for (const auto& row : drawn)
+        for (const std::atomic<int>& part : row) {
+            EXPECT_GT(part, 0);
+            all += part;
+        }
+    EXPECT_LE(all, 400) << "a hundredth";
+    EXPECT_FALSE(reference::expectedSeconds(200, 200, [](int, int) {}).has_value()) << "done at once";
+    // However long a pixel takes, it ends.
+    std::atomic<int> few = 0;
+    reference::expectedSeconds(
+        4000, 4000, [&](int, int) { ++few, std::this_thread::sleep_for(std::chrono::milliseconds(10)); },
+        std::chrono::milliseconds(50));
+    EXPECT_LT(few, 160000) << "not its hundredth";
 }
 
 }  // namespace
