@@ -107,9 +107,11 @@ public:
                     continue;
                 }
                 result.most = std::max(result.most, bound);
-                const double share = error == 0 ? 0 : error / std::max(bound, 0.0);
-                used.push_back(std::isnan(share) ? std::numeric_limits<double>::infinity() : share);
-                result.beyond += !(share <= 1);
+                const double share = error == 0          ? 0
+                                     : std::isinf(error) ? error  // whatever its bound
+                                                         : error / std::max(bound, 0.0);
+                used.push_back(share);
+                result.beyond += share > 1;
                 if (share > largest) {
                     largest = share;
                     result.x = x;

@@ -255,7 +255,8 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
         if (!reference.uncertainty.empty()) open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
         const double e = error(test.pixel(i), p);
-        errors.push_back(e > open ? e - open : std::isnan(e) ? std::numeric_limits<double>::infinity() : 0);
+        // What is infinite, as a NaN against a number is, stays so whatever the reference knows.
+        errors.push_back(std::isinf(e) ? e : std::max(0.0, e - open));
     }
     return errors;
 }

@@ -2,6 +2,7 @@
 // Which pixels of a comparison with a reference in mode scene are held tightly and which by FLIP, and that
 // either can fail.
 #include "compare/verdict/footprint.h"
+#include "compare/metrics/flip.h"
 #include "compare/verdict/comparison.h"
 #include "tests/unit/report_maker.h"
 
@@ -47,7 +48,9 @@ ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptio
     report.device = {"a CPU", "1.0", "cpu"};
     report.frames = std::move(frames);
     const Comparison comparison = compareFrames(report, 0, 1, {}, options);
-    const bool traced = report.frames[0].settings.reference_mode == ReferenceMode::scene;
+    const bool traced = std::ranges::any_of(report.frames, [](const Frame& frame) {
+        return frame.settings.reference_mode == ReferenceMode::scene;
+    });
     EXPECT_EQ(
         std::ranges::any_of(comparison.notes, [](const auto& n) { return n.starts_with("mode scene: "); }),
         traced);
@@ -107,6 +110,59 @@ TEST(Footprint, DetailIsJudgedByFlip) {
     EXPECT_NE(other.tolerance.because.find("to a mean FLIP"), std::string::npos);
 }
 
+// FLIP is the mean over the pixels with detail, however many others the picture has.
+TEST(Footprint, FlipIsOfTheDetailAlone) {
+    std::vector<Frame> frames = evenFrames();
+    addDetail(channelIn(frames[0], gpu::DEBUG_albedo), 0.2f, 0.8f);
+    addDetail(channelIn(frames[1], gpu::DEBUG_albedo), 0.0f, 0.1f);
+    std::vector<std::uint8_t> detailed(side * side, 0);
+    for (std::size_t i = 0; i < detailed.size(); ++i) detailed[i] = i % side <= side / 2;
+    FlipOptions options;
+    options.covered = detailed;
+    const double expected =
+        ldrFlip(channelIn(frames[0], gpu::DEBUG_albedo), channelIn(frames[1], gpu::DEBUG_albedo), options)
+            .mean;
+    const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+    EXPECT_NEAR(albedo.footprints->flip, expected, 1e-12);
+    EXPECT_GT(expected, 1.5 * ldrFlip(channelIn(frames[0], gpu::DEBUG_albedo),
+                                      channelIn(frames[1], gpu::DEBUG_albedo), {})
+                                  .mean);
+}
+
+// Detail in either picture is detail: a path may filter away what the reference has, and the other way round.
+TEST(Footprint, APixelIsSmoothOnlyInBoth) {
+    for (const std::size_t other : {0u, 1u}) {
+        std::vector<Frame> frames = evenFrames();
+        addDetail(channelIn(frames[other], gpu::DEBUG_albedo), 0.47f, 0.53f);
+        const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+        EXPECT_EQ(albedo.footprints->detailed, std::uint64_t{side * (side / 2 + 1)}) << other;
+        EXPECT_EQ(albedo.footprints->beyond, 0u);
+        EXPECT_EQ(albedo.verdict, Verdict::pass) << albedo.reason;
+    }
+}
+
+// What is judged does not widen what it is held to, be it on the left or on the right: here a path's depths
+// that are wrong around one that is wronger, and albedo that is uneven where the reference is even.
+TEST(Footprint, OnlyTheReferencesSurroundingsAreGranted) {
+    for (const std::size_t path : {1u, 0u}) {
+        std::vector<Frame> frames = evenFrames();
+        if (path == 0) std::swap(frames[0], frames[1]);
+        Image& depth = channelIn(frames[path], gpu::DEBUG_depth);
+        for (int y = 9; y < 12; ++y)
+            for (int x = 9; x < 12; ++x) depth.at(x, y) = 0.6f;
+        depth.at(10, 10) = 100;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).footprints->beyond, 9u);
+        addDetail(channelIn(frames[path], gpu::DEBUG_albedo), 0.496f, 0.504f);
+        const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+        EXPECT_EQ(albedo.footprints->smooth, std::uint64_t{side * side});
+        EXPECT_EQ(albedo.footprints->beyond, std::uint64_t{side * side / 2});
+        EXPECT_EQ(albedo.verdict, Verdict::fail);
+        // The control: what is uneven in the reference may be as uneven in the path.
+        std::swap(frames[0].channels, frames[1].channels);
+        EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).footprints->beyond, 0u);
+    }
+}
+
 // An edge between two materials is nobody's fault in geometry; a moved camera is, everywhere else.
 TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
     std::vector<Frame> frames = evenFrames();
@@ -142,6 +198,22 @@ TEST(Footprint, NansAreNeverDetail) {
     for (const int x : {3, 7})
         channelIn(frames[1], gpu::DEBUG_albedo).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
+}
+
+// Nor does a reference that knows nothing of its light excuse one.
+TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
+    std::vector<Frame> frames = evenFrames();
+    frames[0].uncertainty = Image(side, side, 1, std::numeric_limits<float>::infinity());
+    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v = 0.9f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).footprints->used, 0) << "it excuses any number";
+    for (const int x : {3, 7})
+        channelIn(frames[1], gpu::DEBUG_lit).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
+    const ChannelDiff lit = judged(frames, gpu::DEBUG_lit);
+    EXPECT_EQ(lit.footprints->beyond, 2u);
+    EXPECT_EQ(lit.footprints->used, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(lit.footprints->x, 3) << "where it is";
+    EXPECT_EQ(lit.footprints->y, 4);
+    EXPECT_EQ(lit.verdict, Verdict::fail);
 }
 
 // Light is held tightly where both have one surface: elsewhere the surface's own channel fails.

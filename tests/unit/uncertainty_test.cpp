@@ -5,6 +5,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/baseline.h"
 #include "compare/verdict/comparison.h"
+#include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/exr.h"
 #include "tests/unit/files.h"
@@ -98,6 +99,55 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
     Frame bare = back;
     bare.uncertainty = {};
     EXPECT_EQ(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).verdict, Verdict::fail);
+}
+
+std::vector<double> certainOf(const Frame& a, const Frame& b) {
+    const Requirements needs;
+    const Coverage covered = coverage(a, b);
+    return certainErrors(debugMode(litMode), FramePair{a, b, needs, covered}).value();
+}
+
+// Relative to the pixel, as the error is, however dark it is; a reference on either side.
+TEST(Uncertainty, IsTakenOffThePixelsError) {
+    Frame traced = frameOf(Path::reference, 1, 0.01f);
+    traced.uncertainty = Image(2, 1, 1, 0.001f);
+    const Frame path = frameOf(Path::forward_plus, 1.01f, 0.02f);
+    std::vector<double> errors = certainOf(traced, path);
+    ASSERT_EQ(errors.size(), 2u);
+    EXPECT_NEAR(errors[0], 0.01 - 2.29 * 0.001, 1e-6);
+    EXPECT_NEAR(errors[1], 1 - 2.29 * 0.1, 1e-6);
+    errors = certainOf(path, traced);
+    EXPECT_NEAR(errors[0], (0.01 - 2.29 * 0.001) / 1.01, 1e-6);
+    EXPECT_NEAR(errors[1], (0.01 - 2.29 * 0.001) / 0.02, 1e-6);
+    EXPECT_EQ(certainOf(traced, frameOf(Path::forward_plus, 1.002f, 0.01f)), (std::vector<double>{0, 0}))
+        << "what is less than it is not known to differ";
+    traced.channels[idMode].data = {-1, -1};
+    Frame half = path;
+    half.channels[idMode].data = {-1, 3};
+    EXPECT_EQ(certainOf(traced, half).size(), 1u) << "the background does not count";
+}
+
+TEST(Uncertainty, OfAnySizeExcusesNothingThatIsNoNumber) {
+    for (const float known : {0.001f, std::numeric_limits<float>::infinity()})
+        for (const float wrong :
+             {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+            Frame traced = frameOf(Path::reference, 1, 2);
+            traced.uncertainty = Image(2, 1, 1, known);
+            Frame path = frameOf(Path::forward_plus, 1, 2);
+            path.channels[litMode].at(1, 0, 2) = wrong;
+            const std::vector<double> errors = certainOf(traced, path);
+            EXPECT_EQ(errors[0], 0);
+            EXPECT_EQ(errors[1], std::numeric_limits<double>::infinity()) << known << " " << wrong;
+            EXPECT_EQ(judged(traced, path).verdict, Verdict::fail);
+        }
+}
+
+// Where nothing is relative to anything, any light is too much.
+TEST(Uncertainty, OfABlackReferenceExcusesNoLight) {
+    Frame traced = frameOf(Path::reference, 0, 0);
+    traced.uncertainty = Image(2, 1, 1, 0.0f);
+    EXPECT_EQ(judged(traced, frameOf(Path::forward_plus, 0, 0)).verdict, Verdict::pass);
+    EXPECT_EQ(judged(traced, frameOf(Path::forward_plus, 0, 5)).verdict, Verdict::fail);
 }
 
 TEST(Uncertainty, IsWrittenBesideLitAlone) {
