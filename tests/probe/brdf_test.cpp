@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The shipped BRDF against closed forms and tables.
+#include "compare/reference/brdf.h"
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -193,6 +194,53 @@ TEST(Brdf, GgxIsStableNearTheHighlight) {
     EXPECT_EQ(off, 0);
     EXPECT_GT(textbookOff, samples / 5)
         << "the comparison has lost its point: the textbook form is stable here";
+}
+
+// Against the reference's in double, which has the least roughness and n.v of its own: views from below the
+// normal's horizon too, which a normal map makes, and of every second light the highlight itself.
+TEST(Brdf, IsTheReferences) {
+    Probes probes;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1), angle(0, 6.28);
+    std::vector<float> input;
+    constexpr int pairs = 4000;
+    for (int i = 0; i < pairs; ++i) {
+        const Material m{.roughness = i % 3 == 0 ? 0.1 * unit(random) : unit(random),
+                         .metallic = i % 4 == 0 ? 0 : unit(random),
+                         .albedo = unit(random),
+                         .f0 = 0.5 * unit(random),
+                         .f90 = unit(random)};
+        const Vec v = direction(i % 5 == 0 ? -0.9 * unit(random) : unit(random), angle(random));
+        Vec l = direction(0.01 + 0.99 * unit(random), angle(random));
+        if (i % 2 == 0) {
+            const double tilt = m.roughness * m.roughness * unit(random), around = angle(random);
+            const Vec h = normalised({tilt * std::cos(around), tilt * std::sin(around), 1});
+            const double vh = v[0] * h[0] + v[1] * h[1] + v[2] * h[2];
+            l = normalised({2 * vh * h[0] - v[0], 2 * vh * h[1] - v[1], 2 * vh * h[2] - v[2]});
+        }
+        push(input, v, l, m);
+    }
+    const std::vector<float> out = probes.run("brdf", input, 11, 2);
+    int below = 0, sharp = 0;
+    for (std::size_t i = 0; i < pairs; ++i) {
+        const auto in = [&](std::size_t at) { return double{input[i * 11 + at]}; };
+        reference::Surface s;
+        s.to_viewer = {in(0), in(1), in(2)};
+        s.roughness = in(6);
+        s.metallic = in(7);
+        s.albedo = glm::dvec3(in(8));
+        s.dielectric_f0 = glm::dvec3(in(9));
+        s.dielectric_f90 = in(10);
+        const glm::dvec3 l(in(3), in(4), in(5));
+        const reference::Reflected expected = reference::Brdf(s)(l);
+        EXPECT_NEAR(out[2 * i], expected.diffuse.g, 1e-5) << i;
+        EXPECT_NEAR(out[2 * i + 1], expected.specular.g, 1e-3 * expected.specular.g + 1e-6)
+            << i << ": roughness " << s.roughness << ", n.v " << in(2) << ", n.l " << in(5);
+        below += in(2) + in(5) <= 0 && in(5) > 0;
+        sharp += s.roughness < 0.045 && expected.specular.g > 1;
+    }
+    EXPECT_GT(below, 20) << "no microfacet that faces down is tried";
+    EXPECT_GT(sharp, 20) << "no highlight of the least roughness is tried";
 }
 
 // A mirror's alpha is kept at the smallest roughness: finite, and the same as that roughness gives.

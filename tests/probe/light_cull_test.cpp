@@ -209,6 +209,34 @@ TEST(LightCull, ASpotIsNeverMissed) {
     EXPECT_LT(t.false_yes, t.apart / 2);
 }
 
+// A tile in which nothing is drawn has its least depth behind its greatest one: no light reaches it, however
+// large the light.
+TEST(LightCull, NothingReachesACellWithoutAnythingDrawn) {
+    Probes probes;
+    std::vector<CullCase> cases;
+    for (const double range : {1.0, 10.0, 1000.0}) {
+        CullCase c;
+        c.region.apex = {0, 0, 3};
+        c.region.axis = {0, 0, 1};
+        c.region.range = range;
+        c.cell = {{-0.1, 0.1}, {-0.1, 0.1}, {2, 4}};
+        cases.push_back(c);
+        c.cell.z = {4, 2};
+        cases.push_back(c);
+        c.cell.z = {3.0001, 3};
+        cases.push_back(c);
+        c.cell.z = {3, 3};
+        cases.push_back(c);
+    }
+    const std::vector<Answer> answers = ask(probes, cases, false, Shrunk::nothing);
+    for (std::size_t i = 0; i < answers.size(); i += 4) {
+        EXPECT_TRUE(answers[i].sphere);
+        EXPECT_FALSE(answers[i + 1].sphere);
+        EXPECT_FALSE(answers[i + 2].sphere);
+        EXPECT_TRUE(answers[i + 3].sphere) << "one depth";
+    }
+}
+
 TEST(LightCull, WhatIsOnePerCentTooSmallIsCaught) {
     Probes probes;
     const Tally radius = tally(probes, false, Shrunk::radius, 21),

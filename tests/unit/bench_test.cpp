@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a benchmark plans, predicts and writes, of made-up times.
 #include "compare/bench/bench.h"
+#include "compare/bench/workload.h"
 #include "compare/cli/command_line.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace diptych {
@@ -122,6 +128,41 @@ TEST(BenchCases, LightsComeFromTheSceneAFileOrARig) {
     EXPECT_FALSE(makeBenchCases("a.glb", files, options).groups[0].lights);
 }
 
+TEST(BenchWorkload, EachTileListsLightsOfItsOwnInOrder) {
+    const bench::KernelWorkload workload = makeWorkload({48, 32}, 64, 16, 7);
+    ASSERT_EQ(workload.lights.size(), 64u);
+    ASSERT_EQ(workload.indices.size(), 6u * 16u) << "3 x 2 tiles";
+    std::set<std::vector<std::uint32_t>> lists;
+    for (std::size_t tile = 0; tile < 6; ++tile) {
+        const auto begin = workload.indices.begin() + static_cast<std::ptrdiff_t>(16 * tile);
+        const std::vector<std::uint32_t> list(begin, begin + 16);
+        EXPECT_EQ(std::ranges::adjacent_find(list, std::greater_equal()), list.end())
+            << "in order, none twice";
+        EXPECT_LT(list.back(), 64u);
+        EXPECT_TRUE(lists.insert(list).second) << "another tile's list";
+    }
+    EXPECT_EQ(makeWorkload({48, 32}, 64, 16, 7).indices, workload.indices);
+    EXPECT_NE(makeWorkload({48, 32}, 64, 16, 8).indices, workload.indices);
+    EXPECT_NE(makeWorkload({48, 32}, 64, 16, 8).lights[0].position, workload.lights[0].position);
+    for (const gpu::Light& light : workload.lights) {
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_GE(light.intensity[axis], 0.2f);
+            EXPECT_LT(light.intensity[axis], 1.0f);
+        }
+        EXPECT_EQ(light.inverse_range_squared * light.range * light.range, 1);
+    }
+}
+
+TEST(BenchWorkload, OfWholeTilesAndListsThatFitAlone) {
+    EXPECT_EQ(makeWorkload({16, 16}, mostKernelLights, 4, 1).indices.size(), 4u);
+    EXPECT_EQ(makeWorkload({16, 16}, 4, 4, 1).indices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_THROW(makeWorkload({24, 16}, 64, 16, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 24}, 64, 16, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 16}, 64, 6, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 16}, 8, 12, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 16}, mostKernelLights + 1, 4, 1), std::logic_error);
+}
+
 TEST(BenchCases, PredictsAlongTheLastTwo) {
     using Points = std::vector<std::pair<std::uint32_t, double>>;
     EXPECT_FALSE(predictedMs(Points{}, 64));
@@ -197,6 +238,42 @@ TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
     EXPECT_NE(end.find("2.4x"), std::string::npos) << end;
     EXPECT_NE(end.find("one note\n"), std::string::npos);
     EXPECT_EQ(end.find("its own note"), std::string::npos) << "of one row, among so many";
+}
+
+// The words of a line, told apart by spaces.
+std::vector<std::string> wordsOf(const std::string& line) {
+    std::istringstream stream(line);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+TEST(BenchOutput, EveryNumberOfATableStandsUnderItsHead) {
+    const Bench bench = several();
+    std::istringstream table(benchTable(bench, 0));
+    std::string head, first;
+    std::getline(table, head);
+    std::getline(table, first);
+    const std::vector<std::string> heads{"lights", "size",   "path", "assign", "ms",      "least",
+                                         "most",   "assign", "ms",   "share",  "passes,", "ms"};
+    EXPECT_EQ(wordsOf(head), heads);
+    const std::vector<std::string> words{"17", "64x48", "deferred", "every", "10",    "5", "20",
+                                         "0",  "0.0%",  "G-buffer", "4,",    "shade", "6"};
+    EXPECT_EQ(wordsOf(first), words);
+    std::istringstream end(benchEnd(bench));
+    std::map<std::string, std::vector<std::string>> kernels;
+    for (std::string line; std::getline(end, line);) kernels[line.substr(0, line.find("  "))] = wordsOf(line);
+    EXPECT_EQ(kernels.at("uniform buffer"),
+              (std::vector<std::string>{"uniform", "buffer", "2.500", "2.00x", "2.4x"}));
+    EXPECT_EQ(kernels.at("by hand"), (std::vector<std::string>{"by", "hand", "1.250", "-", "-"}));
+    EXPECT_NE(end.str().find("640x352, lists of 16 and 48 of 512 lights, 9 runs, 2 threads\n"),
+              std::string::npos);
+}
+
+TEST(BenchOutput, PixelsThatAreNotFiniteAreSaid) {
+    Bench bench = several();
+    EXPECT_EQ(benchEnd(bench).find("not finite"), std::string::npos);
+    bench.rows[1].counters.nonfinite_pixels = 7;
+    EXPECT_NE(benchEnd(bench).find("deferred, every, 1025 lights: 7 pixels are not finite\n"),
+              std::string::npos);
 }
 
 TEST(BenchOutput, JsonReadsBack) {

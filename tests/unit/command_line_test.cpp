@@ -67,6 +67,23 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
     }
 }
 
+TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
+    const auto shown = [](std::vector<std::string> words) {
+        words.insert(words.begin(), "render");
+        return parseCommandLine(words).shown;
+    };
+    EXPECT_EQ(shown({}), static_cast<int>(gpu::DEBUG_lit));
+    EXPECT_EQ(shown({"--debug", "depth"}), static_cast<int>(gpu::DEBUG_depth));
+    EXPECT_EQ(shown({"--heat"}), static_cast<int>(gpu::DEBUG_light_count));
+    EXPECT_EQ(shown({"--heat=true"}), static_cast<int>(gpu::DEBUG_light_count));
+    EXPECT_EQ(shown({"--heat", "on"}), static_cast<int>(gpu::DEBUG_light_count));
+    EXPECT_EQ(shown({"--heat", "off"}), static_cast<int>(gpu::DEBUG_lit));
+    EXPECT_TRUE(parseCommandLine({"render", "--debug", "lit"}).debug_given);
+    EXPECT_FALSE(parseCommandLine({"render", "--heat"}).debug_given);
+    EXPECT_TRUE(parseCommandLine({"render", "--path", "deferred"}).path_given);
+    EXPECT_FALSE(parseCommandLine({"render", "--seed", "1"}).path_given);
+}
+
 TEST(CommandLine, DevicesParsesWhatAllCommandsShare) {
     const Options options = parseCommandLine(
         {"devices", "--size", "3x3", "--device", "0", "--validate", "--debug", "1", "--env", "none", "-q"});
@@ -210,6 +227,11 @@ TEST(CommandLine, TheUsualToleranceOfDiffIsIdentity) {
     EXPECT_EQ(toleranceOf("relative"), 0);
     EXPECT_EQ(toleranceOf("ssim"), 1);
     EXPECT_EQ(toleranceOf("psnr"), std::numeric_limits<double>::infinity());
+    EXPECT_FALSE(parseCommandLine({"diff", "a", "b"}).diff.tolerance_given);
+    EXPECT_FALSE(parseCommandLine({"diff", "a", "b"}).diff.metric_given);
+    const auto given = parseCommandLine({"diff", "a", "b", "--metric", "ssim", "--tolerance", "-0.5"}).diff;
+    EXPECT_EQ(given.tolerance, -0.5) << "of pictures that are each other's negatives";
+    EXPECT_TRUE(given.tolerance_given && given.metric_given);
 }
 
 TEST(CommandLine, ABaselineIsAPathOrAFile) {
@@ -247,8 +269,14 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"compare", "--runs", "-1"}, "--runs -1"},
         {{"compare", "--exposure", "1", "--ev100", "1"}, "--ev100"},
         {{"compare", "--exposure", "0"}, "--exposure 0"},
+        {{"compare", "--exposure", "inf"}, "--exposure inf"},
         {{"compare", "--ev100", "inf"}, "--ev100"},
         {{"compare", "--fps", "0"}, "--fps 0"},
+        {{"compare", "--fps", "inf"}, "--fps inf"},
+        {{"compare", "--frames", "0"}, "--frames 0: 1 or more"},
+        {{"diff", "a", "b", "--blur", "inf"}, "--blur"},
+        {{"diff", "a", "b", "--tolerance", "nan"}, "--tolerance nan"},
+        {{"diff", "a", "b", "--failing", "0.1", "--tolerance", "1", "--metric", "rmse"}, "--metric"},
         {{"compare", "--debug", "lits"}, "--debug lits"},
         {{"compare", "--channels", "lit,99"}, "--channels 99"},
         {{"compare", "--settings", "no/such/file.json"}, "no/such/file.json"},

@@ -114,6 +114,52 @@ TEST(EncodingUse, OnlyAreaLightsRoundAsBrighterLight) {
     EXPECT_EQ(beyond(1, 8e-6f), 1u);
 }
 
+// NaN is infinitely far from a number, further than any bits move it.
+TEST(EncodingUse, WhatIsNoNumberIsBeyondEveryBound) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const float bound : {0.5f, infinity})
+        for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), infinity}) {
+            std::vector<Frame> frames = bothFrames();
+            frames[1].encoding_bound[0] = Image(4, 3, 1, bound);
+            const Requirements needs;
+            const Coverage covered = coverage(frames[0], frames[1]);
+            const FramePair pair{frames[0], frames[1], needs, covered};
+            EXPECT_EQ(encodingUse(debugMode(0), pair)->beyond, 0u);
+            frames[0].channels[0].at(1, 2, 1) = wrong;
+            EXPECT_EQ(encodingUse(debugMode(0), pair)->beyond, 1u) << bound << " " << wrong;
+            frames[0].channels[0].at(0, 0, 1) = wrong;
+            EXPECT_EQ(encodingUse(debugMode(0), pair)->beyond, 1u) << "the background does not count";
+        }
+}
+
+// A packed deferred path against the reference, by the bounds of forward+ at the same encoding; no other pair
+// and no other channel.
+TEST(EncodingUse, OnlyAPackedPathIsGrantedBits) {
+    std::vector<Frame> frames = bothFrames();
+    frames.push_back(frames[1]);
+    frames[2].settings.path = Path::reference;
+    const Frame &deferred = frames[0], &forward = frames[1], &traced = frames[2];
+    const Requirements needs;
+    const Coverage covered = coverage(deferred, forward);
+    const auto bits = [&](const Frame& a, const Frame& b, const Frame* explaining, int mode = 0) {
+        return allowedByBits(debugMode(mode), FramePair{a, b, needs, covered, true, explaining});
+    };
+    EXPECT_EQ(bits(traced, deferred, &forward), &forward.encoding_bound.at(0));
+    EXPECT_EQ(bits(deferred, traced, &forward), &forward.encoding_bound.at(0));
+    EXPECT_EQ(bits(traced, forward, &forward), nullptr) << "nothing of it is packed";
+    EXPECT_EQ(bits(forward, traced, &forward), nullptr);
+    EXPECT_EQ(bits(deferred, forward, &forward), nullptr) << "that is encodingUse()'s";
+    EXPECT_EQ(bits(traced, deferred, nullptr), nullptr);
+    EXPECT_EQ(bits(traced, deferred, &forward, static_cast<int>(gpu::DEBUG_albedo)), nullptr);
+    frames[1].settings.gbuffer = GBufferEncoding::compact;
+    EXPECT_EQ(bits(traced, deferred, &forward), nullptr) << "bounds of other bits";
+    frames[0].settings.gbuffer = GBufferEncoding::compact;
+    EXPECT_NE(bits(traced, deferred, &forward), nullptr);
+    for (const int frame : {0, 1})
+        frames[static_cast<std::size_t>(frame)].settings.gbuffer = GBufferEncoding::full;
+    EXPECT_EQ(bits(traced, deferred, &forward), nullptr) << "float32 whole";
+}
+
 // Against the reference a packed path is granted its bits and float32's shading, 1e-4, and no more.
 TEST(EncodingUse, AgainstTheReferenceTheBitsAreGrantedAndNoMore) {
     const auto verdictOf = [](float deferred, float bound, const char* camera = "") {

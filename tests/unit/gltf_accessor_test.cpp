@@ -88,6 +88,24 @@ TEST(GltfAccessor, MatrixColumnsAreAligned) {
     }
 }
 
+// glTF 2.0, 3.11: f = max(c / 127, -1) of signed bytes, c / 255 of unsigned ones, and so of shorts.
+TEST(GltfAccessor, NormalizedIntegersAreAtLeastMinusOne) {
+    const auto numbers = [](int type, std::initializer_list<int> values, bool normalized) {
+        std::string bytes;
+        for (const int value : values) append(bytes, type, value, false);
+        tinygltf::Model model = modelOf(bytes, TINYGLTF_TYPE_SCALAR, type, values.size());
+        model.accessors[0].normalized = normalized;
+        return gltf::readNumbers(model, 0, "test").values;
+    };
+    using Values = std::vector<float>;
+    EXPECT_EQ(numbers(BYTE, {-128, -127, -64, 0, 127}, true), (Values{-1, -1, -64 / 127.0f, 0, 1}));
+    EXPECT_EQ(numbers(SHORT, {-32768, -32767, 1, 32767}, true), (Values{-1, -1, 1 / 32767.0f, 1}));
+    EXPECT_EQ(numbers(UBYTE, {0, 51, 255}, true), (Values{0, 0.2f, 1}));
+    EXPECT_EQ(numbers(USHORT, {0, 13107, 65535}, true), (Values{0, 0.2f, 1}));
+    EXPECT_EQ(numbers(BYTE, {-128, 127}, false), (Values{-128, 127}));
+    EXPECT_EQ(numbers(SHORT, {-32768, 32767}, false), (Values{-32768, 32767}));
+}
+
 // The types that KHR_mesh_quantization allows, interleaved: all attributes of a vertex side by side, from an
 // offset without alignment.
 TEST(GltfAccessor, EveryAttributeTypeInterleaved) {

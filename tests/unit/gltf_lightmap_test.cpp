@@ -59,6 +59,20 @@ TEST(GltfLightmap, AnUnlitMaterialHasNone) {
     EXPECT_EQ(materialOf(material).lightmap_texture.texture, -1);
 }
 
+TEST(GltfLightmap, TheLargestValueIsThatOfAnyColour) {
+    for (const int brightest : {0, 1, 2}) {
+        Image light(2, 1, 3, 0.25f);
+        light.at(1, 0, brightest) = 8;
+        GltfFile file = withMaterial(with({{"index", 0}, {"intensity", 0.5}}));
+        const std::filesystem::path folder = std::filesystem::path(file.written()).parent_path();
+        writeExr(folder / "light.exr", {{{"R", "G", "B"}, &light}});
+        file.json["images"][0]["uri"] = "light.exr";
+        const Scene scene = file.load();
+        EXPECT_EQ(scene.images.at(0).largest, 8) << brightest;
+        EXPECT_EQ(requirements(scene, poseAt(scene, 0)).max_lightmap, 4);
+    }
+}
+
 // A float picture beside the glTF: two pixels, one of which has a negative component.
 TEST(GltfLightmap, OpenExrIsReadAsLinearLightAndOnlyThere) {
     Image light(2, 1, 3, 0.25f);

@@ -6,7 +6,9 @@
 #include "shared/image/png.h"
 #include "tests/unit/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -248,6 +250,29 @@ TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesTheOldFile) {
     EXPECT_NE(fault.find("a.txt"), std::string::npos) << fault;
     EXPECT_NE(fault.find("space"), std::string::npos) << fault;
     EXPECT_EQ(contentsOf(file), "old");
+}
+
+// A disk that was full for one write, in the middle of the file, and has room again for all that follow.
+TEST(AtomicFile, AWriteThatFailedIsRememberedUntilTheCommit) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const fs::path file = folder() / "a.txt";
+    writeFile(file, "old");
+    const std::string fault = faultOf([&] {
+        AtomicFile out(file);
+        std::setvbuf(out.stream(), nullptr, _IONBF, 0);
+        const int descriptor = ::fileno(out.stream()), real = ::dup(descriptor),
+                  full = ::open("/dev/full", O_WRONLY);
+        ::dup2(full, descriptor);
+        EXPECT_EQ(std::fputs("lost", out.stream()), EOF);
+        ::dup2(real, descriptor);
+        ::close(full);
+        ::close(real);
+        EXPECT_GE(std::fputs("kept", out.stream()), 0);
+        out.commit();
+    });
+    EXPECT_NE(fault.find("a.txt: Input/output error; check the disk"), std::string::npos) << fault;
+    EXPECT_EQ(contentsOf(file), "old");
+    EXPECT_EQ(namesIn(file.parent_path()), std::vector<std::string>{"a.txt"});
 }
 
 }  // namespace

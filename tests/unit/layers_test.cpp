@@ -105,6 +105,26 @@ TEST(Layers, WhatOnlyOneHasIsSaid) {
     EXPECT_EQ(matched.notes, std::vector<std::string>{"b: float in the reference, half in the test"});
 }
 
+TEST(Layers, ThoseThatAreWantedAreMatchedAlone) {
+    const auto reference = [] {
+        return channelsOf(file({layer("a", {"a.Y"}), layer("b", {"b.Y"}), layer("b2", {"b2.Y"})}), {});
+    };
+    const auto test = [] {
+        return channelsOf(file({layer("b", {"b.Y"}), layer("b2", {"b2.Y"}), layer("c", {"c.Y"})}), {});
+    };
+    const auto namesOfMatched = [](const MatchedChannels& matched) {
+        std::vector<std::string> names;
+        for (const auto& channel : matched.channels) names.push_back(channel.name);
+        return names;
+    };
+    const MatchedChannels one = matchChannels(reference(), test(), {"b"});
+    EXPECT_EQ(namesOfMatched(one), std::vector<std::string>{"b"});
+    EXPECT_TRUE(one.one_sided.empty()) << "nobody asked for a and c";
+    EXPECT_EQ(namesOfMatched(matchChannels(reference(), test(), {"b*"})),
+              (std::vector<std::string>{"b", "b2"}));
+    EXPECT_EQ(matchChannels(reference(), test(), {"*"}).one_sided.size(), 2u);
+}
+
 // Grey, with or without alpha, counts as light and can be compared with colour.
 TEST(Layers, GreyIsAColour) {
     const auto grey = channelsOf(file({layer("", {"Y", "A"})}), {});

@@ -5,6 +5,7 @@
 
 #include "compare/reference/ambient.h"
 #include "compare/reference/quadrature.h"
+#include "shared/contract/albedo.h"
 #include "shared/environment/directional_albedo.h"
 
 namespace diptych::reference {
@@ -94,6 +95,50 @@ TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
             EXPECT_NEAR(table.y, edge.specular.g, 1e-5) << roughness << " " << cosine;
             EXPECT_NEAR(1 - diptych::meanSchlickWeight(cosine), edge.diffuse.g, 1e-5) << cosine;
         }
+}
+
+// Lagrange's polynomial through the four samples around `place`, as shared/contract/albedo.h has it.
+template <class Sample>
+double cubicAt(double place, int count, const Sample& sample) {
+    const int first = std::clamp(static_cast<int>(place) - 1, 0, count - 4);
+    double sum = 0;
+    for (int i = first; i < first + 4; ++i) {
+        double weight = 1;
+        for (int j = first; j < first + 4; ++j)
+            if (j != i) weight *= (place - j) / (i - j);
+        sum += weight * sample(i);
+    }
+    return sum;
+}
+
+// The table that the shaders read, read as its contract says, is the integral.
+TEST(ReferenceAmbient, TheTableHoldsTheIntegrals) {
+    constexpr int width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
+    const std::vector<glm::vec2>& table = directionalAlbedoTable();
+    ASSERT_EQ(table.size(), std::size_t{width * (height + 1)});
+    const auto sample = [&](int x, int y, int part) {
+        return double{table[static_cast<std::size_t>(y * width + x)][part]};
+    };
+    for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.07, 0.2, 0.45, 0.8, 1.0}) {
+        const double root = std::sqrt(n_dot_v);
+        EXPECT_NEAR(cubicAt(root * (width - 1), width, [&](int x) { return sample(x, height, 0); }),
+                    diptych::meanSchlickWeight(n_dot_v), 6e-5)
+            << n_dot_v;
+        for (const double roughness : {0.045, 0.06, 0.2, 0.5, 0.77, 1.0}) {
+            const double k = 2 * roughness * roughness, blend = double{gpu::ALBEDO_BLEND};
+            const double along = blend * std::sqrt(n_dot_v * (1 + k) / (n_dot_v + k)) + (1 - blend) * root;
+            const double least = std::sqrt(0.045), down = (std::sqrt(roughness) - least) / (1 - least);
+            const glm::dvec2 expected = diptych::specularAlbedo(n_dot_v, roughness * roughness);
+            for (const int part : {0, 1})
+                EXPECT_NEAR(cubicAt(down * (height - 1), height,
+                                    [&](int y) {
+                                        return cubicAt(along * (width - 1), width,
+                                                       [&](int x) { return sample(x, y, part); });
+                                    }),
+                            expected[part], 6e-5)
+                    << n_dot_v << " " << roughness << " " << part;
+        }
+    }
 }
 
 TEST(ReferenceAmbient, OcclusionDimsItAndNothingElse) {

@@ -70,6 +70,21 @@ TEST(ReferenceTexture, ColoursAreDecodedBeforeTheyAreMixed) {
     EXPECT_NEAR(Pyramid(image, false).texel(0, 1, 0).r, 128 / 255.0, 1e-15);
     const TextureImage wide{"16", 1, 1, {}, {6554, 0, 65535, 32768}};
     EXPECT_NEAR(Pyramid(wide, false).texel(0, 0, 0).r, 6554 / 65535.0, 1e-15);
+    EXPECT_NEAR(Pyramid(wide, true).texel(0, 0, 0).r, std::pow((6554 / 65535.0 + 0.055) / 1.055, 2.4), 1e-15);
+    const TextureImage dark{"dark", 1, 1, {10, 0, 0, 255}};
+    EXPECT_NEAR(Pyramid(dark, true).texel(0, 0, 0).r, 10 / 255.0 / 12.92, 1e-15) << "below the knee, linear";
+}
+
+// Only colours are encoded, of 8 and of 16 bits; an image of floats is light as it stands.
+TEST(ReferenceTexture, AlphaIsNeverDecoded) {
+    const TextureImage narrow{"8", 1, 1, {200, 100, 50, 128}};
+    const TextureImage wide{"16", 1, 1, {}, {6554, 0, 65535, 32768}};
+    for (const bool srgb : {false, true}) {
+        EXPECT_NEAR(Pyramid(narrow, srgb).texel(0, 0, 0).a, 128 / 255.0, 1e-15);
+        EXPECT_NEAR(Pyramid(wide, srgb).texel(0, 0, 0).a, 32768 / 65535.0, 1e-15);
+        const TextureImage floats{"floats", 1, 1, {}, {}, {0.25f, 0.5f, 2, 0.5f}};
+        EXPECT_EQ(Pyramid(floats, srgb).texel(0, 0, 0), glm::dvec4(0.25, 0.5, 2, 0.5));
+    }
 }
 
 // Closer than a texel: bilinear about the texels' middles, or the one that it lies in; beyond the edge as

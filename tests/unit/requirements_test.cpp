@@ -133,12 +133,13 @@ TEST(Requirements, UnlitAsksForEmissionAndSpecularAlone) {
 
 TEST(Requirements, EmissionRangesOverTheMaterialsInUse) {
     Scene scene = plainScene();
-    scene.materials.resize(4);
+    scene.materials.resize(5);
     scene.materials[0].emissive = {0.25f, 3, 0};
     scene.materials[1].emissive = {100, 0, 0};  // unused
     scene.materials[2].emissive = {0, 0, 0.5f};
     scene.materials[3].emissive = {0, 0, 0};
-    for (const int material : {2, 3}) {
+    scene.materials[4].emissive = {0, 1, 0};
+    for (const int material : {2, 3, 4}) {
         Primitive p = scene.meshes[0].primitives[0];
         p.material = material;
         scene.meshes[0].primitives.push_back(p);

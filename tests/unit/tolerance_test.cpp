@@ -187,7 +187,8 @@ TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
         Pair p;
         p.encoding(e);
         for (const gpu::uint mode :
-             {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_geometric_normal})
+             {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_geometric_normal,
+              gpu::DEBUG_light_count, gpu::DEBUG_list_overflow})
             EXPECT_EQ(p.of(mode).max, 0) << mode;
     }
 }
@@ -288,6 +289,7 @@ TEST(Tolerance, LitWithoutTheEncodedImageIsNotExcused) {
     p = litPair();
     p.deferred.settings.gbuffer = GBufferEncoding::compact;
     EXPECT_EQ(p.of(gpu::DEBUG_lit).max, 0) << "another encoding explains nothing";
+    EXPECT_FALSE(encodingUse(debugMode(gpu::DEBUG_lit), p.pair())) << "nor does it bound anything";
 }
 
 Report reportOf(const Pair& p) {

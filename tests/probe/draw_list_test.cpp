@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Which instances are drawn from a view, in which order, and with what transforms.
+#include "shared/draw/draw_list.h"
+
+#include "shared/contract/features.h"
+#include "shared/vulkan/device.h"
+#include "shared/vulkan/resources.h"
+#include "tests/probe/probe.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+// A square of 1 m whose corner is the origin, in the plane z = 0, facing +Z; of an opaque material 0 and, as
+// the second primitive, of a masked material 1.
+Scene squares() {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.materials[1].alpha_mode = AlphaMode::mask;
+    Primitive p;
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    p.normals.assign(4, {0, 0, 1});
+    p.tangents.assign(4, {1, 0, 0, 1});
+    p.indices = {0, 1, 2, 0, 2, 3};
+    Primitive masked = p;
+    masked.material = 1;
+    scene.meshes = {{"square", {p, masked}}};
+    return scene;
+}
+
+glm::dmat4 placed(const glm::dvec3& at, const glm::dvec3& scale = glm::dvec3(1)) {
+    return glm::scale(glm::translate(glm::dmat4(1), at), scale);
+}
+
+// From (5, 6, 7) along -Z, 90 degrees high and wide, from 1 m to 100 m.
+View viewAlongZ(bool orthographic = false) {
+    View view;
+    view.camera.world_from_camera[3] = {5, 6, 7, 1};
+    view.camera.yfov = glm::radians(90.0);
+    view.camera.orthographic = orthographic;
+    view.camera.ymag = 10;
+    view.camera.near = 1;
+    view.camera.far = 100;
+    view.width = view.height = 64;
+    return view;
+}
+const glm::dvec3 eye(5, 6, 7);
+
+// The list of instances that stand at these transforms, of the opaque square or of that primitive.
+DrawList listOf(const std::vector<glm::dmat4>& transforms, const View& view,
+                const std::vector<int>& primitives = {}) {
+    const Scene scene = squares();
+    Uploader uploader(probeDevice());
+    const Geometry geometry(probeDevice(), uploader, scene);
+    const Materials materials(probeDevice(), uploader, scene);
+    uploader.flush();
+    Pose pose;
+    for (std::size_t i = 0; i < transforms.size(); ++i)
+        pose.instances.push_back({0, primitives.empty() ? 0 : primitives[i], 0, transforms[i]});
+    return makeDrawList(pose, geometry, materials, view);
+}
+
+// Squares of 1 cm, each a millimetre within an edge of the picture at 10 m, and each as far beyond it; and on
+// both sides of the nearest and farthest depth.
+TEST(DrawList, WhatLiesWhollyBeyondAPlaneOfTheViewIsLeftOut) {
+    constexpr double size = 0.01, hair = 0.001;
+    for (const bool orthographic : {false, true}) {
+        std::vector<glm::dmat4> within, beyond;
+        const auto square = [&](const glm::dvec3& at) { return placed(eye + at, glm::dvec3(size)); };
+        for (const double off : {-size - hair, hair}) {
+            auto& list = off < 0 ? within : beyond;
+            list.push_back(square({10 + off, 0, -10}));
+            list.push_back(square({0, 10 + off, -10}));
+            list.push_back(square({-10 - size - off, 0, -10}));
+            list.push_back(square({0, -10 - size - off, -10}));
+            list.push_back(square({0, 0, off < 0 ? -1.1 : -0.9}));
+            list.push_back(square({0, 0, off < 0 ? -95 : -110}));
+        }
+        beyond.push_back(square({0, 0, 10}));
+        const DrawList in = listOf(within, viewAlongZ(orthographic)),
+                       out = listOf(beyond, viewAlongZ(orthographic));
+        EXPECT_EQ(in.items.size(), within.size()) << orthographic;
+        EXPECT_EQ(in.culled, 0u);
+        EXPECT_EQ(out.items.size(), 0u) << orthographic;
+        EXPECT_EQ(out.culled, beyond.size());
+    }
+}
+
+TEST(DrawList, WhatCrossesAPlaneIsDrawn) {
+    const DrawList list =
+        listOf({placed(eye + glm::dvec3(9.5, 0, -10)), placed(eye + glm::dvec3(0, -10.5, -10)),
+                placed(eye + glm::dvec3(-500, -500, -10), glm::dvec3(1000)),
+                placed(eye + glm::dvec3(-0.5, -0.5, -5), glm::dvec3(1, 1, 1))},
+               viewAlongZ());
+    EXPECT_EQ(list.items.size(), 4u);
+    EXPECT_EQ(list.draws.size(), 4u);
+}
+
+TEST(DrawList, OpaqueDrawsComeFirstAndBothFromNearToFar) {
+    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
+    const DrawList list = listOf({at(40), at(2), at(3), at(90), at(20)}, viewAlongZ(), {0, 1, 0, 1, 0});
+    std::vector<std::uint32_t> order;
+    for (const DrawItem& item : list.items) order.push_back(item.draw);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{2, 4, 0, 1, 3}));
+    EXPECT_FALSE(list.items[2].masked);
+    EXPECT_TRUE(list.items[3].masked);
+    EXPECT_EQ(list.items[3].range.material, 1u);
+}
+
+// Positions relative to the camera; normals at right angles to the scaled surface, on the side of its front
+// also where a transform mirrors it.
+TEST(DrawList, TransformsAreThoseOfPositionsAndNormals) {
+    const glm::dmat4 plain = placed({5, 6, -3}),
+                     flat = glm::rotate(placed({5, 6, -3}), 0.5, glm::dvec3(1, 0, 0)) *
+                            glm::scale(glm::dmat4(1), glm::dvec3(2, 1, 0.25)),
+                     mirrored = plain * glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)),
+                     turned = plain * glm::scale(glm::dmat4(1), glm::dvec3(-1, -1, 1));
+    const View view = viewAlongZ();
+    for (const glm::dmat4& world : {plain, flat, mirrored, turned}) {
+        const DrawList list = listOf({world}, view);
+        ASSERT_EQ(list.draws.size(), 1u);
+        const gpu::Draw& draw = list.draws[0];
+        const bool mirrors = glm::determinant(glm::dmat3(world)) < 0;
+        EXPECT_EQ(draw.handedness, mirrors ? -1 : 1);
+        EXPECT_EQ(list.items[0].mirrored, mirrors);
+        for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(1, 0.5, 0.25)}) {
+            const glm::dvec3 expected = glm::dvec3(world * glm::dvec4(p, 1)) - eye;
+            const glm::vec3 relative = draw.world_from_object * glm::vec4(p, 1);
+            EXPECT_LT(glm::distance(glm::dvec3(relative), expected), 1e-5);
+            const glm::dvec4 clip = view.clipFromWorld() * glm::dvec4(expected, 1);
+            EXPECT_LT(glm::distance(glm::dvec4(draw.clip_from_object * glm::vec4(p, 1)), clip), 1e-4);
+        }
+        // At right angles to both edges of a surface, and towards its front.
+        const glm::dvec3 x = glm::dmat3(world) * glm::dvec3(1, 0.5, 0.25),
+                         y = glm::dmat3(world) * glm::dvec3(0, 1, 1),
+                         normal(draw.normal_from_object *
+                                glm::vec3(glm::cross(glm::dvec3(1, 0.5, 0.25), glm::dvec3(0, 1, 1))));
+        const glm::dvec3 expected = glm::normalize(glm::cross(x, y)) * (mirrors ? -1.0 : 1.0);
+        EXPECT_LT(glm::distance(glm::normalize(normal), expected), 1e-5);
+    }
+}
+
+}  // namespace
+}  // namespace diptych

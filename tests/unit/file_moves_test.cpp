@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Files that are moved into a folder together, and what a killed program leaves of that.
+#include "compare/files/file_moves.h"
+
+#include "tests/unit/files.h"
+
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+void put(const fs::path& file, const std::string& text) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+// Moves files of these names, each with "new" in it, into the folder.
+void moveNew(const fs::path& place, const FileMoves& moves) {
+    Temporary made(place, "report");
+    ASSERT_TRUE(made.createFolder());
+    for (const std::string& name : moves.files) put(made.path() / name, "new");
+    moveFiles(place, made, moves);
+}
+
+// The folder that a program leaves which is killed as soon as its files count: all of `there` and a list.
+void begin(const fs::path& place, const Names& there, const std::string& list) {
+    for (const std::string& name : there) put(place / ".diptych.put" / name, "new");
+    put(place / ".diptych.put" / ".plan.json", list);
+}
+
+TEST(FileMoves, TakeTheirPlacesAndThoseOfEarlierOnesAlone) {
+    const fs::path place = folder();
+    for (const char* name : {"lit.png", "1/lit.png", "2/lit.png", "2/notes.txt", "notes.txt"})
+        put(place / name, "old");
+    moveNew(place, {{"lit.png", "3/lit.png"}, {"lit.png", "1/lit.png", "2/lit.png", "away.png"}});
+    EXPECT_EQ(namesIn(place), (Names{"2", "3", "lit.png", "notes.txt"})) << "nor are emptied folders left";
+    EXPECT_EQ(namesIn(place / "2"), Names{"notes.txt"});
+    EXPECT_EQ(contentsOf(place / "lit.png"), "new");
+    EXPECT_EQ(contentsOf(place / "3/lit.png"), "new");
+    EXPECT_EQ(contentsOf(place / "notes.txt"), "old");
+    EXPECT_FALSE(isMoveBegun(place));
+}
+
+// Where a file stands in the place of the last one's folder, the first ones are moved back.
+TEST(FileMoves, AreUndoneWhereOneFails) {
+    const fs::path place = folder();
+    put(place / "lit.png", "old");
+    put(place / "0", "in the way");
+    put(place / "index.html", "old");
+    EXPECT_THROW(moveNew(place, {{"lit.png", "depth.png", "0/lit.png"}, {"index.html"}}), std::runtime_error);
+    EXPECT_EQ(namesIn(place), (Names{"0", "index.html", "lit.png"}));
+    EXPECT_EQ(contentsOf(place / "lit.png"), "old");
+    EXPECT_EQ(contentsOf(place / "0"), "in the way");
+    EXPECT_EQ(contentsOf(place / "index.html"), "old");
+}
+
+TEST(FileMoves, OfAKilledProgramAreFinished) {
+    const fs::path place = folder();
+    put(place / "old.png", "old");
+    put(place / "1/old.png", "old");
+    put(place / "lit.png", "old");
+    put(place / "depth.png", "new");  // moved before the program was killed
+    begin(place, {"lit.png"}, R"({"files": ["depth.png", "lit.png"],
+                                  "earlier": ["old.png", "1/old.png", "lit.png"]})");
+    EXPECT_TRUE(isMoveBegun(place));
+    finishMoves(place);
+    EXPECT_FALSE(isMoveBegun(place));
+    EXPECT_EQ(namesIn(place), (Names{"depth.png", "lit.png"}));
+    EXPECT_EQ(contentsOf(place / "lit.png"), "new");
+    finishMoves(place);
+    EXPECT_EQ(namesIn(place), (Names{"depth.png", "lit.png"})) << "nothing is left to be finished";
+}
+
+// A list may have been edited: it neither fills nor removes what diptych does not write.
+TEST(FileMoves, AListNamesOurFilesAlone) {
+    const fs::path above = folder(), place = above / "report";
+    put(above / "beside.png", "old");
+    put(place / "notes.txt", "old");
+    put(place / ".hidden.png", "old");
+    put(place / "mine/lit.png", "old");
+    begin(place, {"lit.png", "run.sh"}, R"({"files": ["lit.png", "run.sh", "../new.png", 7],
+              "earlier": ["../beside.png", "notes.txt", ".hidden.png", "mine/lit.png"]})");
+    put(place / "new.png", "old");
+    finishMoves(place);
+    EXPECT_EQ(contentsOf(place / "lit.png"), "new");
+    EXPECT_TRUE(fs::exists(above / "beside.png"));
+    EXPECT_TRUE(fs::exists(place / "notes.txt"));
+    EXPECT_TRUE(fs::exists(place / ".hidden.png"));
+    EXPECT_TRUE(fs::exists(place / "mine/lit.png"));
+    EXPECT_FALSE(fs::exists(place / "run.sh"));
+    EXPECT_TRUE(fs::exists(place / "new.png"));
+    EXPECT_FALSE(fs::exists(above / "new.png"));
+}
+
+TEST(FileMoves, AListThatCannotBeReadIsNamed) {
+    for (const char* list : {"", "[]", R"({"earlier": []})"}) {
+        const fs::path place = folder();
+        begin(place, {"lit.png"}, list);
+        try {
+            finishMoves(place);
+            ADD_FAILURE() << list;
+        } catch (const std::runtime_error& error) {
+            EXPECT_EQ(std::string(error.what()),
+                      (place / ".diptych.put/.plan.json").string() +
+                          ": left by a program that was killed, and cannot be read; remove its folder");
+        }
+        EXPECT_TRUE(fs::exists(place / ".diptych.put/lit.png"));
+    }
+}
+
+}  // namespace
+}  // namespace diptych

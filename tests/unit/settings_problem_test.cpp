@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Settings that have a meaning together, and those that have none.
+#include "shared/frame/settings.h"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+constexpr const char* tilesNeedDepthsSays =
+    "--assign tiled has no meaning with --prepass off: a tile's lights are chosen by its depths; use "
+    "--prepass on";
+
+// A tile's lights are chosen by its depths, which deferred has of its G-buffer and forward+ of a pre-pass;
+// froxels and objects need none.
+TEST(SettingsProblem, OnlyForwardPlussTilesNeedAPrePass) {
+    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
+        for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered})
+            for (const Switch prepass : {Switch::automatic, Switch::on, Switch::off}) {
+                Settings s;
+                s.path = path;
+                s.assign = assign;
+                s.prepass = prepass;
+                const bool wrong =
+                    path == Path::forward_plus && assign == Assignment::tiled && prepass == Switch::off;
+                EXPECT_EQ(s.problem().value_or("none"), wrong ? tilesNeedDepthsSays : "none")
+                    << nameOf(path) << " " << nameOf(assign) << " " << nameOf(prepass);
+            }
+}
+
+TEST(SettingsProblem, OnlyDeferredKnowsNoObjects) {
+    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
+        for (const Switch prepass : {Switch::automatic, Switch::on, Switch::off}) {
+            Settings s;
+            s.path = path;
+            s.assign = Assignment::per_object;
+            s.prepass = prepass;
+            EXPECT_EQ(s.problem().has_value(), path == Path::deferred) << nameOf(path);
+        }
+}
+
+TEST(SettingsProblem, OnlyTheReferenceInModeSceneHasSamples) {
+    for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
+        for (const int spp : {1, 2, 65536}) {
+            Settings s;
+            s.path = Path::reference;
+            s.reference_mode = mode;
+            s.spp = spp;
+            EXPECT_EQ(s.problem().has_value(), mode == ReferenceMode::surface && spp != 1) << spp;
+        }
+}
+
+}  // namespace
+}  // namespace diptych
