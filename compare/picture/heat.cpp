@@ -14,20 +14,13 @@ namespace {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-// Digits of 3 x 5 pixels, a row of three bits each from the top, with "." and "k".
-constexpr std::string_view glyphs = "0123456789.k";
-constexpr std::array<std::array<unsigned, 5>, 12> rows{{{7, 5, 5, 5, 7},
-                                                        {2, 6, 2, 2, 7},
-                                                        {7, 1, 7, 4, 7},
-                                                        {7, 1, 7, 1, 7},
-                                                        {5, 5, 7, 1, 1},
-                                                        {7, 4, 7, 1, 7},
-                                                        {7, 4, 7, 5, 7},
-                                                        {7, 1, 1, 1, 1},
-                                                        {7, 5, 7, 5, 7},
-                                                        {7, 5, 7, 1, 7},
-                                                        {0, 0, 0, 0, 2},
-                                                        {4, 5, 6, 6, 5}}};
+// Digits and the letters that a legend needs, of 3 x 5 pixels, a row of three bits each from the top.
+constexpr std::string_view glyphs = "0123456789.kEGHILPRSTX ";
+constexpr std::array<std::array<unsigned, 5>, 23> rows{
+    {{7, 5, 5, 5, 7}, {2, 6, 2, 2, 7}, {7, 1, 7, 4, 7}, {7, 1, 7, 1, 7}, {5, 5, 7, 1, 1}, {7, 4, 7, 1, 7},
+     {7, 4, 7, 5, 7}, {7, 1, 1, 1, 1}, {7, 5, 7, 5, 7}, {7, 5, 7, 1, 7}, {0, 0, 0, 0, 2}, {4, 5, 6, 6, 5},
+     {7, 4, 6, 4, 7}, {3, 4, 5, 5, 3}, {5, 5, 7, 5, 5}, {7, 2, 2, 2, 7}, {4, 4, 4, 4, 7}, {6, 5, 6, 4, 4},
+     {6, 5, 6, 5, 5}, {3, 4, 2, 1, 6}, {7, 2, 2, 2, 2}, {5, 5, 2, 5, 5}, {0, 0, 0, 0, 0}}};
 
 void fill(Image8& image, int left, int top, int width, int height, const Rgb8& color) {
     for (int y = std::max(top, 0); y < std::min(top + height, image.height); ++y)
@@ -73,18 +66,22 @@ double heatTop(double largest) {
     return 10 * ten;
 }
 
-void drawHeatLegend(Image8& image, double top) {
-    if (image.width < 64 || image.height < 32) return;
-    const int size = std::max(1, image.width / 480);  // of a glyph's pixel
-    const int margin = 3 * size, width = std::min(image.width - 2 * margin, 100 * size), bar = 5 * size;
-    const int left = margin, line = image.height - margin - 5 * size, above = line - 2 * size - bar;
-    fill(image, 0, above - margin, width + 2 * margin, image.height, {0, 0, 0});
-    for (int x = 0; x < width; ++x) fill(image, left + x, above, 1, bar, heatColor((x + 0.5) / width));
+Image8 withHeatLegend(const Image8& picture, double top) {
+    if (picture.width < 80) return picture;
+    const int size = std::max(1, picture.width / 480);  // of a glyph's pixel
+    const int margin = 3 * size, width = std::min(picture.width - 2 * margin, 100 * size), bar = 5 * size;
+    const int title = picture.height + margin, above = title + 7 * size, line = above + bar + 2 * size;
+    Image8 image = picture;
+    image.height = line + 5 * size + margin;
+    image.data.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    write(image, "LIGHTS PER PIXEL", margin, title, size);
+    for (int x = 0; x < width; ++x) fill(image, margin + x, above, 1, bar, heatColor((x + 0.5) / width));
     for (const double part : {0.0, 0.5, 1.0}) {
         const std::string label = words(part * top);
         const int wide = static_cast<int>(label.size()) * 4 * size - size;
-        write(image, label, left + static_cast<int>(part * (width - wide)), line, size);
+        write(image, label, margin + static_cast<int>(part * (width - wide)), line, size);
     }
+    return image;
 }
 
 }  // namespace diptych

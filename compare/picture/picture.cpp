@@ -39,9 +39,6 @@ bool isRadiance(const DebugMode& mode) {
     if (mode.shown != Shown::usual) return mode.shown == Shown::radiance;
     return mode.kind == ChannelKind::color && mode.metric == Metric::relative;
 }
-bool isHeat(const DebugMode& mode) {
-    return mode.shown == Shown::usual && mode.number == gpu::DEBUG_light_count;
-}
 bool isNormalised(const DebugMode& mode) {
     if (mode.shown != Shown::usual) return mode.shown == Shown::normalised;
     return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position || isHeat(mode);
@@ -94,6 +91,10 @@ Image8 blank(const Image& like) {
 }
 
 }  // namespace
+
+bool isHeat(const DebugMode& mode) {
+    return mode.shown == Shown::usual && mode.number == gpu::DEBUG_light_count;
+}
 
 double srgbFromLinear(double linear) {
     const double c = std::clamp(linear, 0.0, 1.0);
@@ -200,7 +201,6 @@ Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureSc
         else
             put(result, i, pixelColor(mode, p, scale));
     }
-    if (isHeat(mode)) drawHeatLegend(result, scale.high);
     return result;
 }
 

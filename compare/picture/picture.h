@@ -44,6 +44,9 @@ struct PictureScale {
 };
 PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span<const Frame* const> frames);
 
+// Whether the channel is shown as a heat map, whose legend is withHeatLegend() of heat.h.
+bool isHeat(const DebugMode& mode);
+
 // The picture of one channel that `frame` has. Background pixels of lit show frame.background, of others
 // nothing; a NaN or infinity is magenta.
 Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureScale& scale);

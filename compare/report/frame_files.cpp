@@ -4,6 +4,7 @@
 #include "compare/files/frame_exr.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
+#include "compare/picture/heat.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 
@@ -26,7 +27,9 @@ void writePicture(const std::filesystem::path& file, const Frame& frame, const D
     const Exposure exposure =
         exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));
     const Frame* frames[] = {&frame};
-    writePng(file, channelPicture(shown, frame, scaleFor(shown, exposure, frames)));
+    const PictureScale scale = scaleFor(shown, exposure, frames);
+    const Image8 picture = channelPicture(shown, frame, scale);
+    writePng(file, isHeat(shown) ? withHeatLegend(picture, scale.high) : picture);
 }
 
 }  // namespace

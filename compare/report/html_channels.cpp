@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cards of one comparison: pictures, difference, wipe, numbers, reason.
+#include "compare/picture/heat.h"
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "compare/run/command_text.h"
@@ -85,6 +86,18 @@ private:
                            (s.worst_y + 0.5) / left_.settings.size.height);
     }
 
+    // What the pictures' colours mean, below them.
+    std::string scaleLegend() const {
+        if (!isHeat(*channel_.mode)) return "<span>" + markup(pictures_.scale.words) + "</span>";
+        std::string stops;
+        for (int i = 0; i <= 10; ++i) stops += ", " + hex(heatColor(i / 10.0));
+        return fmt::format(
+            "<div class=\"legend\"><span>lights that each pixel evaluates</span><div class=\"ramp\" "
+            "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
+            "mono\"><span>0</span><span>{:g}</span><span>{:g} lights</span></div></div>",
+            stops, pictures_.scale.high / 2, pictures_.scale.high);
+    }
+
     static std::string zoomButtons() {
         return "<span class=\"buttons\"><button data-do=\"out\" aria-label=\"zoom out\" "
                "title=\"-\">\u2212</button>"
@@ -162,11 +175,11 @@ private:
             "<button data-show=\"right\" title=\"2\">{4}</button>"
             "<button data-show=\"side\" title=\"s\">side by side</button>"
             "<button data-show=\"flicker\" "
-            "title=\"f\">flicker</button></span>{6}<span>{5}</span></figcaption>"
+            "title=\"f\">flicker</button></span>{6}{5}</figcaption>"
             "{7}</figure>\n",
             stage("left", left_, pictures_.baseline), stage("right", right_, pictures_.test),
-            channel_.mode->name, markup(left_.name), markup(right_.name), markup(pictures_.scale.words),
-            zoomButtons(), readout());
+            channel_.mode->name, markup(left_.name), markup(right_.name), scaleLegend(), zoomButtons(),
+            readout());
     }
 
     std::string difference() const {
@@ -262,10 +275,9 @@ private:
         const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
         return fmt::format(
             "<div class=\"pictures one\"><figure><div "
-            "class=\"stage\">{}</div><figcaption>{}<span>{}</span></figcaption>"
+            "class=\"stage\">{}</div><figcaption>{}{}</figcaption>"
             "{}</figure></div>{}",
-            panel(picture, std::string(channel_.mode->name)), zoomButtons(), markup(pictures_.scale.words),
-            readout(), why);
+            panel(picture, std::string(channel_.mode->name)), zoomButtons(), scaleLegend(), readout(), why);
     }
 
     const ReportLayout& layout_;

@@ -56,9 +56,9 @@ std::string switches() {
             errorFigures[i].name, i == 0, i == 0 ? " class=\"on\"" : "", markup(errorFigures[i].means),
             markup(errorFigures[i].title));
     return out +
-           "</span><span class=\"soft\">filled: on the front, which nothing beats in both; bars: least to "
-           "most "
-           "of the timed frames, and of the cameras</span></div>\n";
+           "</span><span class=\"soft\">filled, with its row's number: on the front, which nothing beats in "
+           "both "
+           "time and error; bars: least to most of the timed frames, and of the cameras</span></div>\n";
 }
 
 std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {

@@ -124,7 +124,10 @@ private:
                            svgNumber(x(time.high)));
         if (error.low < error.value || error.high > error.value)
             out += fmt::format("M{} {}V{}", svgNumber(px), svgNumber(y(error.low)), svgNumber(y(error.high)));
-        return out + "\"/>" + mark(row.settings.path, px, py, front ? 6 : 4.5) +
+        const std::string label = front ? fmt::format("<text class=\"row\" x=\"{}\" y=\"{}\">{}</text>",
+                                                      svgNumber(px + 8), svgNumber(py - 8), index + 1)
+                                        : "";
+        return out + "\"/>" + mark(row.settings.path, px, py, front ? 6 : 4.5) + label +
                fmt::format("<circle class=\"hit\" cx=\"{}\" cy=\"{}\" r=\"11\"/></g>", svgNumber(px),
                            svgNumber(py));
     }

@@ -301,8 +301,9 @@ TEST(HeatPicture, TheLegendInThePictureStatesTheScale) {
     constexpr Rgb white{255, 255, 255};
     for (const auto& [top, expected] :
          {std::pair{20.0, "0 10 20"}, {50.0, "0 25 50"}, {20000.0, "0 10k 20k"}}) {
-        Image8 image{240, 60, 3, std::vector<std::uint8_t>(std::size_t{3} * 240 * 60, 77)};
-        drawHeatLegend(image, top);
+        const Image8 image =
+            withHeatLegend({240, 40, 3, std::vector<std::uint8_t>(std::size_t{3} * 240 * 40, 77)}, top);
+        ASSERT_EQ(image.height, 65) << "25 rows more";
         const auto at = [&](int x, int y) {
             return pixelOf(image, static_cast<std::size_t>(y) * 240 + static_cast<std::size_t>(x));
         };
@@ -312,7 +313,7 @@ TEST(HeatPicture, TheLegendInThePictureStatesTheScale) {
         for (int x = 0; x < 106; ++x) {
             bool begins = false;
             std::string glyph;
-            for (int y = 52; y < 57; ++y) {
+            for (int y = 57; y < 62; ++y) {
                 begins = begins || at(x, y) == white;
                 for (int k = 0; k < 3; ++k) glyph += at(x + k, y) == white ? '#' : ' ';
             }
@@ -325,9 +326,13 @@ TEST(HeatPicture, TheLegendInThePictureStatesTheScale) {
         }
         EXPECT_EQ(words, expected);
         // The bar above them: 100 pixels, each the colour of its middle.
-        for (int x = 0; x < 100; ++x) EXPECT_EQ(at(3 + x, 47), heatColor((x + 0.5) / 100)) << x;
+        for (int x = 0; x < 100; ++x) EXPECT_EQ(at(3 + x, 52), heatColor((x + 0.5) / 100)) << x;
         for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(heatColor(static_cast<double>(i) / 5), heatStops[i]);
-        EXPECT_EQ(at(150, 30), (Rgb{77, 77, 77})) << "the rest of the picture stays";
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 240; ++x)
+                ASSERT_EQ(at(x, y), (Rgb{77, 77, 77})) << "the picture itself stays";
+        EXPECT_EQ(at(3, 43), white) << "a title, in capitals: the L's stroke";
+        EXPECT_EQ(at(5, 43), (Rgb{0, 0, 0}));
     }
 }
 
