@@ -59,13 +59,6 @@ ErrorHistogram errorHistogram(const Image& errors, const Coverage& coverage) {
     return histogram;
 }
 
-std::uint64_t pixelsBeyond(const Image& errors, const Coverage& coverage, double tolerance) {
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < errors.pixels(); ++i)
-        count += coverage.covered[i] && !(double{errors.data[i]} <= tolerance);
-    return count;
-}
-
 std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t most, int apart, int first_x,
                                     int first_y) {
     PixelData left = errors.data;

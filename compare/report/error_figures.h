@@ -26,9 +26,6 @@ struct ErrorHistogram {
 // Over the covered pixels. From the largest error down to the smallest, at most twelve decades.
 ErrorHistogram errorHistogram(const Image& errors, const Coverage& coverage);
 
-// The covered pixels whose error is more than `tolerance`, or infinite.
-std::uint64_t pixelsBeyond(const Image& errors, const Coverage& coverage, double tolerance);
-
 struct WorstPixel {
     int x = 0, y = 0;
     double error = 0;  // may be infinite

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <set>
 
 namespace diptych {
 
@@ -35,7 +34,7 @@ std::string titleOf(const Report& report, const ReportLayout& layout, const Comp
 }
 
 std::string header(const Report& report, const ReportLayout& layout) {
-    const char* verdict = report.passed() ? "pass" : "fail";
+    const char* verdict = report.passed() && report.errors.empty() ? "pass" : "fail";
     const std::size_t count = report.comparisons.size();
     const std::string title =
         count == 1 ? pairTitle(report, report.comparisons[0]) : fmt::format("{} comparisons", count);
@@ -51,8 +50,8 @@ std::string header(const Report& report, const ReportLayout& layout) {
         drawn += fmt::format("{} ({}), {}", report.device.name, report.device.type, report.device.driver);
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"
-        "<p class=\"soft\">{2}</p></header>\n",
-        verdict, markup(title), markup(drawn));
+        "<p>{3}</p><p class=\"soft\">{2}</p></header>\n",
+        verdict, markup(title), markup(drawn), markup(verdictLine(report)));
 }
 
 std::string listBox(const char* style, const char* heading, const std::string& items) {
@@ -85,6 +84,7 @@ std::string firstNotes(const Report& report) {
 // The failures of all comparisons: where to look first.
 std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
+    for (const SceneError& error : report.errors) items.push_back(markup(errorText(error)));
     for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
         const std::string where = whereOf(report, layout, comparison);
@@ -110,17 +110,23 @@ std::string warnings(const Report& report, const ReportLayout& layout) {
     return listBox("notes", "Warnings", firstOf(items, "report.json has all of them"));
 }
 
-// A note that several frames share is listed once.
-std::string notes(const Report& report) {
-    std::set<std::string> seen;
-    std::vector<std::string> items;
-    const auto add = [&](const std::string& note) {
-        if (seen.insert(note).second) items.push_back(markup(note));
-    };
-    for (const Comparison& comparison : report.comparisons)
-        for (const std::string& note : comparison.notes) add(note);
-    for (const Frame& frame : report.frames)
-        for (const std::string& note : frame.notes) add(note);
+// Each note once, with the scenes that it is about where there are others.
+std::string notes(const Report& report, const ReportLayout& layout) {
+    std::vector<std::string> all, items;
+    for (const Comparison& comparison : report.comparisons) {
+        const std::string& scene = report.baseline(comparison).scene;
+        if (std::ranges::count(all, scene) == 0) all.push_back(scene);
+    }
+    for (const GroupedNote& note : groupedNotes(report)) {
+        std::vector<std::string> names;
+        for (const std::string& scene : note.scenes) names.push_back(inFolder(scene, layout.folder));
+        const std::string about =
+            all.size() == 1 ? ""
+            : names.size() == all.size()
+                ? fmt::format("{} scenes{}: ", all.size(), note.varies ? ", other numbers each" : "")
+                : fmt::format("{}{}: ", listed(names, 3), note.varies ? ", other numbers each" : "");
+        items.push_back(fmt::format("<b>{}</b>{}", markup(about), markup(note.text)));
+    }
     return listBox("notes", "Notes", firstOf(items, "report.json has all of them"));
 }
 
@@ -154,9 +160,6 @@ constexpr const char* legend =
 
 std::string usedText(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
-    if (channel.unexplained_pixels.value_or(0) > 0)
-        return fmt::format("<span class=\"soft\">the encoding leaves {} pixels unexplained</span>",
-                           *channel.unexplained_pixels);
     if (!channel.rule.empty())
         return fmt::format("<span class=\"soft wide\">{}</span>", markup(channel.rule));
     const double share = std::min(usedShare(channel), 1.0);
@@ -164,67 +167,55 @@ std::string usedText(const ChannelDiff& channel) {
                        nameOf(channel.verdict), 100 * share);
 }
 
-// The figure that the limit is on: the largest error, or that which all but a thousandth of the pixels hold.
-const char* judgedFigure(const ChannelDiff& channel) {
-    return channel.tolerance.most_pixels ? "p99.9" : "max";
+// The figure that decides, as measured, and its limit.
+std::string criterionCells(const ChannelDiff& channel) {
+    if (!channel.criterion)
+        return "<td class=\"soft\">nothing</td><td class=\"n\"></td><td class=\"n\"></td>";
+    const Criterion& c = *channel.criterion;
+    return fmt::format("<td class=\"soft\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td>",
+                       markup(c.figure), number(c.measured), c.least ? "\u2265 " : "", number(c.limit));
 }
 
-// What a channel's errors are held to: a number and the figure that it is on, or where else it comes from.
-std::string limitCells(const ChannelDiff& channel) {
-    const bool judgedByPixel = channel.unexplained_pixels.has_value() || channel.footprints.has_value();
-    const std::string limit = std::isfinite(channel.tolerance.max) ? number(channel.tolerance.max) : "rule";
-    const char* const on = !channel.rule.empty() ? "rule" : judgedByPixel ? "pixel" : judgedFigure(channel);
-    return fmt::format("<td class=\"n\">{}</td><td class=\"soft\">{}</td>", limit, on);
+// Of a channel that fails: the share of the pixels that do, or that differ where the figure is of all.
+std::string beyondText(const ChannelDiff& channel) {
+    if (channel.verdict != Verdict::fail || !channel.criterion || channel.criterion->pixels == 0) return {};
+    return fmt::format("<span class=\"beyond\">{} of the pixels{}</span>",
+                       percentText(channel.criterion->share), channel.criterion->differing ? " differ" : "");
 }
 
-// Of a channel that fails: the share of the pixels that do.
-std::string beyondText(const Comparison& comparison, const ChannelDiff& channel,
-                       const ChannelPictures& pictures) {
-    if (channel.verdict != Verdict::fail || comparison.coverage.count == 0) return {};
-    const std::uint64_t pixels = channel.unexplained_pixels.value_or(pictures.beyond);
-    if (pixels == 0) return {};
-    return fmt::format(
-        "<span class=\"beyond\">{} of the pixels</span>",
-        page::percent(static_cast<double>(pixels) / static_cast<double>(comparison.coverage.count)));
-}
-
-std::string overview(const Comparison& comparison, const ReportLayout& layout, std::size_t index) {
-    const bool byMost = std::ranges::any_of(comparison.channels,
-                                            [](const ChannelDiff& c) { return c.tolerance.most_pixels; });
-    const std::string max = byMost ? " optional" : "", p999 = byMost ? "" : " optional";
+std::string overview(const Comparison& comparison, std::size_t index) {
     std::string out = fmt::format(
         "<div class=\"box scroll\"><table class=\"overview\"><thead><tr><th>channel</th><th "
-        "class=\"optional\">metric</th><th class=\"n{}\">max</th><th class=\"n optional\">mean</th><th "
-        "class=\"n{}\">p99.9</th><th class=\"n\">limit</th><th>on</th><th class=\"optional\">used of it</th>"
-        "<th>verdict</th></tr></thead>\n<tbody>",
-        max, p999);
+        "class=\"optional\">metric</th><th class=\"n optional\">max</th><th class=\"n "
+        "optional\">mean</th><th "
+        "class=\"n optional\">p99.9</th><th>judged by</th><th class=\"n\">measured</th><th "
+        "class=\"n\">limit</th>"
+        "<th class=\"optional\">used of it</th><th>verdict</th></tr></thead>\n<tbody>");
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
         const std::string name = markup(channel->mode->name);
         out += fmt::format("<tr><td><a href=\"#c{}-{}\">{}</a></td><td class=\"optional soft\">{}</td>",
                            index, name, breakable(channel->mode->name), nameOf(channel->mode->metric));
         if (channel->verdict == Verdict::forward_only)
-            out += fmt::format(
-                "<td class=\"n{}\">\u2013</td><td class=\"n optional\">\u2013</td><td "
-                "class=\"n{}\">\u2013</td><td class=\"n\">\u2013</td><td></td><td class=\"optional\"></td>",
-                max, p999);
+            out +=
+                "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
+                "optional\">"
+                "\u2013</td><td></td><td class=\"n\">\u2013</td><td class=\"n\">\u2013</td><td "
+                "class=\"optional\"></td>";
         else
             out += fmt::format(
-                "<td class=\"n{}\">{}</td><td class=\"n optional\">{}</td><td class=\"n{}\">{}</td>{}<td "
-                "class=\"optional\">{}</td>",
-                max, number(s.max), number(s.mean), p999, number(s.p999), limitCells(*channel),
-                usedText(*channel));
-        const auto which = static_cast<std::size_t>(channel - comparison.channels.data());
-        out +=
-            fmt::format("<td><span class=\"verdict {0}\">{0}</span>{1}</td></tr>\n", nameOf(channel->verdict),
-                        beyondText(comparison, *channel, layout.pictures[index][which]));
+                "<td class=\"n optional\">{}</td><td class=\"n optional\">{}</td><td class=\"n "
+                "optional\">{}</td>{}<td class=\"optional\">{}</td>",
+                number(s.max), number(s.mean), number(s.p999), criterionCells(*channel), usedText(*channel));
+        out += fmt::format("<td><span class=\"verdict {0}\">{0}</span>{1}</td></tr>\n",
+                           nameOf(channel->verdict), beyondText(*channel));
     }
     return out +
-           "</tbody></table><p class=\"soft small\">A limit is on the largest error (max), on the one that "
-           "999 of "
-           "1000 pixels stay below (p99.9), or on each pixel by itself (pixel): then the largest is "
-           "named.</p>"
-           "</div>\n";
+           "</tbody></table><p class=\"soft small\">A channel is judged by its largest error (max), by the "
+           "one that "
+           "999 of 1000 pixels stay below (p99.9), by a figure of a rule, or by the number of pixels whose "
+           "difference "
+           "the encoding of the G-buffer does not explain: none may.</p></div>\n";
 }
 
 std::string footer(const Report& report, const ReportLayout& layout) {
@@ -254,7 +245,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
     const bool several = report.comparisons.size() > 1;
     return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", index,
                        several ? markup(titleOf(report, layout, comparison)) : "Channels") +
-           overview(comparison, layout, index) + channelCards(report, layout, index) +
+           overview(comparison, index) + channelCards(report, layout, index) +
            checksSection(report, layout, index) + "<h2>What was compared</h2>\n" +
            frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
 }
@@ -273,9 +264,9 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
     std::string body = header(report, layout) + firstNotes(report) + failures(report, layout) +
-                       warnings(report, layout) + notes(report) + checksLinks(report, layout) +
-                       closerPathSection(report, layout) + indexTable(report, layout) + legend +
-                       "<div id=\"sections\">\n";
+                       warnings(report, layout) + checksLinks(report, layout) +
+                       closerPathSection(report, layout) + indexTable(report, layout) +
+                       notes(report, layout) + legend + "<div id=\"sections\">\n";
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         body += section(report, layout, layout.order[at]);
     body += "</div>\n" + laterSections(report, layout);

@@ -25,7 +25,6 @@ struct ChannelPictures {
     // Of the difference; filled in by the writer of its picture.
     ErrorHistogram histogram;
     std::vector<WorstPixel> worst;
-    std::uint64_t beyond = 0;  // covered pixels whose error exceeds the tolerance
 };
 inline constexpr std::size_t worstShown = 10;
 inline constexpr int worstApart = 8;  // pixels

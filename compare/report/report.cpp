@@ -100,7 +100,6 @@ private:
                 write(pictures.difference,
                       errorPicture(channel.shown_error ? *channel.shown_error : errors, pictures.error_top));
             pictures.histogram = errorHistogram(errors, comparison.coverage);
-            pictures.beyond = pixelsBeyond(errors, comparison.coverage, channel.tolerance.max);
             pictures.worst =
                 worstPixels(errors, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's table of channels: what a limit is on, and how much of the picture is beyond it.
+// The page's table of channels, and what stands around its index.
 #include "compare/report/report.h"
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
@@ -9,30 +9,54 @@
 namespace diptych {
 namespace {
 
-// The row of roughness, of which one covered pixel is all and differs by 0.25.
-std::string rowOfRoughness(bool mostPixels) {
-    std::vector<Frame> frames = bothFrames();
-    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
-    Report report = reportOf(std::move(frames));
-    for (ChannelDiff& channel : report.comparisons[0].channels) channel.tolerance.most_pixels = mostPixels;
-    const std::filesystem::path out = folder() / "report";
-    writeReport(report, out, {});
-    const std::string page = contentsOf(out / "index.html");
-    const std::size_t row = page.find("<tr><td><a href=\"#c0-roughness\">");
+std::string rowOf(const std::string& page, const std::string& channel) {
+    const std::size_t row = page.find("<tr><td><a href=\"#c0-" + channel + "\">");
     return page.substr(row, page.find("</tr>", row) - row);
 }
 
-TEST(ReportOverview, ALimitIsOnAFigureAndAFailureHasItsShare) {
-    const std::string largest = rowOfRoughness(false), most = rowOfRoughness(true);
-    EXPECT_NE(largest.find("<td class=\"soft\">max</td>"), std::string::npos) << largest;
-    EXPECT_NE(most.find("<td class=\"soft\">p99.9</td>"), std::string::npos) << most;
-    EXPECT_NE(largest.find("<span class=\"beyond\">100 % of the pixels</span>"), std::string::npos)
-        << largest;
-    // On a narrow page stays the figure that is judged.
-    EXPECT_NE(largest.find("<td class=\"n\">0.25</td><td class=\"n optional\">"), std::string::npos)
-        << largest;
-    EXPECT_NE(most.find("<td class=\"n optional\">0.25</td><td class=\"n optional\">"), std::string::npos)
-        << most;
+// Of one covered pixel, whose roughness differs by 0.25.
+TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    const std::filesystem::path out = folder() / "report";
+    writeReport(reportOf(std::move(frames)), out, {});
+    const std::string page = contentsOf(out / "index.html");
+    const std::string roughness = rowOf(page, "roughness"), lit = rowOf(page, "lit");
+    // On a narrow page these three cells stay, and the share of what fails.
+    EXPECT_NE(
+        roughness.find("<td class=\"soft\">max</td><td class=\"n\">0.25</td><td class=\"n\">0.000123</td>"),
+        std::string::npos)
+        << roughness;
+    EXPECT_NE(roughness.find("<span class=\"beyond\">100 % of the pixels</span>"), std::string::npos)
+        << roughness;
+    EXPECT_NE(
+        lit.find("<td class=\"soft\">pixels unexplained</td><td class=\"n\">0</td><td class=\"n\">0</td>"),
+        std::string::npos)
+        << lit;
+    EXPECT_EQ(lit.find("class=\"beyond\""), std::string::npos);
+    EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance</p>"), std::string::npos)
+        << "the verdict's line";
+}
+
+// Notes stand below the index, each once with its scenes; scenes that could not be drawn are failures.
+TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
+    std::vector<Frame> frames;
+    for (const char* scene : {"a/x.glb", "a/y.glb", "a/z.glb"})
+        for (Frame& frame : bothFrames(scene)) frames.push_back(std::move(frame));
+    for (Frame& frame : frames) frame.notes = {"of all"};
+    frames[2].notes = {"of all", "took 1 s"};
+    frames[4].notes = {"of all", "took 2 s"};
+    Report report = reportOf(std::move(frames));
+    report.errors = {{"a/bad.glb", "a/bad.glb: is cut short"}};
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_NE(page.find("<li><b>3 scenes: </b>of all</li>"), std::string::npos);
+    EXPECT_NE(page.find("<li><b>y.glb, z.glb, other numbers each: </b>took 1 s</li>"), std::string::npos);
+    EXPECT_LT(page.find("<section class=\"index\">"), page.find("<b>3 scenes: </b>"));
+    EXPECT_NE(page.find("<li>a/bad.glb: is cut short</li>"), std::string::npos);
+    EXPECT_NE(page.find("<h1><span class=\"verdict fail\">fail</span>"), std::string::npos);
+    EXPECT_NE(page.find("<p>ERROR: 1 scene could not be drawn: a/bad.glb; pass"), std::string::npos);
 }
 
 }  // namespace
