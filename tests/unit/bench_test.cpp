@@ -54,6 +54,8 @@ TEST(BenchCases, ListsParseAndAreNamedWhereTheyDoNot) {
     EXPECT_TRUE(bench.frames);
     EXPECT_FALSE(bench.kernels);
     EXPECT_FALSE(asked({"--kernels", "only"}).frames);
+    EXPECT_TRUE(asked({"--kernels", "only"}).kernels);
+    EXPECT_TRUE(asked({"--kernels", "on"}).frames && asked({"--kernels", "on"}).kernels);
     const std::pair<std::vector<std::string>, const char*> wrong[] = {
         {{"--paths", "sideways"}, "--paths sideways"},
         {{"--paths", "reference"}, "--paths reference"},

@@ -67,6 +67,30 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
     }
 }
 
+// The last values that are taken; those beyond are among the usage errors.
+TEST(CommandLine, LimitsAreTaken) {
+    EXPECT_EQ(parseCommandLine({"compare", "--runs", "0"}).runs, 0) << "no times, no profile";
+    EXPECT_EQ(parseCommandLine({"diff", "a", "b", "--tolerance", "0"}).diff.tolerance, 0);
+    EXPECT_EQ(parseCommandLine({"compare", "--ev100", "0"}).picture.ev100, 0);
+    EXPECT_EQ(parseCommandLine({"compare", "--exposure", "1e-30"}).picture.exposure, 1e-30);
+    EXPECT_EQ(parseCommandLine({"bench", "--max-ms", "1e-3"}).bench.max_ms, 1e-3);
+}
+
+TEST(CommandLine, AMistypedWordIsFollowedByTheOneThatWasMeant) {
+    const std::pair<std::vector<std::string>, const char*> mistyped[] = {
+        {{"compar"}, "; did you mean compare?"},
+        {{"compare", "--siez", "4x4"}, "; did you mean --size?"},
+        {{"diff", "a", "b", "--metrik=rmse"}, "; did you mean --metric?"},
+        {{"render", "--debug", "albdeo"}, "; did you mean albedo?"},
+        {{"render", "--channels", "lit,albdeo"}, "; did you mean albedo?"},
+    };
+    for (const auto& [words, meant] : mistyped) {
+        const std::string what = whatIsThrown(words);
+        EXPECT_NE(what.find(meant), std::string::npos) << what;
+    }
+    EXPECT_EQ(whatIsThrown({"compare", "--paint"}).find("did you mean"), std::string::npos);
+}
+
 TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
     const auto shown = [](std::vector<std::string> words) {
         words.insert(words.begin(), "render");

@@ -28,6 +28,7 @@ TEST(VerdictWords, OfDiffAreThoseThatWereGiven) {
              {"--ppd", "30", "--start-exposure=-3", "--stop-exposure", "4", "--exposures", "5"},
              {"--mask", "m.png", "--ids", "1,3", "--ignore-edges", "2", "--crop", "1,2,30x40"},
              {"--strict"},
+             {"--allow-empty"},
          })
         EXPECT_EQ(wordsAgain({"diff", "a.exr", "b.exr"}, said), said);
 }
@@ -37,6 +38,7 @@ TEST(VerdictWords, OfCompareAreThoseThatWereGiven) {
              VerdictWordList{"--tolerances", "t.json", "--baseline", "b.exr"},
              {"--mask", "m.png", "--ids", "1,3", "--ignore-edges", "2", "--crop", "1,2,30x40"},
              {"--allow-noise", "--strict"},
+             {"--allow-empty"},
          })
         EXPECT_EQ(wordsAgain({"compare", "builtin:points"}, said), said);
 }
