@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -154,6 +155,50 @@ TEST_F(Barriers, ContradictionsAreNamed) {
               "pass shade: uses of pyramid overlap in part; declare them for the same part");
     EXPECT_EQ(fault({{pyramid, {3, 1, 0, 1}, colorSampled}}),
               "pass shade: pyramid has no such level or layer");
+    EXPECT_EQ(fault({{pyramid, {0, 1, 1, 2}, colorSampled}}),
+              "pass shade: pyramid has no such level or layer");
+    for (const auto& [read, written] : {std::pair<Part, Part>{{0, 1, 0, 1}, {1, 1, 0, 1}},
+                                        {{1, 1, 0, 1}, {0, 1, 0, 1}},
+                                        {{2, 1, 0, 1}, {2, 1, 1, 1}},
+                                        {{2, 1, 1, 1}, {2, 1, 0, 1}}})
+        EXPECT_EQ(fault({{pyramid, read, colorSampled}, {pyramid, written, access::colorAttachment}}), "")
+            << "a level or a layer may be made of its neighbour";
+}
+
+// What one use of a pass needs is kept, whatever its other uses of the same part discard.
+TEST_F(Barriers, ContentsAreDiscardedOnlyWhereEveryUseDoes) {
+    image(access::colorAttachment, true);
+    image(colorSampled);
+    const std::vector<Barrier> kept = tracker.before(
+        "pass", {{picture, {}, access::colorAttachment, true}, {picture, {}, access::colorAttachment}});
+    ASSERT_EQ(kept.size(), 1u);
+    EXPECT_EQ(kept[0].from.layout, colorSampled.layout);
+}
+
+// SHADER_READ stands for every way in which a shader reads.
+TEST_F(Barriers, AGeneralReadOfShadersCoversEachKind) {
+    buffer(computeWrite);
+    EXPECT_EQ(buffer({inFragment, VK_ACCESS_2_SHADER_READ_BIT}).size(), 1u);
+    EXPECT_TRUE(buffer(fragmentRead).empty());
+    EXPECT_TRUE(buffer({inFragment, VK_ACCESS_2_UNIFORM_READ_BIT}).empty());
+    EXPECT_EQ(buffer(computeRead).size(), 1u) << "of these stages alone";
+}
+
+TEST_F(Barriers, WhatWasUploadedIsInTheLayoutThatItWasLeftIn) {
+    tracker.setWritten(picture, colorSampled.layout);
+    EXPECT_TRUE(image(colorSampled).empty());
+    EXPECT_EQ(image(access::colorAttachment).at(0).from.layout, colorSampled.layout);
+}
+
+// An image in another's memory waits for who wrote it and who read it.
+TEST_F(Barriers, MemoryIsTakenOverFromItsWritersAndReaders) {
+    const std::size_t second = tracker.add("second");
+    buffer(computeWrite);
+    buffer(fragmentRead);
+    tracker.alias(second, list);
+    const std::vector<Barrier> taken = tracker.before("pass", {{second, {}, computeWrite}});
+    ASSERT_EQ(taken.size(), 1u);
+    EXPECT_EQ(taken[0].from, (Access{inCompute | inFragment, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT}));
 }
 
 TEST(TimeStamps, OnlyValidBitsCountAndTheCounterWraps) {
