@@ -45,16 +45,11 @@ public:
         };
         for (std::size_t i = 0; i < at(gpu::DEBUG_lit).pixels(); ++i) {
             if (*at(gpu::DEBUG_material_id).pixel(i) < 0) continue;
-            float *albedo = at(gpu::DEBUG_albedo).pixel(i), *f0 = at(gpu::DEBUG_specular).pixel(i);
-            const double metallic = *at(gpu::DEBUG_metallic).pixel(i),
-                         moved = linear(metallic, bits_.metallic);
+            float *albedo = at(gpu::DEBUG_albedo).pixel(i), *f0 = at(gpu::DEBUG_dielectric_f0).pixel(i);
+            const double moved = linear(*at(gpu::DEBUG_metallic).pixel(i), bits_.metallic);
             for (int c = 0; c < 3; ++c) {
-                const double a = albedo[c], b = root(a);
-                // The channel is the dielectric's mix with the metal.
-                double dielectric = metallic < 1 ? std::max((f0[c] - a * metallic) / (1 - metallic), 0.0) : 0;
-                if (specular_) dielectric = root(dielectric);
-                f0[c] = static_cast<float>(dielectric * (1 - moved) + b * moved);
-                albedo[c] = static_cast<float>(b);
+                albedo[c] = static_cast<float>(root(albedo[c]));
+                if (specular_) f0[c] = static_cast<float>(root(f0[c]));
             }
             *at(gpu::DEBUG_metallic).pixel(i) = static_cast<float>(moved);
             float& f90 = *at(gpu::DEBUG_dielectric_f90).pixel(i);
