@@ -79,8 +79,12 @@ TEST(Baseline, OfAnotherRendererNeedsARule) {
     EXPECT_EQ(ran.out.find("baseline: not written by diptych"), 0u) << ran.out;
     EXPECT_NE(ran.out.find("no bound is known between these two paths"), std::string::npos) << ran.out;
     folder.write("t.json", R"({"rules": [{"channel": "lit", "flip": 0.05, "because": "another renderer"}]})");
-    ran = runTool(folder, comparePoints + "--baseline theirs.exr --tolerances t.json");
+    const std::string ruled =
+        "compare builtin:points --size 32x18 --runs 0 --baseline theirs.exr --tolerances t.json";
+    ran = runTool(folder, ruled);
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+    EXPECT_EQ(runTool(folder, ruled + " --channels lit").code, 0);
+    EXPECT_EQ(runTool(folder, ruled + " --channels lit,normals").code, 1) << "which theirs does not have";
 }
 
 TEST(Baseline, FaultsAreOneLine) {

@@ -75,9 +75,12 @@ TEST(PageReport, TheCommandOfAReportMakesItAgain) {
                       start = "name=\"command\" value=\"diptych ";
     const std::size_t at = junit.find(start) + start.size();
     const std::string command = junit.substr(at, junit.find('"', at) - at);
-    EXPECT_EQ(command, "compare --baseline forward_plus --gbuffer compact --size 96x54 builtin:cutout");
+    EXPECT_EQ(
+        command,
+        "compare -o report-again --baseline forward_plus --gbuffer compact --size 96x54 builtin:cutout");
+    const std::string kept = contentsOf(folder / "report/report.json");
     for (const std::string channel : {"lit", "normals"}) {
-        const Ran again = runTool(folder, command + " --channels " + channel + " --json --runs 0 -o again");
+        const Ran again = runTool(folder, command + " --channels " + channel + " --json --runs 0");
         ASSERT_EQ(again.code, 0) << again.err;
         const auto of = [&](const Ran& ran) {
             const nlohmann::json report = nlohmann::json::parse(ran.out);
@@ -88,6 +91,9 @@ TEST(PageReport, TheCommandOfAReportMakesItAgain) {
         EXPECT_EQ(of(again), of(first)) << channel;
         EXPECT_TRUE(of(first).is_object());
     }
+    EXPECT_EQ(contentsOf(folder / "report/report.json"), kept)
+        << "the report that it stands in is not replaced";
+    EXPECT_TRUE(fs::exists(folder / "report-again/index.html"));
 }
 
 }  // namespace
