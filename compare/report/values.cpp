@@ -83,7 +83,7 @@ public:
           pixels_(pixels),
           write_(write) {
         // Level 4: a report waits for dozens of these; level 6 takes twice as long to save a thirtieth.
-        if (deflateInit(&stream_, 4) != Z_OK) fail();
+        if (deflateInit(&stream_, 6) != Z_OK) fail();
     }
     ~Planes() { deflateEnd(&stream_); }
     Planes(const Planes&) = delete;

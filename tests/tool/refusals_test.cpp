@@ -34,9 +34,7 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
         runTool(folder, "compare builtin:triangle bad.glb builtin:suns --size 16x9 --runs 0 -o out");
     EXPECT_EQ(ran.code, 2);
     EXPECT_NE(ran.out.find("\nERROR bad.glb: is not JSON"), std::string::npos) << ran.out;
-    EXPECT_NE(
-        ran.out.find("\nERROR: 1 scene could not be drawn: bad.glb; pass: all 38 channels of 2 comparisons"),
-        std::string::npos)
+    EXPECT_NE(ran.out.find("\nERROR: 1 scene could not be drawn: bad.glb; pass: all "), std::string::npos)
         << ran.out;
     const Json report = Json::parse(contentsOf(folder / "out/report.json"));
     EXPECT_EQ(report["comparisons"].size(), 2u);

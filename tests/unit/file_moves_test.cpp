@@ -80,16 +80,19 @@ TEST(FileMoves, AListNamesOurFilesAlone) {
     put(above / "beside.png", "old");
     put(place / "notes.txt", "old");
     put(place / ".hidden.png", "old");
-    put(place / "mine/lit.png", "old");
+    put(above / "aside.png", "old");
+    put(place / "earlier/lit.png", "old");
     begin(place, {"lit.png", "run.sh"}, R"({"files": ["lit.png", "run.sh", "../new.png", 7],
-              "earlier": ["../beside.png", "notes.txt", ".hidden.png", "mine/lit.png"]})");
+              "earlier": ["../beside.png", "notes.txt", ".hidden.png", "earlier/../../aside.png",
+              "earlier/lit.png"]})");
     put(place / "new.png", "old");
     finishMoves(place);
     EXPECT_EQ(contentsOf(place / "lit.png"), "new");
     EXPECT_TRUE(fs::exists(above / "beside.png"));
     EXPECT_TRUE(fs::exists(place / "notes.txt"));
     EXPECT_TRUE(fs::exists(place / ".hidden.png"));
-    EXPECT_TRUE(fs::exists(place / "mine/lit.png"));
+    EXPECT_TRUE(fs::exists(above / "aside.png"));
+    EXPECT_FALSE(fs::exists(place / "earlier/lit.png")) << "a scene's folder is ours";
     EXPECT_FALSE(fs::exists(place / "run.sh"));
     EXPECT_TRUE(fs::exists(place / "new.png"));
     EXPECT_FALSE(fs::exists(above / "new.png"));

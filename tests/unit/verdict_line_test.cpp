@@ -157,11 +157,14 @@ TEST(VerdictLine, SaysThatPicturesShowNothing) {
         {bothFrames(), ""},
         {empty, ", but both pictures are empty: no surface is in view"},
         {black, ", but both pictures are black: no light reaches what is in view"}};
+    const auto shared = std::ranges::count_if(
+        debugModes(), [](const DebugMode& mode) { return mode.maker != MadeBy::forward_only; });
+    const std::string passes = "pass: all " + std::to_string(shared) + " channels are within tolerance";
     for (const auto& [frames, words] : cases) {
-        EXPECT_EQ(verdictLine(reportWith(frames, {})), "pass: all 19 channels are within tolerance" + words);
+        EXPECT_EQ(verdictLine(reportWith(frames, {})), passes + words);
         options.allow_empty = true;
         options.strict = false;
-        EXPECT_EQ(verdictLine(reportWith(frames, options)), "pass: all 19 channels are within tolerance");
+        EXPECT_EQ(verdictLine(reportWith(frames, options)), passes);
         options.strict = true;
         EXPECT_TRUE(reportWith(frames, options).passed());
         options.allow_empty = false;
