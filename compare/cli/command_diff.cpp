@@ -1,16 +1,76 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/cli/verdict_words.h"
+#include "compare/files/picture_folders.h"
 #include "compare/report/picture_diff_report.h"
 #include "compare/report/picture_diff_text.h"
 #include "compare/verdict/picture_diff.h"
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
 namespace diptych::cli {
 
 // The share of reading and measuring; the rest is writing.
 constexpr double measuring = 0.9;
+
+namespace {
+
+void print(const Options& options, const std::string& text) {
+    if (options.json)
+        fmt::print("{}", text);
+    else if (!options.quiet)
+        printColored(options, text);
+}
+
+// Two folders: every picture that has one name in both.
+int diffFolders(const Options& options, PictureDiffOptions settings, const std::optional<Output>& output) {
+    namespace fs = std::filesystem;
+    if (output && output->kind != OutputKind::folder)
+        throw std::runtime_error(
+            fmt::format("-o {}: two folders make a report, which is a folder; give a name without ending",
+                        output->path.string()));
+    FolderDiff diff{options.scenes.at(0), options.scenes.at(1), {}, {}, {}, {}};
+    const fs::path left = diff.reference, right = diff.test;
+    PictureFolders folders = pictureFolders(left, right);
+    Progress progress(progressOutput(options));
+    const Stage stage(progress, diff.test);
+    const auto all = static_cast<double>(folders.both.size());
+    for (std::size_t i = 0; i < folders.both.size(); ++i) {
+        const std::string& name = folders.both[i];
+        const auto done = static_cast<double>(i);
+        settings.progress = stage.part(measuring * done / all, measuring * (done + 1) / all).about(name);
+        try {
+            diff.pictures.push_back(diffPictures((left / name).string(), (right / name).string(), settings));
+            diff.pictures.back().name = name;
+        } catch (const std::system_error&) {
+            throw;  // of this machine
+        } catch (const std::runtime_error& error) {
+            diff.errors.push_back({name, error.what()});
+        }
+    }
+    if (diff.pictures.empty())
+        throw std::runtime_error(fmt::format("none of the {} pictures can be compared; the first: {}",
+                                             folders.both.size(), diff.errors.front().message));
+    diff.reference_alone = std::move(folders.reference_alone);
+    diff.test_alone = std::move(folders.test_alone);
+    const bool passed = diff.passed();
+    const std::string text = options.json ? folderDiffJson(diff) : folderDiffTable(diff);
+    if (output)
+        writePictureDiffs(std::move(diff.pictures), output->path,
+                          {pictureChoice(options), options.single_file, options.keep, options.force,
+                           stage.part(measuring, 1)},
+                          wordsOfWhatCounts(options), diff.errors);
+    progress.wipe();
+    print(options, text);
+    return !diff.errors.empty() ? 2 : passed ? 0 : 1;
+}
+
+}  // namespace
 
 int runDiff(const Options& options) {
     const std::optional<Output> output =
@@ -20,6 +80,8 @@ int runDiff(const Options& options) {
     settings.strict = options.strict;
     settings.allow_empty = options.allow_empty;
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
+    const auto isFolder = [&](std::size_t i) { return std::filesystem::is_directory(options.scenes.at(i)); };
+    if (isFolder(0) && isFolder(1)) return diffFolders(options, std::move(settings), output);
     Progress progress(progressOutput(options));
     const Stage stage(progress, options.scenes.at(1));
     settings.progress = stage.part(0, measuring);
@@ -33,10 +95,7 @@ int runDiff(const Options& options) {
                           stage.part(measuring, 1)},
                          wordsOfWhatCounts(options));
     progress.wipe();
-    if (options.json)
-        fmt::print("{}", text);
-    else if (!options.quiet)
-        printColored(options, text);
+    print(options, text);
     return passed ? 0 : 1;
 }
 

@@ -52,7 +52,8 @@ Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test)
     Frame frame;
     frame.name = test ? "test" : "reference";
     frame.origin.file = test ? diff.test : diff.reference;
-    frame.scene = std::filesystem::path(frame.origin.file).filename().string();
+    frame.scene =
+        diff.name.empty() ? std::filesystem::path(frame.origin.file).filename().string() : diff.name;
     frame.settings.size = {diff.width, diff.height};
     for (std::size_t i = 0; i < modes.size(); ++i) {
         diff.channels[i]->measurement.reset();
@@ -86,29 +87,45 @@ ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel
     return row;
 }
 
-void writeFolder(PictureDiff& diff, const Output& output, const ReportOptions& options,
-                 const std::vector<std::string>& words) {
-    const std::vector<DebugMode> modes = modesOf(diff);
-    Report report;
+// Adds both pictures and their comparison; `modes` describes their channels as long as the report lives.
+void addTo(Report& report, PictureDiff& diff, const std::vector<DebugMode>& modes,
+           std::vector<std::string> command) {
     Comparison& comparison = report.comparisons.emplace_back();
-    comparison.test = 1;
+    comparison.baseline = report.frames.size();
+    comparison.test = comparison.baseline + 1;
     comparison.coverage = *diff.coverage;
     comparison.failures = diff.failures;
     comparison.notes = diff.notes;
     comparison.emptiness = diff.emptiness;
-    comparison.command =
-        withOption(withWords({"diff", diff.reference, diff.test}, words), "-o", againFolder(output.path));
+    comparison.command = std::move(command);
     for (std::size_t i = 0; i < modes.size(); ++i)
         comparison.channels.push_back(channelOf(diff, *diff.channels[i], modes[i]));
     for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, modes, test));
-    writeReport(report, output.path, options);
 }
 
 }  // namespace
 
+void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::path& folder,
+                       const ReportOptions& options, const std::vector<std::string>& words,
+                       const std::vector<SceneError>& errors) {
+    std::vector<std::vector<DebugMode>> modes;
+    for (const PictureDiff& diff : diffs) modes.push_back(modesOf(diff));
+    Report report;
+    report.errors = errors;
+    for (std::size_t i = 0; i < diffs.size(); ++i)
+        addTo(report, diffs[i], modes[i],
+              withOption(withWords({"diff", diffs[i].reference, diffs[i].test}, words), "-o",
+                         againFolder(folder)));
+    writeReport(report, folder, options);
+}
+
 void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
                       const std::vector<std::string>& words) {
-    if (output.kind == OutputKind::folder) return writeFolder(diff, output, options, words);
+    if (output.kind == OutputKind::folder) {
+        std::vector<PictureDiff> one;
+        one.push_back(std::move(diff));
+        return writePictureDiffs(std::move(one), output.path, options, words, {});
+    }
     if (output.kind == OutputKind::exr) {
         std::vector<Image> errors;
         for (const auto& channel : diff.channels) errors.push_back(decidingErrors(diff, *channel).image);

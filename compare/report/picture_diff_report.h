@@ -5,6 +5,10 @@
 #include "compare/report/report.h"
 #include "compare/verdict/picture_diff.h"
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace diptych {
 
 // Writes an EXR of every channel's errors (FLIP's for colours that FLIP judges, else those of the channel's
@@ -13,5 +17,10 @@ namespace diptych {
 // that repeat it.
 void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
                       const std::vector<std::string>& words);
+
+// The same report of several pairs, those of two folders. Throws as writePictureDiff().
+void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::path& folder,
+                       const ReportOptions& options, const std::vector<std::string>& words,
+                       const std::vector<SceneError>& errors);
 
 }  // namespace diptych

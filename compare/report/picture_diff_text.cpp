@@ -158,7 +158,9 @@ std::string pictureDiffTable(const PictureDiff& diff) {
                              diff.channels.size() == 1 ? "" : "s", emptiness);
 }
 
-std::string pictureDiffJson(const PictureDiff& diff) {
+namespace {
+
+Json jsonOf(const PictureDiff& diff) {
     const PictureChannelDiff& first = *failuresFirst(diff).front();
     Json json{{"schema", 1},
               {"software", softwareName},
@@ -176,7 +178,66 @@ std::string pictureDiffJson(const PictureDiff& diff) {
     Json channels = Json::array();
     for (const PictureChannelDiff* channel : failuresFirst(diff)) channels.push_back(channelJson(*channel));
     json["channels"] = std::move(channels);
+    return json;
+}
+
+std::string textOf(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string pictureDiffJson(const PictureDiff& diff) {
+    return textOf(jsonOf(diff));
+}
+
+bool FolderDiff::passed() const {
+    return reference_alone.empty() && test_alone.empty() &&
+           std::ranges::all_of(pictures, &PictureDiff::passed);
+}
+
+std::string folderDiffTable(const FolderDiff& diff) {
+    std::string out;
+    std::vector<std::string> failed;
+    for (const PictureDiff& picture : diff.pictures) {
+        out += pictureDiffTable(picture);
+        if (!picture.passed()) failed.push_back(picture.name);
+    }
+    for (const std::string& name : diff.reference_alone)
+        out += fmt::format("FAIL {}: is in {} alone\n", name, diff.reference);
+    for (const std::string& name : diff.test_alone)
+        out += fmt::format("FAIL {}: is in {} alone\n", name, diff.test);
+    for (const SceneError& error : diff.errors) out += fmt::format("ERROR {}\n", errorText(error));
+    const std::size_t alone = diff.reference_alone.size() + diff.test_alone.size(),
+                      all = diff.pictures.size();
+    std::string line = diff.errors.empty()
+                           ? ""
+                           : fmt::format("ERROR: {} pictures could not be compared; ", diff.errors.size());
+    if (diff.passed()) return out + fmt::format("{}pass: all {} pictures are within tolerance\n", line, all);
+    std::string why;
+    if (!failed.empty()) why = fmt::format("{} of {} pictures: {}", failed.size(), all, listed(failed, 8));
+    if (alone > 0)
+        why += fmt::format("{}{} pictures are in one folder alone", why.empty() ? "" : "; ", alone);
+    return out + fmt::format("{}FAIL: {}\n", line, why);
+}
+
+std::string folderDiffJson(const FolderDiff& diff) {
+    Json pictures = Json::array(), errors = Json::array();
+    for (const PictureDiff& picture : diff.pictures) {
+        pictures.push_back(jsonOf(picture));
+        pictures.back()["name"] = picture.name;
+    }
+    for (const SceneError& error : diff.errors)
+        errors.push_back({{"name", error.scene}, {"message", error.message}});
+    return textOf({{"schema", 1},
+                   {"software", softwareName},
+                   {"verdict", diff.passed() && diff.errors.empty() ? "pass" : "fail"},
+                   {"reference", diff.reference},
+                   {"test", diff.test},
+                   {"pictures", pictures},
+                   {"reference_alone", diff.reference_alone},
+                   {"test_alone", diff.test_alone},
+                   {"errors", errors}});
 }
 
 }  // namespace diptych

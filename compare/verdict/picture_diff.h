@@ -57,6 +57,7 @@ DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff&
 
 struct PictureDiff {
     std::string reference, test;  // file names as they were given
+    std::string name;             // what both are called in two folders; empty of two files
     std::string reference_format, test_format;
     int width = 0, height = 0;
     bool display = false;                // both hold display colours

@@ -277,5 +277,43 @@ TEST(DiffCommand, WritesErrorsPicturesAndReports) {
     EXPECT_TRUE(runTool(folder, "diff a.png b.png -o mine").failedOver("--force replaces it"));
 }
 
+// Two folders: pictures of one name are compared, those that one alone has fail, and one report has all.
+TEST(DiffCommand, FoldersAreComparedByName) {
+    const Folder folder;
+    const Image grey(8, 4, 3, 0.5f), other(8, 4, 3, 0.6f);
+    for (const char* side : {"a", "b"}) {
+        fs::create_directories(folder / side / "deep");
+        writeExr(folder / side / "same.exr", {{{"R", "G", "B"}, &grey}});
+        writeExr(folder / side / "deep/one.exr", {{{"R", "G", "B"}, side[0] == 'a' ? &grey : &other}});
+    }
+    folder.write("a/notes.txt", "no picture");
+    folder.write("a/.hidden.png", "no picture");
+    Ran ran = runTool(folder, "diff a b -o report");
+    EXPECT_EQ(ran.code, 1) << ran.err;
+    EXPECT_NE(ran.out.find("\nFAIL: 1 of 2 pictures: deep/one.exr\n"), std::string::npos) << ran.out;
+    const Json report = Json::parse(contentsOf(folder / "report/report.json"));
+    ASSERT_EQ(report["comparisons"].size(), 2u);
+    EXPECT_EQ(report["comparisons"][0]["scene"], "deep/one.exr");
+    EXPECT_EQ(report["comparisons"][0]["verdict"], "fail");
+    EXPECT_EQ(report["comparisons"][1]["verdict"], "pass");
+    EXPECT_TRUE(fs::exists(folder / "report/index.html"));
+    // One that is missing, and one that cannot be read.
+    fs::copy_file(folder / "a/same.exr", folder / "a/alone.exr");
+    EXPECT_EQ(runTool(folder, "diff a a -q").code, 0);
+    ran = runTool(folder, "diff b a --metric max --tolerance 0.2");
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_NE(ran.out.find("FAIL alone.exr: is in a alone\n"), std::string::npos) << ran.out;
+    folder.write("b/alone.exr", "no picture");
+    ran = runTool(folder, "diff b a --metric max --tolerance 0.2 --json");
+    EXPECT_EQ(ran.code, 2);
+    const Json json = Json::parse(ran.out);
+    EXPECT_EQ(json["pictures"].size(), 2u);
+    EXPECT_EQ(json["errors"][0]["name"], "alone.exr");
+    EXPECT_EQ(json["verdict"], "fail");
+    EXPECT_TRUE(runTool(folder, "diff a b -o x.exr").failedOver("two folders make a report"));
+    fs::create_directories(folder / "c");
+    EXPECT_TRUE(runTool(folder, "diff a c").failedOver("no picture of one name"));
+}
+
 }  // namespace
 }  // namespace diptych
