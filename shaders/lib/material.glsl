@@ -103,7 +103,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.handedness = 0.0;
     if (on(feature_captured) && on(feature_normal_texture)) {
         s.tangent = directionOf(v_tangent.xyz);
-        s.handedness = sign(v_tangent.w);  // 1 or -1, which interpolation rounds
+        s.handedness = v_tangent.w < 0.0 ? -1.0 : 1.0;  // which interpolation rounds
         s.tangent_normal = directionOf(mappedNormal());
     }
     s.lightmap = vec3(0.0);
