@@ -170,10 +170,17 @@ std::string usedText(const ChannelDiff& channel) {
 // The figure that decides, as measured, and its limit.
 std::string criterionCells(const ChannelDiff& channel) {
     if (!channel.criterion)
-        return "<td class=\"soft\">nothing</td><td class=\"n\"></td><td class=\"n\"></td>";
+        return "<td class=\"soft by\">nothing</td><td class=\"n\"></td><td class=\"n\"></td>";
     const Criterion& c = *channel.criterion;
-    return fmt::format("<td class=\"soft\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td>",
+    return fmt::format("<td class=\"soft by\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td>",
                        markup(c.figure), number(c.measured), c.least ? "\u2265 " : "", number(c.limit));
+}
+
+// The same under the channel's name, where a page is too narrow for a column of its own.
+std::string judgedBelow(const ChannelDiff& channel) {
+    return channel.criterion
+               ? fmt::format("<span class=\"soft judged\">{}</span>", markup(channel.criterion->figure))
+               : std::string();
 }
 
 // Of a channel that fails: the share of the pixels that do, or that differ where the figure is of all.
@@ -188,19 +195,20 @@ std::string overview(const Comparison& comparison, std::size_t index) {
         "<div class=\"box scroll\"><table class=\"overview\"><thead><tr><th>channel</th><th "
         "class=\"optional\">metric</th><th class=\"n optional\">max</th><th class=\"n "
         "optional\">mean</th><th "
-        "class=\"n optional\">p99.9</th><th>judged by</th><th class=\"n\">measured</th><th "
+        "class=\"n optional\">p99.9</th><th class=\"by\">judged by</th><th class=\"n\">measured</th><th "
         "class=\"n\">limit</th>"
         "<th class=\"optional\">used of it</th><th>verdict</th></tr></thead>\n<tbody>");
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
         const std::string name = markup(channel->mode->name);
-        out += fmt::format("<tr><td><a href=\"#c{}-{}\">{}</a></td><td class=\"optional soft\">{}</td>",
-                           index, name, breakable(channel->mode->name), nameOf(channel->mode->metric));
+        out += fmt::format("<tr><td><a href=\"#c{}-{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
+                           index, name, breakable(channel->mode->name), judgedBelow(*channel),
+                           nameOf(channel->mode->metric));
         if (channel->verdict == Verdict::forward_only)
             out +=
                 "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
                 "optional\">"
-                "\u2013</td><td></td><td class=\"n\">\u2013</td><td class=\"n\">\u2013</td><td "
+                "\u2013</td><td class=\"by\"></td><td class=\"n\">\u2013</td><td class=\"n\">\u2013</td><td "
                 "class=\"optional\"></td>";
         else
             out += fmt::format(

@@ -23,14 +23,14 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
     const std::string page = contentsOf(out / "index.html");
     const std::string roughness = rowOf(page, "roughness"), lit = rowOf(page, "lit");
     // On a narrow page these three cells stay, and the share of what fails.
-    EXPECT_NE(
-        roughness.find("<td class=\"soft\">max</td><td class=\"n\">0.25</td><td class=\"n\">0.000123</td>"),
-        std::string::npos)
+    EXPECT_NE(roughness.find(
+                  "<td class=\"soft by\">max</td><td class=\"n\">0.25</td><td class=\"n\">0.000123</td>"),
+              std::string::npos)
         << roughness;
     EXPECT_NE(roughness.find("<span class=\"beyond\">100 % of the pixels</span>"), std::string::npos)
         << roughness;
     EXPECT_NE(
-        lit.find("<td class=\"soft\">pixels unexplained</td><td class=\"n\">0</td><td class=\"n\">0</td>"),
+        lit.find("<td class=\"soft by\">pixels unexplained</td><td class=\"n\">0</td><td class=\"n\">0</td>"),
         std::string::npos)
         << lit;
     EXPECT_EQ(lit.find("class=\"beyond\""), std::string::npos);
