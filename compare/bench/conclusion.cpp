@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace diptych::bench {
@@ -15,11 +16,11 @@ constexpr double wantedConfidence = 0.95;
 
 // That the median lies between the k-th least and the k-th largest of n: 1 - 2 P(Binomial(n, 1/2) < k).
 double confidenceOf(int n, int k) {
-    double term = std::pow(0.5, n), below = 0;
-    for (int i = 0; i < k; ++i) {
-        below += term;
-        term *= static_cast<double>(n - i) / (i + 1);
-    }
+    double below = 0;
+    // By logarithms, since 2^-n is 0 from a thousand pairs on.
+    for (int i = 0; i < k; ++i)
+        below += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) -
+                          n * std::numbers::ln2);
     return 1 - 2 * below;
 }
 
@@ -58,7 +59,7 @@ PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<dou
     std::ranges::sort(ratios);
     result.median = 0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]);
     int k = 1;
-    while (confidenceOf(result.pairs, k + 1) >= wantedConfidence) ++k;
+    while (2 * k < result.pairs && confidenceOf(result.pairs, k + 1) >= wantedConfidence) ++k;
     result.confidence = std::max(0.0, confidenceOf(result.pairs, k));
     result.low = ratios[static_cast<std::size_t>(k) - 1];
     result.high = ratios[ratios.size() - static_cast<std::size_t>(k)];

@@ -129,7 +129,7 @@ bool succeeds(const Options& options, const std::string& name, std::vector<Scene
         throw;  // of this machine
     } catch (const std::runtime_error& error) {
         errors.push_back({name, error.what()});
-        note(options, fmt::format("{}; the other scenes are compared", error.what()));
+        say(options, fmt::format("{}; the other scenes are compared", error.what()));
         return false;
     }
 }
@@ -256,6 +256,7 @@ int runCompare(const Options& options) {
         printColored(options, fmt::format("{}pictures: {}\nreport: {}\n", reportTable(report),
                                           exposureLine(report, picture), (folder / "index.html").string()));
     if (!updated.empty()) note(options, updated);
+    sayErrors(report.errors);
     if (!report.errors.empty()) return 2;
     // The old baseline's verdict is no longer the question.
     return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;

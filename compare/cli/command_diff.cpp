@@ -67,6 +67,7 @@ int diffFolders(const Options& options, PictureDiffOptions settings, const std::
                           wordsOfWhatCounts(options), diff.errors);
     progress.wipe();
     print(options, text);
+    sayErrors(diff.errors);
     return !diff.errors.empty() ? 2 : passed ? 0 : 1;
 }
 
@@ -80,7 +81,10 @@ int runDiff(const Options& options) {
     settings.strict = options.strict;
     settings.allow_empty = options.allow_empty;
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
-    const auto isFolder = [&](std::size_t i) { return std::filesystem::is_directory(options.scenes.at(i)); };
+    const auto isFolder = [&](std::size_t i) {
+        std::error_code ignored;  // what cannot be looked at is said by who reads it
+        return std::filesystem::is_directory(options.scenes.at(i), ignored);
+    };
     if (isFolder(0) && isFolder(1)) return diffFolders(options, std::move(settings), output);
     Progress progress(progressOutput(options));
     const Stage stage(progress, options.scenes.at(1));

@@ -4,6 +4,7 @@
 #include "compare/files/output.h"
 #include "compare/render/left_out.h"
 #include "compare/report/exposure_line.h"
+#include "compare/report/titles.h"
 #include "compare/run/color.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/load.h"
@@ -145,6 +146,13 @@ void note(const Options& options, const std::string& line) {
 
 void say(const Options& options, const std::string& line) {
     if (options.verbose) note(options, line);
+}
+
+void sayErrors(const std::vector<SceneError>& errors) {
+    if (errors.empty()) return;
+    wipeProgress();
+    std::fprintf(stderr, "diptych: %s%s\n", errorText(errors.front()).c_str(),
+                 errors.size() == 1 ? "" : fmt::format("; and {} more like it", errors.size() - 1).c_str());
 }
 
 void printColored(const Options& options, const std::string& text) {

@@ -72,6 +72,10 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);
 
+// With exit code 2 although something was done: the first of what was not, in one line on stderr, also with
+// --quiet.
+void sayErrors(const std::vector<SceneError>& errors);
+
 // Prints on stdout what people read, in colour where --color or the terminal says so.
 void printColored(const Options& options, const std::string& text);
 

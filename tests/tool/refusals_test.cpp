@@ -33,6 +33,8 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     const Ran ran =
         runTool(folder, "compare builtin:triangle bad.glb builtin:suns --size 16x9 --runs 0 -o out");
     EXPECT_EQ(ran.code, 2);
+    EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("diptych: bad.glb: is not JSON")) << ran.err;
     EXPECT_NE(ran.out.find("\nERROR bad.glb: is not JSON"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("\nERROR: 1 scene could not be drawn: bad.glb; pass: all "), std::string::npos)
         << ran.out;
@@ -42,7 +44,7 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     EXPECT_EQ(report["verdict"], "fail");
     // Alone, or with others that are as bad, it is one line, and no report.
     EXPECT_TRUE(runTool(folder, "compare bad.glb -o none").failedOver("bad.glb: is not JSON"));
-    EXPECT_TRUE(runTool(folder, "compare bad.glb bad.glb -q -o none").failedOver("none of the 2 scenes"));
+    EXPECT_TRUE(runTool(folder, "compare bad.glb bad.glb -o none").failedOver("none of the 2 scenes"));
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 

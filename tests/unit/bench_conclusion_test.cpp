@@ -3,6 +3,8 @@
 #include "compare/bench/conclusion.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -55,6 +57,16 @@ TEST(PairedRatio, IsTheMedianOfWhatWasTimedTogether) {
 
 // Tables of the sign test: of n values the k-th least and the k-th largest enclose the median with these
 // confidences (n = 6, k = 1: 1 - 2 / 64; n = 9, k = 2: 1 - 2 (1 + 9) / 512; n = 20, k = 6: 0.9586).
+// 2^-n is 0 in double from 1,075 pairs on.
+TEST(PairedRatio, ThousandsOfFramesHaveANarrowInterval) {
+    std::vector<double> slower, faster(5000, 1.0);
+    for (int i = 0; i < 5000; ++i) slower.push_back(1 + i / 5000.0);
+    const PairedRatio ratio = pairedRatio(slower, faster);
+    EXPECT_NEAR(ratio.confidence, 0.95, 0.002);
+    // The normal approximation: 1.96 sqrt(n) / 2 places to both sides of the middle.
+    EXPECT_NEAR(ratio.high - ratio.low, 1.96 * std::sqrt(5000.0) / 5000, 5e-4);
+}
+
 TEST(PairedRatio, TheIntervalIsThatOfTheSignTest) {
     const auto of = [](int n) {
         Times slower, faster;
@@ -64,16 +76,16 @@ TEST(PairedRatio, TheIntervalIsThatOfTheSignTest) {
         }
         return pairedRatio(slower, faster);
     };
-    EXPECT_DOUBLE_EQ(of(6).confidence, 1 - 2.0 / 64);
+    EXPECT_NEAR(of(6).confidence, 1 - 2.0 / 64, 1e-12);
     EXPECT_DOUBLE_EQ(of(6).low, 2);
-    EXPECT_DOUBLE_EQ(of(9).confidence, 1 - 20.0 / 512);
+    EXPECT_NEAR(of(9).confidence, 1 - 20.0 / 512, 1e-12);
     EXPECT_DOUBLE_EQ(of(9).low, 3);
     EXPECT_DOUBLE_EQ(of(9).high, 9);
     EXPECT_NEAR(of(20).confidence, 0.9586, 1e-4);
     EXPECT_DOUBLE_EQ(of(20).low, 7);
-    EXPECT_DOUBLE_EQ(of(5).confidence, 1 - 2.0 / 32) << "as sure as five can be";
+    EXPECT_NEAR(of(5).confidence, 1 - 2.0 / 32, 1e-12) << "as sure as five can be";
     EXPECT_FALSE(of(3).isSure());
-    EXPECT_EQ(of(1).confidence, 0);
+    EXPECT_NEAR(of(1).confidence, 0, 1e-12);
     EXPECT_FALSE(of(0).isSure());
 }
 
