@@ -13,7 +13,7 @@ using page::markup;
 namespace {
 
 // Of the drawing, in its own units; the legend follows.
-constexpr double panel = 380, top = 34, bottom = 62;
+constexpr double panel = 406, top = 60, bottom = 62;
 
 struct Series {
     Path path;
@@ -67,7 +67,7 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
     const auto y = [&](double t) { return box.bottom - up.place(t) * (box.bottom - box.top); };
     Drawing drawing;
     drawing.axes(box, across.ticks(), x, "lights in the scene", up.ticks(), y, "time of a frame, ms");
-    drawing.text("name", box.left, above + top - 12,
+    drawing.text("name", plotTitleLeft, above + 22,
                  fmt::format("{}x{}, {}", size.width, size.height, bench.scene));
     std::string out = drawing.group();
     Legend legend(above + panel + 4);

@@ -80,7 +80,7 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
                  right = plotWidth - plotRight;
     const auto x = [&](double ms) { return plotLeft + ms / most * (right - plotLeft); };
     Drawing drawing;
-    drawing.text("name", plotLeft, above + headHeight - 12,
+    drawing.text("name", plotTitleLeft, above + headHeight - 12,
                  fmt::format("{}x{}, {} lights, {}", size.width, size.height, rows.front()->counters.lights,
                              bench.scene));
     const double step = stepOf(most);

@@ -9,7 +9,7 @@
 
 namespace diptych::bench {
 
-inline constexpr double plotWidth = 720, plotLeft = 74, plotRight = 24;
+inline constexpr double plotWidth = 720, plotLeft = 74, plotRight = 24, plotTitleLeft = 10;
 
 // A part of the drawing and where the next one may begin.
 struct Panel {

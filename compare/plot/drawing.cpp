@@ -9,6 +9,12 @@ namespace diptych {
 
 using page::markup;
 
+namespace {
+
+constexpr double nameLeft = 10;
+
+}  // namespace
+
 std::string svgNumber(double length) {
     return fmt::format("{:.1f}", length);
 }
@@ -23,6 +29,7 @@ void Drawing::text(const char* kind, double x, double y, const std::string& word
                           markup(words));
 }
 
+// The vertical axis is named above it: beside it, a turned name would meet the ticks where text is large.
 void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x,
                    const std::string& xName, const std::vector<Tick>& up, const Place& y,
                    const std::string& yName) {
@@ -37,8 +44,7 @@ void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Pl
     line("axis", box.left, box.bottom, box.right, box.bottom);
     line("axis", box.left, box.top, box.left, box.bottom);
     text("name middle", (box.left + box.right) / 2, box.bottom + 47, xName);
-    texts_ += fmt::format("<text class=\"name middle\" transform=\"translate({} {}) rotate(-90)\">{}</text>",
-                          svgNumber(box.left - 56), svgNumber((box.top + box.bottom) / 2), markup(yName));
+    text("name", nameLeft, box.top - 12, yName);
 }
 
 std::string plotElement(double width, double height, const std::string& title, PlotPlace place,

@@ -26,7 +26,8 @@ public:
     void text(const char* kind, double x, double y, const std::string& words);  // escaped
     void add(const std::string& markup) { lines_ += markup; }
 
-    // Ticks, grid and names of two axes; `x` and `y` place values.
+    // Ticks, grid and names of two axes; `x` and `y` place values. The names take 50 below the box and 30
+    // above.
     using Place = std::function<double(double)>;
     void axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x, const std::string& xName,
               const std::vector<Tick>& up, const Place& y, const std::string& yName);

@@ -3,6 +3,7 @@
 
 #include "compare/page/text.h"
 #include "compare/plot/drawing.h"
+#include "compare/plot/labels.h"
 #include "compare/plot/log_axis.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,9 @@ namespace {
 
 // Of the drawing, in its own units.
 constexpr double width = 720, height = 440, left = 74, right = 16, top = 32, bottom = 56;
+constexpr double digitWidth = 11.5,
+                 digitHeight = 17;  // of a row's number, where the style makes text largest
+constexpr double farLabel = 40;     // from its point to the middle of its number
 constexpr double lane = 26;  // the strip for errors that a logarithmic axis cannot show, 0 and infinity
 
 class Plot {
@@ -47,6 +51,7 @@ public:
         for (const bool front : {false, true})  // the front on top
             for (const std::size_t row : rows_)
                 if ((std::ranges::count(front_, row) > 0) == front) out += point(row, front, file);
+        out += rowNumbers();
         if (!path_) out += legend();
         return plotElement(width, height, title, place, out);
     }
@@ -124,12 +129,37 @@ private:
                            svgNumber(x(time.high)));
         if (error.low < error.value || error.high > error.value)
             out += fmt::format("M{} {}V{}", svgNumber(px), svgNumber(y(error.low)), svgNumber(y(error.high)));
-        const std::string label = front ? fmt::format("<text class=\"row\" x=\"{}\" y=\"{}\">{}</text>",
-                                                      svgNumber(px + 8), svgNumber(py - 8), index + 1)
-                                        : "";
-        return out + "\"/>" + mark(row.settings.path, px, py, front ? 6 : 4.5) + label +
+        return out + "\"/>" + mark(row.settings.path, px, py, front ? 6 : 4.5) +
                fmt::format("<circle class=\"hit\" cx=\"{}\" cy=\"{}\" r=\"11\"/></g>", svgNumber(px),
                            svgNumber(py));
+    }
+
+    // The number of each row on the front, above all points; a line leads to one that had to go far.
+    std::string rowNumbers() const {
+        std::vector<Label> labels;
+        std::vector<PlotBox> marks;
+        for (const std::size_t index : rows_) {
+            const double px = x(timeOf(tradeoff_.rows[index]).value),
+                         py = y(errorOf(tradeoff_.rows[index], figure_).value);
+            marks.push_back({px - 5, py - 5, px + 5, py + 5});
+        }
+        for (const std::size_t index : front_)
+            labels.push_back(
+                {x(timeOf(tradeoff_.rows[index]).value), y(tradeoff_.rows[index].errors[figure_]),
+                 digitWidth * static_cast<double>(fmt::formatted_size("{}", index + 1)), digitHeight});
+        const std::vector<PlotBox> places =
+            placeLabels(labels, marks, {left, top, width - right, height - bottom});
+        std::string out;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const double px = (places[i].left + places[i].right) / 2,
+                         py = (places[i].top + places[i].bottom) / 2;
+            if (std::hypot(px - labels[i].x, py - labels[i].y) > farLabel)
+                out += fmt::format("<path class=\"lead\" d=\"M{} {}L{} {}\"/>", svgNumber(labels[i].x),
+                                   svgNumber(labels[i].y), svgNumber(px), svgNumber(py));
+            out += fmt::format("<text class=\"row middle\" x=\"{}\" y=\"{}\">{}</text>", svgNumber(px),
+                               svgNumber(places[i].bottom - 3), front_[i] + 1);
+        }
+        return "<g class=\"rows-named\">" + out + "</g>";
     }
 
     // Paths differ in shape as well as in colour.
