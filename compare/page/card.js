@@ -14,6 +14,11 @@ function cardOf(node) {
   return cards.get(element);
 }
 
+// A single file holds a picture that both sides share once.
+function fillShared(root) {
+  for (const image of root.querySelectorAll('img[data-same]')) image.src = image.closest('.pair').querySelector('.left img').src;
+}
+
 class Card {
   constructor(element) {
     this.element = element;

@@ -7,6 +7,7 @@ window.diptychSection = (index, html) => {
   const sections = document.getElementById('sections');
   sections.insertAdjacentHTML('beforeend', html);
   prepare(sections.lastElementChild);
+  fillShared(sections.lastElementChild);
   for (const then of arriving.get(index) || []) then();
   arriving.delete(index);
 };
@@ -20,13 +21,14 @@ function fetchSection(index, then) {
   else if (line.dataset.section) addScript(line.dataset.section, () => { line.title = line.dataset.section + ' is not beside this page'; });
 }
 
+fillShared(document);
 arrive();
 
 const index = document.querySelector('.index');
 if (index) {
-  const body = index.querySelector('tbody'), lines = [...body.rows], shown = index.querySelector('.shown');
+  const lines = [...index.querySelectorAll('tbody tr')], shown = index.querySelector('.shown');
   const filter = index.querySelector('[type=search]');
-  filter.addEventListener('input', () => {
+  const narrow = () => {
     const words = filter.value.toLowerCase().split(/\s+/);
     let count = 0;
     for (const line of lines) {
@@ -35,15 +37,10 @@ if (index) {
       count += !line.hidden;
     }
     shown.textContent = count === lines.length ? '' : `${count} of ${lines.length}`;
-  });
-  index.querySelector('thead').addEventListener('click', event => {
-    const head = event.target.closest('th');
-    if (!head) return;
-    const down = head.getAttribute('aria-sort') !== 'descending';
-    for (const other of index.querySelectorAll('th')) other.removeAttribute('aria-sort');
-    head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
-    const key = line => line.cells[head.cellIndex].dataset.value ?? line.cells[head.cellIndex].textContent;
-    const order = (a, b) => (isNaN(key(a)) || isNaN(key(b)) ? key(a).localeCompare(key(b)) : key(b) - key(a)) * (down ? 1 : -1);
-    body.append(...lines.sort(order));
-  });
+    choose('filter', filter.value);
+  };
+  filter.addEventListener('input', narrow);
+  filter.value = choices.get('filter') ?? '';
+  if (filter.value) narrow();
+  sortable(index.querySelector('table'), true);
 }

@@ -33,9 +33,24 @@ const groups = 'table, .buttons, .worst ol, svg.chart';
 const stops = 'a[href], button, .point[tabindex]';
 const stopsOf = group => [...group.querySelectorAll(stops)];
 
+// Before a table or plot in which arrows move, a link that leads past it; it is seen while it has the focus.
+function addSkip(group) {
+  const whole = group.closest('.scroll') ?? group, after = document.createElement('span'), link = document.createElement('a');
+  after.tabIndex = -1;
+  after.id = 'after-' + document.querySelectorAll('.skip').length;
+  Object.assign(link, { className: 'skip here', href: '#' + after.id, textContent: `Skip the ${group.matches('svg') ? 'plot' : 'table'}` });
+  link.addEventListener('click', event => { event.preventDefault(); after.focus(); });  // the address stays
+  whole.before(link);
+  whole.after(after);
+}
+
 function prepare(root) {
   root.querySelectorAll('table').forEach(prepareTable);
-  for (const group of root.querySelectorAll(groups)) stopsOf(group).forEach((stop, i) => { stop.tabIndex = i ? -1 : 0; });
+  for (const group of root.querySelectorAll(groups)) {
+    const inside = stopsOf(group);
+    inside.forEach((stop, i) => { stop.tabIndex = i ? -1 : 0; });
+    if (inside.length > 1 && group.matches('table, svg')) addSkip(group);
+  }
 }
 
 addEventListener('focusin', event => {
@@ -76,5 +91,39 @@ addEventListener('keydown', event => {
   event.stopImmediatePropagation();
   next.focus();
 });
+
+// ---- What is chosen on a page stands in its address, before the "#", so that a link shows the same.
+
+const choices = new URLSearchParams(location.search);
+let writing;
+function choose(name, value) {
+  if ((choices.get(name) ?? '') === value) return;
+  if (value) choices.set(name, value);
+  else choices.delete(name);
+  clearTimeout(writing);  // not at once: browsers refuse an address that changes too often
+  writing = setTimeout(() => history.replaceState(null, '', (choices.size ? '?' + choices : location.pathname) + location.hash), 200);
+}
+
+// A table whose heads sort it: by `sort`, the name of a column, "-" before it where the largest comes first.
+// `down`: the largest number comes first when a head is chosen for the first time.
+function sortable(table, down) {
+  const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
+  const sort = (head, order) => {
+    for (const other of heads) other.removeAttribute('aria-sort');
+    head.setAttribute('aria-sort', order < 0 ? 'descending' : 'ascending');
+    const key = row => row.cells[head.cellIndex].dataset.value ?? row.cells[head.cellIndex].textContent;
+    const compared = (a, b) => isNaN(key(a)) || isNaN(key(b)) ? key(a).localeCompare(key(b)) : key(a) - key(b);
+    body.append(...[...body.rows].sort((a, b) => compared(a, b) * order));
+    choose('sort', (order < 0 ? '-' : '') + head.textContent);
+  };
+  table.tHead.addEventListener('click', event => {
+    const head = event.target.closest('th');
+    if (!head) return;
+    const now = head.getAttribute('aria-sort');
+    sort(head, now ? (now === 'ascending' ? -1 : 1) : down && head.matches('.n') ? -1 : 1);
+  });
+  const asked = choices.get('sort') ?? '', head = heads.find(head => head.textContent === asked.replace(/^-/, ''));
+  if (head) sort(head, asked.startsWith('-') ? -1 : 1);
+}
 
 prepare(document);

@@ -49,16 +49,19 @@ std::string header(const Tradeoff& tradeoff) {
 }
 
 std::string switches() {
-    std::string out = "<div class=\"switches\"><span class=\"soft\">Error</span><span class=\"buttons\">";
+    std::string out =
+        "<div class=\"switches\"><span class=\"soft chooses\">Error</span><span class=\"buttons chooses\">";
     for (std::size_t i = 0; i < errorFigures.size(); ++i)
         out += fmt::format(
             "<button type=\"button\" data-shows=\"{}\" aria-pressed=\"{}\"{} title=\"{}\">{}</button>",
             errorFigures[i].name, i == 0, i == 0 ? " class=\"on\"" : "", markup(errorFigures[i].means),
             markup(errorFigures[i].title));
     return out +
-           "</span><span class=\"soft\">filled, with its row's number: on the front, which nothing beats in "
+           "</span><span class=\"soft\">A filled mark with its row's number is on the front: no other row is "
            "both "
-           "time and error; bars: least to most of the timed frames, and of the cameras</span></div>\n";
+           "faster and closer to the reference. A bar goes from the least to the most of the timed frames "
+           "and "
+           "of the cameras.</span></div>\n";
 }
 
 std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {

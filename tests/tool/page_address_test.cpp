@@ -57,6 +57,47 @@ TEST(PageAddress, PointingAloneDoesNotChangeIt) {
     EXPECT_EQ(seen.told, (json{"", "#c0-normals"}));
 }
 
+// What is chosen on a page of a table stands before the "#": who opens the address sees the same.
+TEST(PageAddress, AnIndexKeepsItsFilterAndOrder) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    std::vector<Frame> frames;
+    for (int i = 0; i < 12; ++i)
+        for (Frame& frame : bothFrames("scenes/" + std::to_string(i) + ".glb"))
+            frames.push_back(std::move(frame));
+    const fs::path page = written(folder, reportOf(std::move(frames)));
+    const std::string seeing = R"(
+      await until(() => document.readyState === 'complete');
+      const seen = () => $$('.index tbody tr').filter(line => line.offsetHeight > 0).map(line => line.cells[1].textContent);
+      const sorted = () => $$('.index th[aria-sort]').map(head => head.textContent + ' ' + head.getAttribute('aria-sort'));
+    )";
+    const Visit chosen = visit(folder, page, seeing + R"(
+      const told = { all: seen().length };
+      const filter = $('.index [type=search]'), head = $$('.index th').find(th => th.textContent === 'scene').firstChild;
+      filter.value = '1'; filter.dispatchEvent(new Event('input', { bubbles: true }));
+      head.click(); told.up = seen(); head.click(); told.down = seen();
+      await wait(400); told.search = location.search; told.hash = location.hash;
+      filter.value = ''; filter.dispatchEvent(new Event('input', { bubbles: true }));
+      await wait(400); told.without = location.search;
+      tell(told);)",
+                               "#c0-lit");
+    EXPECT_EQ(chosen.console, "");
+    ASSERT_TRUE(chosen.told.is_object()) << chosen.told;
+    EXPECT_EQ(chosen.told["all"], 12);
+    EXPECT_EQ(chosen.told["up"], (json{"1.glb", "10.glb", "11.glb"}));
+    EXPECT_EQ(chosen.told["down"], (json{"11.glb", "10.glb", "1.glb"}));
+    EXPECT_EQ(chosen.told["search"], "?filter=1&sort=-scene");
+    EXPECT_EQ(chosen.told["hash"], "#c0-lit") << "what is enlarged stays";
+    EXPECT_EQ(chosen.told["without"], "?sort=-scene");
+    const Visit again = visit(
+        folder, page, seeing + "tell({ seen: seen(), sorted: sorted(), filter: $('[type=search]').value });",
+        "?filter=1&sort=-scene#c0-lit");
+    ASSERT_TRUE(again.told.is_object()) << again.told;
+    EXPECT_EQ(again.told["seen"], chosen.told["down"]);
+    EXPECT_EQ(again.told["sorted"], json{"scene descending"});
+    EXPECT_EQ(again.told["filter"], "1");
+}
+
 TEST(PageKeys, ATableIsOneStopAndArrowsMoveInIt) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
@@ -77,6 +118,12 @@ TEST(PageKeys, ATableIsOneStopAndArrowsMoveInIt) {
       // The first stop of the page leads past everything before the channels.
       const first = $$('a[href], button, input, summary').find(e => e.tabIndex >= 0);
       told.skip = [first.className, !!$(first.getAttribute('href'))];
+      // Before each table of several links there is a link that leads past it, and nothing else is passed.
+      const past = [...$$('.skip.here')].find(link => link.nextElementSibling.contains(table)), address = location.href;
+      told.skips = $$('table').filter(t => t.querySelectorAll('a, button').length > 1).length - $$('.skip.here').length;
+      told.hidden = getComputedStyle(past).clipPath; past.focus(); told.seen = getComputedStyle(past).clipPath;
+      past.click(); const after = document.activeElement;
+      told.past = past.nextElementSibling.nextElementSibling === after; told.address = location.href === address;
       tell(told);)");
     EXPECT_EQ(seen.console, "");
     const json& told = seen.told;
@@ -91,6 +138,11 @@ TEST(PageKeys, ATableIsOneStopAndArrowsMoveInIt) {
     EXPECT_EQ(told["still"], 1) << "the one where the focus was last";
     for (const json& group : told["toolbar"]) EXPECT_EQ(group, 1);
     EXPECT_EQ(told["skip"], (json{"skip", true}));
+    EXPECT_EQ(told["skips"], 0) << "as many as tables of several links";
+    EXPECT_EQ(told["hidden"], "inset(50%)");
+    EXPECT_EQ(told["seen"], "none") << "while it has the focus";
+    EXPECT_EQ(told["past"], true) << "the focus stands behind the table";
+    EXPECT_EQ(told["address"], true) << "and the address is still that of what is seen";
 }
 
 TEST(PageKeys, APlotIsOneStop) {

@@ -5,10 +5,11 @@
 namespace diptych {
 namespace {
 
-Visit visitSweep(const Folder& folder, const std::string& script, int width = 1200) {
+Visit visitSweep(const Folder& folder, const std::string& script, int width = 1200,
+                 const std::string& address = "") {
     const Ran ran = runTool(folder, "tradeoff builtin:triangle --size 32x24 --runs 2 -q -o t");
     EXPECT_EQ(ran.code, 0) << ran.err;
-    return visit(folder, folder / "t/index.html", script, "", width);
+    return visit(folder, folder / "t/index.html", script, address, width);
 }
 
 TEST(PageTradeoff, PointingFocusAndTapShowTheRowAndItsCommand) {
@@ -75,6 +76,37 @@ TEST(PageTradeoff, AnotherErrorAndAnotherOrder) {
     EXPECT_GT(up.size(), 10u);
     EXPECT_LT(up.front(), up.back());
     EXPECT_EQ(told["sorted"], "descending");
+}
+
+TEST(PageTradeoff, TheAddressKeepsRowErrorAndOrder) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const std::string state = R"(
+      const state = () => ({ row: $('.row-card:not([hidden])').dataset.row, line: $('.rows tr.on').dataset.row,
+        error: $('[data-shows].on').dataset.shows, plot: $('[data-figure]:not([hidden])').dataset.figure,
+        sorted: $$('.rows th[aria-sort]').map(th => th.textContent + ' ' + th.getAttribute('aria-sort')) });
+    )";
+    const Visit chosen = visitSweep(folder, state + R"(
+      const told = { plain: location.search, first: state() };
+      $('.rows tr[data-row="4"]').click(); $('[data-shows=relative_p99]').click();
+      const head = $$('.rows th').find(th => th.textContent === 'relative RMSE').firstChild; head.click(); head.click();
+      await wait(400); told.search = location.search; told.state = state();
+      tell(told);)");
+    EXPECT_EQ(chosen.console, "");
+    ASSERT_TRUE(chosen.told.is_object()) << chosen.told;
+    EXPECT_EQ(chosen.told["plain"], "") << "what is shown without a choice needs no words";
+    EXPECT_EQ(chosen.told["search"], "?row=4&error=relative_p99&sort=-relative+RMSE");
+    const Visit again =
+        visitSweep(folder, state + "tell(state());", 1200, chosen.told["search"].get<std::string>());
+    EXPECT_EQ(again.told, chosen.told["state"]);
+    EXPECT_EQ(again.told["row"], "4");
+    EXPECT_EQ(again.told["plot"], "relative_p99");
+    EXPECT_EQ(again.told["sorted"], nlohmann::json{"relative RMSE descending"});
+    EXPECT_NE(chosen.told["first"], chosen.told["state"]);
+    // Words that mean nothing here are no error.
+    const Visit other = visitSweep(folder, state + "tell(state());", 1200, "?row=99&error=x&sort=y");
+    EXPECT_EQ(other.console, "");
+    EXPECT_EQ(other.told, chosen.told["first"]);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ addEventListener('load', () => setTimeout(() => {
   const scrolls = all('body *').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1 && /auto|scroll/.test(getComputedStyle(e).overflowX));
   const over = all('body *').filter(e => seen(e) && !e.closest('.scroll, .loupe, .panel, svg, .skip') && e.getBoundingClientRect().right > wide);
   const cut = all('.buttons, .readout, .again, dl, .box, summary').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1);
-  parent.postMessage({ which: WHICH, body: document.scrollingElement.scrollWidth - innerWidth,
+  const hidden = all('.overview .verdict').filter(e => seen(e) && e.getBoundingClientRect().right > e.closest('.box').getBoundingClientRect().right + 1);
+  parent.postMessage({ which: WHICH, verdicts: hidden.length, body: document.scrollingElement.scrollWidth - innerWidth,
                        scrolls: scrolls.map(name), over: [...over, ...cut].map(name).slice(0, 5) }, '*');
 }, 300));)";
 
@@ -29,7 +30,7 @@ json measured(const Folder& scratch, const fs::path& page, const std::string& pl
     const fs::path home = page.parent_path();
     std::string frames;
     for (const bool print : {false, true})
-        for (const int width : {390, 768, 1400, 2560}) {
+        for (const int width : {390, 768, 900, 1400, 2560}) {
             std::string copy = text;
             const std::string which = fmt::format("{}{}", print ? "print" : "screen", width);
             for (std::size_t i = copy.find("@media print"); print && i != std::string::npos;
@@ -46,15 +47,16 @@ json measured(const Folder& scratch, const fs::path& page, const std::string& pl
            "told[event.data.which] = event.data; };</script>"
         << frames << "</body>";
     const Visit seen =
-        visit(scratch, home / "host.html", "await until(() => Object.keys(told).length === 8); tell(told);");
+        visit(scratch, home / "host.html", "await until(() => Object.keys(told).length === 10); tell(told);");
     EXPECT_EQ(seen.console, "") << page;
     return seen.told;
 }
 
 void expectFits(const json& told, const std::string& page) {
-    ASSERT_EQ(told.size(), 8u) << page << told;
+    ASSERT_EQ(told.size(), 10u) << page << told;
     for (const auto& [which, of] : told.items()) {
         EXPECT_LE(of["body"], 0) << page << " " << which << of;
+        EXPECT_EQ(of["verdicts"], 0) << page << " " << which << ": verdicts out of sight";
         if (which.ends_with("390")) {
             EXPECT_EQ(of["scrolls"], json::array()) << page << " " << which;
             EXPECT_EQ(of["over"], json::array()) << page << " " << which;
@@ -83,6 +85,9 @@ TEST(PageWidth, NoReportScrollsSideways) {
     expectFits(measured(folder, folder / "index/index.html"), "an index");
     ASSERT_EQ(runTool(folder, "diff one/deferred.exr one/forward_plus.exr -q -o diff").code, 1);
     expectFits(measured(folder, folder / "diff/index.html"), "a difference of two files");
+    ASSERT_EQ(
+        runTool(folder, "compare builtin:points --size 64x36 --baseline reference -q -o reference").code, 0);
+    expectFits(measured(folder, folder / "reference/index.html"), "errors against the reference");
 }
 
 TEST(PageWidth, NeitherDoPagesOfTimes) {
@@ -128,11 +133,11 @@ TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
           const cut = getComputedStyle($('#c0-roughness .left')).clipPath;
           tell({ buttons: shown('button'), readouts: shown('.readout'), sliders: shown('.pair input'), keys: shown('.keys'),
                  dividers: shown('.divider'), pictures: shown('.card[open] .panel img'), whole: cut === 'none',
-                 beside: box('.right').left >= box('.left').right, commands: shown('.again code') });)");
+                 beside: box('.right').left >= box('.left').right, commands: shown('.again code'), closed: shown('.card[open] details:not([open])') });)");
         EXPECT_EQ(seen.console, "");
         const json& told = seen.told;
         ASSERT_TRUE(told.is_object()) << told;
-        for (const char* what : {"buttons", "readouts", "sliders", "keys", "dividers"})
+        for (const char* what : {"buttons", "readouts", "sliders", "keys", "dividers", "closed"})
             EXPECT_EQ(told[what] > 0, !print) << what;
         EXPECT_EQ(told["whole"], print);
         EXPECT_EQ(told["beside"], print) << "both pictures, not one over the other";

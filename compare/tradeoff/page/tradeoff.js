@@ -5,27 +5,32 @@ const $$ = (selector, from = document) => [...from.querySelectorAll(selector)];
 
 // ---- The card of a row: shown by pointing at it, kept by a click.
 
-let kept = $('.row-card:not([hidden])')?.dataset.row;
+const first = $('.row-card:not([hidden])')?.dataset.row;
+let kept = $(`.row-card[data-row="${CSS.escape(choices.get('row') ?? '')}"]`)?.dataset.row ?? first;
 
 function show(row) {
   for (const card of $$('.row-card')) card.hidden = card.dataset.row !== row;
   for (const element of $$('.point[data-row], .rows tbody tr')) element.classList.toggle('on', element.dataset.row === row);
 }
+function keep(row) {
+  show(kept = row);
+  choose('row', row === first ? '' : row);
+}
 const rowOf = event => event.target.closest?.('.point[data-row], .rows tbody tr')?.dataset.row;
 
 addEventListener('pointerover', event => { if (event.target.closest?.('svg')) show(rowOf(event) ?? kept); });
-addEventListener('focusin', event => { if (event.target.matches('.point')) show(kept = rowOf(event)); });
+addEventListener('focusin', event => { if (event.target.matches('.point')) keep(rowOf(event)); });
 addEventListener('click', event => {
   if (event.target.closest('button[data-do=copy]')) return copy(event.target.closest('button'));
   const row = rowOf(event);
   if (!row || event.target.closest('a, button, code')) return;
-  show(kept = row);
+  keep(row);
   if (event.target.closest('.rows')) $('.plots').scrollIntoView({ block: 'nearest' });
 });
 addEventListener('keydown', event => {
   if (!event.target.matches('.point') || event.key !== 'Enter' && event.key !== ' ') return;
   event.preventDefault();
-  show(kept = rowOf(event));
+  keep(rowOf(event));
 });
 
 async function copy(button) {
@@ -41,27 +46,16 @@ async function copy(button) {
 
 // ---- Which error is shown.
 
-for (const button of $$('[data-shows]'))
-  button.addEventListener('click', () => {
-    for (const other of $$('[data-shows]')) {
-      other.classList.toggle('on', other === button);
-      other.setAttribute('aria-pressed', other === button);
-    }
-    for (const element of $$('[data-figure]')) element.hidden = element.dataset.figure !== button.dataset.shows;
-    show(kept);
-  });
+function showError(button) {
+  for (const other of $$('[data-shows]')) {
+    other.classList.toggle('on', other === button);
+    other.setAttribute('aria-pressed', other === button);
+  }
+  for (const element of $$('[data-figure]')) element.hidden = element.dataset.figure !== button.dataset.shows;
+  show(kept);
+  choose('error', button === $('[data-shows]') ? '' : button.dataset.shows);
+}
+for (const button of $$('[data-shows]')) button.addEventListener('click', () => showError(button));
+showError($$('[data-shows]').find(button => button.dataset.shows === choices.get('error')) ?? $('[data-shows]'));
 
-// ---- The table in another order.
-
-const body = $('.rows tbody');
-for (const head of $$('.rows th'))
-  head.addEventListener('click', () => {
-    const down = head.getAttribute('aria-sort') === 'ascending';
-    for (const other of $$('.rows th')) other.removeAttribute('aria-sort');
-    head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
-    const key = line => line.cells[head.cellIndex].dataset.value ?? line.cells[head.cellIndex].textContent;
-    const order = (a, b) => isNaN(key(a)) || isNaN(key(b)) ? key(a).localeCompare(key(b)) : key(a) - key(b);
-    body.append(...[...body.rows].sort((a, b) => order(a, b) * (down ? -1 : 1)));
-  });
-
-show(kept);
+sortable($('.rows table'), false);
