@@ -68,15 +68,17 @@ PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<dou
 
 std::string Conclusion::inWords() const {
     const Settings &a = faster->settings, &b = slower->settings;
+    const auto mode = [](const Settings& s) {
+        return fmt::format("{} ({})", nameOf(s.path), nameOf(s.assign));
+    };
     std::string words = fmt::format(
-        "{}x{}, {} lights: {} takes {} ms, {} {:.2f} times as long ({:.2f} to {:.2f} with {:.1f} % "
-        "confidence, {} paired frames)",
-        a.size.width, a.size.height, faster->counters.lights, modeName(a.path, a.assign),
-        msText(faster->time.median), modeName(b.path, b.assign), ratio.median, ratio.low, ratio.high,
-        100 * ratio.confidence, ratio.pairs);
-    if (!ratio.isSure()) return words + ": too close or too few to tell; more --runs may";
+        "{}x{}, {} lights: {} takes {} ms, {} takes {:.2f} times as long ({:.2f} to {:.2f} at {:.1f} % "
+        "confidence, from {} pairs of frames)",
+        a.size.width, a.size.height, faster->counters.lights, mode(a), msText(faster->time.median), mode(b),
+        ratio.median, ratio.low, ratio.high, 100 * ratio.confidence, ratio.pairs);
+    if (!ratio.isSure()) return words + ": which of them is faster cannot be told; with more --runs it may";
     if (!pass.empty())
-        words += fmt::format("; the pass that decides it is {}, {} against {}", pass, passMs(faster_ms),
+        words += fmt::format("; the pass that differs most is {}: {} against {}", pass, passMs(faster_ms),
                              passMs(slower_ms));
     return words;
 }

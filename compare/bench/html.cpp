@@ -97,11 +97,12 @@ std::string kernels(const Bench& bench) {
     const KernelReport& report = *bench.kernels;
     std::string out =
         fmt::format(
-            "<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">{}x{}, the slope between "
-            "lists of {} and {} of {} lights, {} runs in turn, {} threads</p>\n",
-            report.size.width, report.size.height, report.short_list, report.long_list, report.lights,
+            "<h2>One listed point light at one pixel</h2>\n<p class=\"soft\">Nanoseconds for each light of a "
+            "pixel: the difference between lists of {} and of {} of {} lights, {}x{}, {} runs in turn, "
+            "{} threads</p>\n",
+            report.short_list, report.long_list, report.lights, report.size.width, report.size.height,
             report.runs, report.threads) +
-        head({{"kernel", false}, {"ns", true}, {"over the CPU's", true}, {"goal", true}});
+        head({{"kernel", false}, {"ns", true}, {"times the CPU's", true}, {"goal", true}});
     for (const KernelRow& row : report.rows)
         out += "<tr>" + wholeCell(row.name) + numberCell(fmt::format("{:.3f}", row.ns)) +
                numberCell(row.ratio ? fmt::format("{:.2f}", *row.ratio) : "") +
@@ -115,9 +116,9 @@ std::string how(const Bench& bench) {
     std::string out =
         "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, "
         "unsplit, "
-        "from culling to linear lit, lists made anew, the scene already uploaded: the median. Bars and "
-        "columns "
-        "least and most are those of single frames.</li><li>All modes and sizes of one light count are drawn "
+        "from culling to linear lit, lists made anew, the scene already uploaded: the median. What is called "
+        "least and most is of single frames, and so are the ends of bars.</li><li>All modes and sizes of one "
+        "light count are drawn "
         "in "
         "turn, one frame each and again from the first, so that a device that slows down does so for all "
         "alike.</li><li>Passes are medians of as many other frames, each pass timed by itself; the share is "

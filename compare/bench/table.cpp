@@ -30,14 +30,15 @@ std::string benchTable(const Bench& bench, std::size_t first) {
 
 std::string kernelTable(const KernelReport& kernels) {
     std::string out = fmt::format(
-        "\none listed point light at one pixel, {}x{}, lists of {} and {} of {} lights, {} runs, {} threads\n"
-        "{:<44}  {:>6}  {:>8}  {:>6}\n",
-        kernels.size.width, kernels.size.height, kernels.short_list, kernels.long_list, kernels.lights,
-        kernels.runs, kernels.threads, "kernel", "ns", "over CPU", "goal");
+        "\none listed point light at one pixel: the difference between lists of {} and of {} of {} lights, "
+        "{}x{}, "
+        "{} runs, {} threads\n{:<44}  {:>6}  {:>15}  {:>6}\n",
+        kernels.short_list, kernels.long_list, kernels.lights, kernels.size.width, kernels.size.height,
+        kernels.runs, kernels.threads, "kernel", "ns", "times the CPU's", "goal");
     for (const KernelRow& row : kernels.rows)
-        out += fmt::format("{:<44}  {:>6.3f}  {:>8}  {:>6}\n", row.name, row.ns,
-                           row.ratio ? fmt::format("{:.2f}x", *row.ratio) : "-",
-                           row.goal ? fmt::format("{:.1f}x", *row.goal) : "-");
+        out += fmt::format("{:<44}  {:>6.3f}  {:>15}  {:>6}\n", row.name, row.ns,
+                           row.ratio ? fmt::format("{:.2f}", *row.ratio) : "-",
+                           row.goal ? fmt::format("{:.1f}", *row.goal) : "-");
     for (const std::string& note : kernels.notes) out += note + "\n";
     return out;
 }

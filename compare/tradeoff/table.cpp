@@ -46,11 +46,11 @@ std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
         lines.push_back(fmt::format("{} of {} rows were measured by a run that was cut short, with its times",
                                     tradeoff.kept, tradeoff.rows.size()));
     if (const std::optional<Spread> drift = driftOf(tradeoff))
-        lines.push_back(
-            fmt::format("half of the frames were timed at the end, the last row first: they took {:.3g} of "
-                        "the time of the first "
-                        "half ({:.3g} to {:.3g}); a row that is faster by less than that may not be",
-                        drift->value, drift->low, drift->high));
+        lines.push_back(fmt::format(
+            "half of the frames were timed at the end, the last row first: they took {:.3g} times as "
+            "long as the first half ({:.3g} to {:.3g} of single rows); between two rows, a smaller "
+            "difference than that may be chance",
+            drift->value, drift->low, drift->high));
     return lines;
 }
 

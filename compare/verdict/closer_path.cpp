@@ -107,6 +107,12 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
     return channel;
 }
 
+// Three digits, but never as a power of ten: "2.15", "21500".
+std::string timesText(double times) {
+    const double unit = times < 1000 ? 0 : std::pow(10.0, std::floor(std::log10(times)) - 2);
+    return unit > 0 ? fmt::format("{:.0f}", std::round(times / unit) * unit) : fmt::format("{:.3g}", times);
+}
+
 }  // namespace
 
 CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
@@ -135,12 +141,12 @@ std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& ch
     const auto percent = [&](std::uint64_t count) {
         return pixels > 0 ? 100 * static_cast<double>(count) / pixels : 0;
     };
-    const std::string times = std::isfinite(channel.by) ? fmt::format("{:.4g} times less", channel.by)
+    const std::string times = std::isfinite(channel.by)             ? timesText(channel.by) + " times less"
                               : channel.paths[near].stats.mean == 0 ? "none at all"
                                                                     : "which is infinite";
     return fmt::format(
         "{}: {} is closer to the {}: mean error {:.4g} against {:.4g} of {} ({}), at {:.1f} % of the "
-        "pixels ({} at {:.1f} %, even at {:.1f} %)",
+        "pixels ({} at {:.1f} %, both alike at {:.1f} %)",
         channel.mode->name, frames[closer.paths[near]].name, reference, channel.paths[near].stats.mean,
         channel.paths[far].stats.mean, frames[closer.paths[far]].name, times,
         percent(channel.closer_pixels[near]), frames[closer.paths[far]].name,

@@ -236,8 +236,7 @@ TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
     const std::string end = benchEnd(bench);
     EXPECT_NE(end.find("not timed: deferred, every, 64x48, 4096 lights: would take <long>\n"),
               std::string::npos);
-    EXPECT_NE(end.find("2.00x"), std::string::npos) << end;
-    EXPECT_NE(end.find("2.4x"), std::string::npos) << end;
+    EXPECT_NE(end.find("           2.00     2.4\n"), std::string::npos) << end;
     EXPECT_NE(end.find("one note\n"), std::string::npos);
     EXPECT_EQ(end.find("its own note"), std::string::npos) << "of one row, among so many";
 }
@@ -264,9 +263,9 @@ TEST(BenchOutput, EveryNumberOfATableStandsUnderItsHead) {
     std::map<std::string, std::vector<std::string>> kernels;
     for (std::string line; std::getline(end, line);) kernels[line.substr(0, line.find("  "))] = wordsOf(line);
     EXPECT_EQ(kernels.at("uniform buffer"),
-              (std::vector<std::string>{"uniform", "buffer", "2.500", "2.00x", "2.4x"}));
+              (std::vector<std::string>{"uniform", "buffer", "2.500", "2.00", "2.4"}));
     EXPECT_EQ(kernels.at("by hand"), (std::vector<std::string>{"by", "hand", "1.250", "-", "-"}));
-    EXPECT_NE(end.str().find("640x352, lists of 16 and 48 of 512 lights, 9 runs, 2 threads\n"),
+    EXPECT_NE(end.str().find("lists of 16 and of 48 of 512 lights, 640x352, 9 runs, 2 threads\n"),
               std::string::npos);
 }
 

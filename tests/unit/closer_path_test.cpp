@@ -63,7 +63,12 @@ TEST(CloserPath, SaysWhichWhereAndByHowMuch) {
     EXPECT_EQ(
         closerPathLine(closer, closer.channels[0], frames),
         "lit: forward_plus is closer to the reference: mean error 0.0375 against 0.075 of deferred (2 times "
-        "less), at 50.0 % of the pixels (deferred at 25.0 %, even at 25.0 %)");
+        "less), at 50.0 % of the pixels (deferred at 25.0 %, both alike at 25.0 %)");
+    CloserPathChannel far = closer.channels[0];
+    for (const auto& [by, words] : {std::pair{21462.0, "(21500 times less)"}, {1.5, "(1.5 times less)"}}) {
+        far.by = by;
+        EXPECT_NE(closerPathLine(closer, far, frames).find(words), std::string::npos);
+    }
 }
 
 TEST(CloserPath, WhatCannotBeToldApartIsEven) {
