@@ -16,8 +16,8 @@ struct Picture {
     // Of lit, in its unit: half the 95 % confidence interval of what was sampled, plus the error that
     // quadrature left. Empty if it is 0 everywhere.
     Image uncertainty;
-    // What an earlier command had drawn and kept: its share of the tiles, and the seconds of all cores that
-    // it took.
+    // What an earlier command had drawn and kept: its share of the tiles, and how long drawing it took on the
+    // clock with all cores at work, s.
     double kept_share = 0, kept_seconds = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstring>
+#include <regex>
 #include <set>
 
 namespace diptych {
@@ -170,21 +171,53 @@ void endsAndGoesOn(int signal, bool says) {
               says)
         << tool.err();
     EXPECT_FALSE(fs::exists(folder / "r.exr"));
-
+    // What was drawn is not drawn again, and the result says so.
     const Ran again = runTool(folder, inShell(longDrawing));
     EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_TRUE(
+        std::regex_search(again.out + again.err,
+                          std::regex("the reference went on from [1-9][0-9]* % that a command that did not "
+                                     "end had drawn in [0-9]+:[0-9]+; the rest took [0-9]+:[0-9]+")))
+        << again.out << again.err;
     EXPECT_FALSE(fs::exists(kept)) << "the picture is whole";
 
     static std::string whole;  // drawn once for every signal
     if (whole.empty()) {
         fs::rename(folder / "r.exr", folder / "first.exr");
-        ASSERT_EQ(runTool(folder, inShell(longDrawing)).code, 0);
+        const Ran at_once = runTool(folder, inShell(longDrawing));
+        ASSERT_EQ(at_once.code, 0);
+        EXPECT_EQ((at_once.out + at_once.err).find("went on from"), std::string::npos);
         whole = contentsOf(folder / "r.exr");
         fs::rename(folder / "first.exr", folder / "r.exr");
     }
     folder.write("whole.exr", whole);
     const Ran same = runTool(folder, "diff whole.exr r.exr --metric max --tolerance 0 --json");
     EXPECT_EQ(same.code, 0) << same.out << same.err;
+}
+
+// The estimate is made before the first tile, and stands in the line of progress.
+TEST(ReferenceTool, SaysOnATerminalHowLongAllWillTake) {
+    const Folder folder;
+    folder.write("panel.json", panel);
+    const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    ASSERT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
+    std::vector<std::string> words = longDrawing;
+    std::ranges::replace(words, std::string("64x36"), std::string("320x180"));
+    const std::regex estimate("reference: trace every pixel, about [0-9]+:[0-9]+ in all");
+    std::string shown;
+    {
+        Running tool(folder, words, ::ptsname(terminal));
+        const auto said = [&] {
+            char text[4096];
+            for (ssize_t n = 0; (n = ::read(terminal, text, sizeof text)) > 0;)
+                shown.append(text, static_cast<std::size_t>(n));
+            return std::regex_search(shown, estimate);
+        };
+        EXPECT_TRUE(soon([&] { return said() || tool.ended(); }));
+        EXPECT_FALSE(tool.ended()) << "it says so while it draws";
+    }
+    ::close(terminal);
+    EXPECT_TRUE(std::regex_search(shown, estimate)) << shown;
 }
 
 TEST(ReferenceTool, InterruptedItSaysWhereItsWorkIsAndGoesOn) {

@@ -16,10 +16,11 @@ extern char** environ;
 
 namespace diptych {
 
-// The tool as a child process, its stderr in a file.
+// The tool as a child process, its stderr in a file, or where `error` says: a terminal.
 class Running {
 public:
-    Running(const Folder& folder, std::vector<std::string> words) : error_(folder / ".stderr") {
+    Running(const Folder& folder, std::vector<std::string> words, const fs::path& error = {})
+        : error_(error.empty() ? folder / ".stderr" : error) {
         words.insert(words.begin(), DIPTYCH_PROGRAM);
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
