@@ -14,6 +14,7 @@ namespace diptych {
 namespace {
 
 constexpr std::size_t longestFolder = 40;
+constexpr std::size_t longestFile = 160;  // a file system allows 255 bytes, endings included
 constexpr std::size_t nowhere = ~std::size_t{0};
 
 // FNV-1a of 32 bits, of which a folder shows 24: a thousand scenes of one name have one chance in thirty of a
@@ -73,6 +74,22 @@ std::string nameOfFolder(const std::string& text, const std::string& identity) {
     while (name.ends_with('-')) name.pop_back();
     if (name == identity) return name;
     return fmt::format("{}{}{:06x}", name, name.empty() ? "" : "-", hashOf(identity) & 0xffffff);
+}
+
+std::string nameOfFile(std::string_view name) {
+    std::string safe;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool plain = byte < 128 && std::isalnum(byte) != 0;
+        if (plain || c == '_' || c == '-' || c == '+' || (c == '.' && !safe.empty()))
+            safe += c;
+        else
+            safe += fmt::format("~{:02x}", byte);
+    }
+    if (safe.size() <= longestFile) return safe;
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return fmt::format("{}~~{:016x}", safe.substr(0, longestFile / 2), hash);
 }
 
 ReportFolders reportFolders(const Report& report) {

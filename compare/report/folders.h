@@ -5,6 +5,7 @@
 #include "compare/verdict/comparison.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace diptych {
@@ -13,6 +14,12 @@ namespace diptych {
 // 40, and where that is not all of `identity` six hexadecimal digits of the latter. "gallery" of "gallery";
 // "Box-1c9f03" of "Box" of "scenes/Box.glb".
 std::string nameOfFolder(const std::string& text, const std::string& identity);
+
+// A name for a channel's files and for its place in the page, which any name of a layer becomes, and no two
+// names become the same: letters, digits, "_", "-", "+" and dots but the first stay, any other byte is "~"
+// and two hexadecimal digits; of a long one the beginning stands before "~~" and 16 digits of the whole.
+// "beauty~2fleft".
+std::string nameOfFile(std::string_view name);
 
 // Where the files of frames and of comparisons stand, each empty or ending in a slash.
 struct ReportFolders {

@@ -2,6 +2,7 @@
 #include "compare/report/html.h"
 
 #include "compare/page/page.h"
+#include "compare/report/folders.h"
 #include "compare/report/titles.h"
 
 #include <fmt/format.h>
@@ -91,8 +92,8 @@ std::string failures(const Report& report, const ReportLayout& layout) {
         for (const std::string& failure : comparison.failures) items.push_back(where + markup(failure));
         for (const ChannelDiff& channel : comparison.channels)
             if (channel.verdict == Verdict::fail)
-                items.push_back(fmt::format("{}<a href=\"#c{}-{}\">{}</a>: {}", where, i, channel.mode->name,
-                                            channel.mode->name, markup(channel.reason)));
+                items.push_back(
+                    fmt::format("{}{}: {}", where, cardLink(i, *channel.mode), markup(channel.reason)));
     }
     return listBox("failures", "Failures",
                    firstOf(items, "the comparisons below begin with those that fail"));
@@ -104,9 +105,8 @@ std::string warnings(const Report& report, const ReportLayout& layout) {
     for (const std::size_t i : layout.order)
         for (const ChannelDiff& channel : report.comparisons[i].channels)
             if (!channel.warning.empty())
-                items.push_back(fmt::format("{}<a href=\"#c{}-{}\">{}</a>: {}",
-                                            whereOf(report, layout, report.comparisons[i]), i,
-                                            channel.mode->name, channel.mode->name, markup(channel.warning)));
+                items.push_back(fmt::format("{}{}: {}", whereOf(report, layout, report.comparisons[i]),
+                                            cardLink(i, *channel.mode), markup(channel.warning)));
     return listBox("notes", "Warnings", firstOf(items, "report.json has all of them"));
 }
 
@@ -200,10 +200,9 @@ std::string overview(const Comparison& comparison, std::size_t index) {
         "<th class=\"optional\">used of it</th><th>verdict</th></tr></thead>\n<tbody>");
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
-        const std::string name = markup(channel->mode->name);
-        out += fmt::format("<tr><td><a href=\"#c{}-{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
-                           index, name, breakable(channel->mode->name), judgedBelow(*channel),
-                           nameOf(channel->mode->metric));
+        out += fmt::format("<tr><td><a href=\"#{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
+                           cardId(index, *channel->mode), breakable(channel->mode->name),
+                           judgedBelow(*channel), nameOf(channel->mode->metric));
         if (channel->verdict == Verdict::forward_only)
             out +=
                 "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
@@ -269,6 +268,14 @@ std::string laterSections(const Report& report, const ReportLayout& layout) {
 }
 
 }  // namespace
+
+std::string cardId(std::size_t comparison, const DebugMode& mode) {
+    return fmt::format("c{}-{}", comparison, nameOfFile(mode.name));
+}
+
+std::string cardLink(std::size_t comparison, const DebugMode& mode) {
+    return fmt::format("<a href=\"#{}\">{}</a>", cardId(comparison, mode), markup(mode.name));
+}
 
 std::string reportHtml(const Report& report, const ReportLayout& layout) {
     std::string body = header(report, layout) + firstNotes(report) + failures(report, layout) +

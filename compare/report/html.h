@@ -14,6 +14,10 @@ std::string reportHtml(const Report& report, const ReportLayout& layout);
 // One comparison as a script that adds it to the page: the contents of a file of layout.sections.
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index);
 
+// A channel's place in the page, "c0-lit", and a link to it that shows its name.
+std::string cardId(std::size_t comparison, const DebugMode& mode);
+std::string cardLink(std::size_t comparison, const DebugMode& mode);
+
 // Parts of the page. `index` is the number of the comparison.
 std::string checksSection(const Report& report, const ReportLayout& layout, std::size_t index);
 std::string indexTable(const Report& report, const ReportLayout& layout);  // empty for one comparison

@@ -34,7 +34,7 @@ public:
           channel_(channel),
           pictures_(layout.pictures[comparison][static_cast<std::size_t>(
               &channel - report.comparisons[comparison].channels.data())]),
-          id_(fmt::format("c{}-{}", comparison, channel.mode->name)) {}
+          id_(cardId(comparison, *channel.mode)) {}
 
     std::string html() const {
         const DebugMode& mode = *channel_.mode;
@@ -44,8 +44,8 @@ public:
             "<details class=\"box card {0}\" id=\"{1}\"{2}><summary><h3>{3}</h3><span class=\"soft\">{4} "
             "\u00b7 {5} "
             "\u00b7 {6}</span><span class=\"verdict {0}\">{0}</span></summary><div class=\"body\">\n",
-            nameOf(channel_.verdict), id_, open ? " open" : "", mode.name, mode.number, nameOf(mode.metric),
-            markup(mode.shows));
+            nameOf(channel_.verdict), id_, open ? " open" : "", markup(mode.name), mode.number,
+            nameOf(mode.metric), markup(mode.shows));
         if (!channel_.warning.empty())
             out += fmt::format("<p class=\"warning\">Warning: {}</p>\n", markup(channel_.warning));
         if (!channel_.reason.empty())
@@ -67,14 +67,15 @@ private:
                                : "--keep failing: of what passes no pictures are kept");
     }
 
-    // A picture that can be moved and zoomed; `over` is drawn on top of it and keeps its size.
+    // A picture that can be moved and zoomed, without a name that of the left side; `over` is drawn on top of
+    // it and keeps its size.
     std::string panel(const std::string& picture, const std::string& alt,
                       const std::string& over = "") const {
         return fmt::format(
-            "<div class=\"panel\" tabindex=\"-1\"><img loading=\"lazy\" width=\"{}\" height=\"{}\" "
-            "src=\"{}\" "
+            "<div class=\"panel\" tabindex=\"-1\"><img loading=\"lazy\" width=\"{}\" height=\"{}\" {} "
             "alt=\"{}\">{}</div>",
-            left_.settings.size.width, left_.settings.size.height, layout_.source(picture), markup(alt),
+            left_.settings.size.width, left_.settings.size.height,
+            picture.empty() ? "data-same" : fmt::format("src=\"{}\"", layout_.source(picture)), markup(alt),
             over);
     }
 
@@ -92,7 +93,8 @@ private:
         std::string stops;
         for (int i = 0; i <= 10; ++i) stops += ", " + hex(heatColor(i / 10.0));
         return fmt::format(
-            "<div class=\"legend\"><span>lights that each pixel evaluates</span><div class=\"ramp\" "
+            "<div class=\"legend\"><span class=\"title\">lights that each pixel evaluates</span><div "
+            "class=\"ramp\" "
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{:g}</span><span>{:g} lights</span></div></div>",
             stops, pictures_.scale.high / 2, pictures_.scale.high);
@@ -161,9 +163,12 @@ private:
     }
 
     std::string pair() const {
+        // A picture that is embedded and equal on both sides stands in the page once: the script copies it.
+        const bool once = layout_.single_file && pictures_.baseline == pictures_.test;
         const auto stage = [&](const char* side, const Frame& frame, const std::string& picture) {
             return fmt::format("<div class=\"stage {}\">{}<span class=\"tag\">{}</span></div>", side,
-                               panel(picture, fmt::format("{} of {}", channel_.mode->name, frame.name)),
+                               panel(once && &frame == &right_ ? "" : picture,
+                                     fmt::format("{} of {}", channel_.mode->name, frame.name)),
                                markup(frame.name));
         };
         return fmt::format(
@@ -178,8 +183,8 @@ private:
             "title=\"f\">flicker</button></span>{6}{5}</figcaption>"
             "{7}</figure>\n",
             stage("left", left_, pictures_.baseline), stage("right", right_, pictures_.test),
-            channel_.mode->name, markup(left_.name), markup(right_.name), scaleLegend(), zoomButtons(),
-            readout());
+            markup(channel_.mode->name), markup(left_.name), markup(right_.name), scaleLegend(),
+            zoomButtons(), readout());
     }
 
     std::string difference() const {
@@ -196,16 +201,34 @@ private:
             swatch(beyondColor, "beyond tolerance");
         if (channel_.stats.infinite > 0) swatch(nonfiniteColor, "infinite");
         return fmt::format(
-            "<figure><div class=\"stage\">{}</div><figcaption><div class=\"legend\"><div class=\"ramp\" "
+            "<figure><div class=\"stage\">{}</div><figcaption><div class=\"legend\"><span "
+            "class=\"title\">{}</span><div class=\"ramp\" "
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{}</span><span>{} "
             "({})</span></div></div><span>black: equal</span>{}</figcaption></figure>\n",
             panel(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstRing()),
-            stops, number(pictures_.error_top / 4), number(pictures_.error_top),
+            errorTitle(), stops, number(pictures_.error_top / 4), number(pictures_.error_top),
             channel_.shown_error ? markup(channel_.shown_error_name)
             : toTolerance        ? "tolerance"
                                  : "max",
             beyond);
+    }
+
+    // What the colours of the error map mean, and in which unit.
+    std::string errorTitle() const {
+        if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
+            return markup(channel_.shown_error_name);
+        switch (channel_.shown_error ? Metric::relative : channel_.mode->metric) {
+            case Metric::relative:
+                return "relative error, |a-b| / |b|";
+            case Metric::angular:
+                return "angle between both, degrees";
+            case Metric::exact:
+                return "1 where both differ";
+            case Metric::absolute:
+                break;
+        }
+        return "absolute error, |a-b|";
     }
 
     std::string numbers() const {

@@ -37,8 +37,8 @@ std::string worstCell(const Comparison& comparison, std::size_t index) {
     if (!worst) return "<td></td><td class=\"n optional\" data-value=\"0\"></td>";
     const double share = usedShare(*worst);
     return fmt::format(
-        "<td><a href=\"#c{}-{}\">{}</a></td><td class=\"n optional\" data-value=\"{:.6g}\">{}</td>", index,
-        worst->mode->name, worst->mode->name, share < std::numeric_limits<double>::infinity() ? share : 1e300,
+        "<td>{}</td><td class=\"n optional\" data-value=\"{:.6g}\">{}</td>", cardLink(index, *worst->mode),
+        share < std::numeric_limits<double>::infinity() ? share : 1e300,
         share < std::numeric_limits<double>::infinity() ? fmt::format("{:.3g} %", 100 * share) : "beyond");
 }
 

@@ -33,22 +33,23 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
     const Frame &left = report.baseline(comparison), &right = report.test(comparison);
     const DebugMode& mode = *channel.mode;
     ChannelPictures pictures;
+    const std::string files = prefix + nameOfFile(mode.name);
     std::vector<const Frame*> shown;
     const auto add = [&](const Frame& frame, std::string& name) {
         if (!frame.channels.contains(mode.number)) return;
-        name = fmt::format("{}{}.{}.png", prefix, mode.name, frame.name);
+        name = fmt::format("{}.{}.png", files, frame.name);
         shown.push_back(&frame);
     };
     add(left, pictures.baseline);
     add(right, pictures.test);
-    if (shown.size() == 2) pictures.same = fmt::format("{}{}.png", prefix, mode.name);
+    if (shown.size() == 2) pictures.same = files + ".png";
     const Size size = left.settings.size;
     if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) <= mostPixelsOfValues)
-        pictures.values = fmt::format("{}{}.values.js", prefix, mode.name);
+        pictures.values = files + ".values.js";
     pictures.scale = scaleFor(mode, exposure, shown);
     if (channel.verdict != Verdict::forward_only && channel.stats.different > 0) {
         pictures.differ = true;
-        pictures.difference = fmt::format("{}{}.difference.png", prefix, mode.name);
+        pictures.difference = files + ".difference.png";
         pictures.error_top = errorTop(channel, left.channels.at(mode.number), right.channels.at(mode.number),
                                       comparison.coverage);
     }

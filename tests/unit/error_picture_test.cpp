@@ -95,15 +95,17 @@ TEST(ErrorPicture, OnlyWhatIsAboveTheTopIsBeyond) {
 struct Legend {
     Image8 picture;
     std::vector<Rgb> stops;
+    std::string title;
     std::vector<std::string> words;
     std::string swatches;
 };
 
-Legend legendOf(const Report& report, const std::filesystem::path& out, const std::string& channel) {
+// `stage`: of which of the card's pictures, the difference or the pair's left one.
+Legend legendOf(const Report& report, const std::filesystem::path& out, const std::string& channel,
+                const std::string& stage = "<figure><div class=\"stage\">") {
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
-    const std::size_t card = page.find("id=\"c0-" + channel + "\""),
-                      figure = page.find("<figure><div class=\"stage\">", card),
+    const std::size_t card = page.find("id=\"c0-" + channel + "\""), figure = page.find(stage, card),
                       end = page.find("</figure>", figure);
     const std::string text = page.substr(figure, end - figure);
     Legend legend;
@@ -111,6 +113,10 @@ Legend legendOf(const Report& report, const std::filesystem::path& out, const st
     EXPECT_TRUE(std::regex_search(text, found, std::regex("src=\"([^\"]*)\""))) << text;
     legend.picture = readPng(out / found[1].str());
     const std::regex color("#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})"), word("<span>([^<]*)</span>");
+    const std::regex title(
+        "</div><figcaption>.*<div class=\"legend\"><span class=\"title\">([^<]*)</span><div class=\"ramp\"");
+    EXPECT_TRUE(std::regex_search(text, found, title)) << "below the picture, above the ramp: " << text;
+    legend.title = found[1];
     const std::string ramp = text.substr(text.find("linear-gradient(90deg"));
     const std::string gradient = ramp.substr(0, ramp.find(')'));
     for (std::sregex_iterator i(gradient.begin(), gradient.end(), color), none; i != none; ++i) {
@@ -166,6 +172,7 @@ TEST(ErrorPicture, ThePagesLegendIsOfThePicture) {
                                    folder() / "report", "roughness");
     EXPECT_EQ(legend.words, (std::vector<std::string>{"0", page::number(tolerance / 4),
                                                       page::number(tolerance) + " (tolerance)"}));
+    EXPECT_EQ(legend.title, "absolute error, |a-b|");
     ASSERT_EQ(legend.stops.size(), 13u);
     EXPECT_TRUE(alike(pixelOf(legend.picture, 0), legend.stops[6])) << "a quarter: the middle";
     EXPECT_TRUE(alike(pixelOf(legend.picture, 1), legend.stops[12])) << "the tolerance: the right end";
@@ -264,6 +271,26 @@ TEST(HeatPicture, TheTopIsTheNextRoundNumber) {
                                        {1001.0, 2000.0},
                                        {65536.0, 100000.0}})
         EXPECT_EQ(heatTop(largest), top) << largest;
+}
+
+// On a page the picture has nothing in it: the legend stands below, with title, unit and the map's colours.
+TEST(HeatPicture, ThePagesLegendStandsBelowWithTitleAndUnit) {
+    std::vector<Frame> frames = bothFrames();
+    for (Frame& frame : frames) {
+        std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, 3.0f);  // all pixels show a surface
+        Image& counts = frame.channels.at(gpu::DEBUG_light_count);
+        for (std::size_t i = 0; i < counts.pixels(); ++i) counts.data[i] = static_cast<float>(i % 6 * 4);
+    }
+    const Report report = reportOf(std::move(frames));
+    const Legend legend = legendOf(report, folder() / "report", "light_count", "<div class=\"pair ");
+    EXPECT_EQ(legend.title, "lights that each pixel evaluates");
+    EXPECT_EQ(legend.words, (std::vector<std::string>{"0", "10", "20 lights"}));
+    ASSERT_EQ(legend.stops.size(), 11u);
+    ASSERT_EQ(legend.picture.height, 3) << "no strip of a legend in it";
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(legend.stops[2 * i], heatStops[i]) << i;
+        EXPECT_EQ(pixelOf(legend.picture, i), heatStops[i]) << 4 * i << " of 20";
+    }
 }
 
 // The legend's words, read back from its pixels.

@@ -5,7 +5,6 @@
 #include "compare/files/frame_exr.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
-#include "compare/report/frame_files.h"
 #include "compare/report/json.h"
 #include "compare/report/titles.h"
 #include "shared/image/atomic_file.h"
@@ -21,6 +20,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 
 namespace diptych {
@@ -167,6 +167,31 @@ TEST(Report, ASinglePageHoldsItsPictures) {
     EXPECT_EQ(namesIn(out), (std::vector<std::string>{"index.html", "junit.xml", "report.json"}));
     EXPECT_EQ(Json::parse(contentsOf(out / "report.json"))["files"], Json(namesIn(out)));
     EXPECT_EQ(contentsOf(out / "junit.xml").find("ATTACHMENT"), std::string::npos) << "there are no files";
+}
+
+// Of a channel that both sides show alike the page has the picture once, and of another both.
+TEST(Report, ASinglePageHoldsASharedPictureOnce) {
+    const fs::path out = folder() / "report";
+    ReportOptions options;
+    options.single_file = true;
+    writeReport(failing(), out, options);
+    const std::string page = contentsOf(out / "index.html");
+    const std::regex uri("src=\"(data:[^\"]*)\"");
+    int shared = 0, apart = 0;
+    for (std::size_t at = page.find("<div class=\"pair "); at != page.npos;
+         at = page.find("<div class=\"pair ", at + 1)) {
+        const std::string pair = page.substr(at, page.find("<i class=\"divider\">", at) - at);
+        std::vector<std::string> uris;
+        for (std::sregex_iterator i(pair.begin(), pair.end(), uri), none; i != none; ++i)
+            uris.push_back((*i)[1]);
+        const bool copies =
+            pair.find("<img loading=\"lazy\" width") != pair.npos && pair.find("data-same") != pair.npos;
+        ASSERT_EQ(uris.size(), copies ? 1u : 2u) << pair.substr(0, 200);
+        EXPECT_TRUE(copies || uris[0] != uris[1]);
+        ++(copies ? shared : apart);
+    }
+    EXPECT_GT(shared, 3);
+    EXPECT_GT(apart, 0);
 }
 
 TEST(Report, NamesOfOthersAreEscaped) {
@@ -352,43 +377,6 @@ TEST(Report, HelpersAreNeitherComparedNorWritten) {
     const std::vector<PictureLayer> layers = readExr(out / "deferred.exr").layers;
     ASSERT_EQ(layers.size(), 1u);
     EXPECT_EQ(layers[0].name, "normals");
-}
-
-TEST(Report, OneFrameAsFileOrFolder) {
-    const fs::path here = folder();
-    const Frame frame = bothFrames()[1];
-    const ShownChannels lit{&debugMode(gpu::DEBUG_lit)};
-    writeFrame(frame, {}, {OutputKind::exr, here / "a.exr"}, lit, {});
-    EXPECT_EQ(readExr(here / "a.exr").layers[0].image.at(1, 2, 0), 0.5f);
-    writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, lit, {});
-    EXPECT_EQ(readPng(here / "a.png").width, 4);
-    fs::create_directory(here / "a");
-    const std::vector<std::string> files = writeFrameFolder(frame, {}, here / "a", lit, {});
-    EXPECT_EQ(namesIn(here / "a"), (std::vector<std::string>{"forward_plus.exr", "frame.json", "lit.png"}));
-    EXPECT_EQ(manifestFiles(here / "a", "frame.json"), files) << "frame.json lists what is there, itself too";
-    // What it wrote itself it may replace, without force.
-    for (const auto& [kind, name] :
-         {std::pair{OutputKind::exr, "a.exr"}, {OutputKind::png, "a.png"}, {OutputKind::folder, "a"}})
-        EXPECT_NO_THROW(checkReplaceable({kind, here / name}, "frame.json", false)) << name;
-    EXPECT_THROW(writeFrame(bothFrames()[0], {}, {OutputKind::png, here / "t.png"},
-                            {&debugMode(gpu::DEBUG_texcoords)}, {}),
-                 std::runtime_error);
-}
-
-TEST(Report, APictureOfEachChannelAskedFor) {
-    const fs::path here = folder();
-    const Frame frame = bothFrames()[1];
-    const ShownChannels two{&debugMode(gpu::DEBUG_lit), &debugMode(gpu::DEBUG_normals)};
-    writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, two, {});
-    EXPECT_EQ(namesIn(here), (std::vector<std::string>{"a.lit.png", "a.normals.png"}));
-    const auto pixels = [](const fs::path& file) { return readPng(file).data; };
-    EXPECT_NE(pixels(here / "a.lit.png"), pixels(here / "a.normals.png"));
-    fs::create_directory(here / "b");
-    const std::vector<std::string> files = writeFrameFolder(frame, {}, here / "b", two, {});
-    EXPECT_EQ(namesIn(here / "b"),
-              (std::vector<std::string>{"forward_plus.exr", "frame.json", "lit.png", "normals.png"}));
-    EXPECT_EQ(manifestFiles(here / "b", "frame.json"), files);
-    EXPECT_EQ(pixels(here / "b" / "normals.png"), pixels(here / "a.normals.png"));
 }
 
 // RFC 4648's own examples.
