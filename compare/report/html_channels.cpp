@@ -164,7 +164,8 @@ private:
 
     std::string pair() const {
         // A picture that is embedded and equal on both sides stands in the page once: the script copies it.
-        const bool once = layout_.single_file && pictures_.baseline == pictures_.test;
+        const bool once =
+            layout_.single_file && layout_.source(pictures_.baseline) == layout_.source(pictures_.test);
         const auto stage = [&](const char* side, const Frame& frame, const std::string& picture) {
             return fmt::format("<div class=\"stage {}\">{}<span class=\"tag\">{}</span></div>", side,
                                panel(once && &frame == &right_ ? "" : picture,
