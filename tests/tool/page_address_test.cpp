@@ -11,9 +11,12 @@ using nlohmann::json;
 // read.
 constexpr const char* cardLook = R"(
   const card = $('#c0-roughness'), pair = card.querySelector('.pair'), panel = card.querySelector('.panel');
-  const seen = () => { const f = panel.getBoundingClientRect(), i = panel.querySelector('img').getBoundingClientRect();
-    return [card.open, pair.dataset.mode, pair.style.getPropertyValue('--w'), card.querySelector('.readout').textContent.slice(0, 6),
-            ...[(f.left - i.left) / i.width, (f.top - i.top) / i.height, f.width / i.width].map(v => +v.toFixed(2))]; };
+  const seen = () => { const f = panel.getBoundingClientRect(),
+    i = panel.querySelector('img').getBoundingClientRect();
+    return [card.open, pair.dataset.mode, pair.style.getPropertyValue('--w'),
+      card.querySelector('.readout').textContent.slice(0, 6),
+            ...[(f.left - i.left) / i.width, (f.top - i.top) / i.height, f.width / i.width]
+              .map(v => +v.toFixed(2))]; };
   await until(() => document.readyState === 'complete'); await wait(300);
 )";
 
@@ -31,7 +34,8 @@ TEST(PageAddress, LeadsBackToWhatWasSeen) {
              "card.querySelectorAll('[data-pixel]')[0].click(); key('-'); key('1');",
          }) {
         const Visit first = visit(folder, page, std::string(cardLook) + R"(
-          pointer('pointerdown', panel, .3, .6, { button: 0, pointerType: 'touch' }); pointer('pointerup', panel, .3, .6, { pointerType: 'touch' });
+          pointer('pointerdown', panel, .3, .6, { button: 0, pointerType: 'touch' });
+          pointer('pointerup', panel, .3, .6, { pointerType: 'touch' });
           )" + actions + R"(
           await wait(600); tell({ hash: location.hash, seen: seen() });)");
         EXPECT_EQ(first.console, "");
@@ -68,12 +72,15 @@ TEST(PageAddress, AnIndexKeepsItsFilterAndOrder) {
     const fs::path page = written(folder, reportOf(std::move(frames)));
     const std::string seeing = R"(
       await until(() => document.readyState === 'complete');
-      const seen = () => $$('.index tbody tr').filter(line => line.offsetHeight > 0).map(line => line.cells[1].textContent);
-      const sorted = () => $$('.index th[aria-sort]').map(head => head.textContent + ' ' + head.getAttribute('aria-sort'));
+      const seen = () => $$('.index tbody tr').filter(line => line.offsetHeight > 0)
+        .map(line => line.cells[1].textContent);
+      const sorted = () => $$('.index th[aria-sort]')
+        .map(head => head.textContent + ' ' + head.getAttribute('aria-sort'));
     )";
     const Visit chosen = visit(folder, page, seeing + R"(
       const told = { all: seen().length };
-      const filter = $('.index [type=search]'), head = $$('.index th').find(th => th.textContent === 'scene').firstChild;
+      const filter = $('.index [type=search]'),
+        head = $$('.index th').find(th => th.textContent === 'scene').firstChild;
       filter.value = '1'; filter.dispatchEvent(new Event('input', { bubbles: true }));
       head.click(); told.up = seen(); head.click(); told.down = seen();
       await wait(400); told.search = location.search; told.hash = location.hash;
@@ -107,23 +114,30 @@ TEST(PageKeys, ATableIsOneStopAndArrowsMoveInIt) {
             frames.push_back(std::move(frame));
     const Visit seen = visit(folder, written(folder, reportOf(std::move(frames))), R"(
       await until(() => document.readyState === 'complete');
-      const table = $('.index table'), stops = () => [...table.querySelectorAll('a, button')].filter(e => e.tabIndex === 0).length;
+      const table = $('.index table'), stops = () => [...table.querySelectorAll('a, button')]
+        .filter(e => e.tabIndex === 0).length;
       const told = { links: table.querySelectorAll('a').length, first: stops() };
       const here = () => document.activeElement.textContent;
       table.querySelector('tbody a').focus(); told.start = here();
       key('ArrowDown'); told.down = here(); key('ArrowDown'); key('ArrowUp'); told.up = here();
-      key('ArrowRight'); told.right = here(); key('End'); told.end = here() === [...table.querySelectorAll('a')].at(-1).textContent;
+      key('ArrowRight'); told.right = here(); key('End');
+      told.end = here() === [...table.querySelectorAll('a')].at(-1).textContent;
       told.still = stops();
-      told.toolbar = $$('.card .buttons').map(group => [...group.querySelectorAll('button')].filter(b => b.tabIndex === 0).length);
+      told.toolbar = $$('.card .buttons').map(group => [...group.querySelectorAll('button')]
+        .filter(b => b.tabIndex === 0).length);
       // The first stop of the page leads past everything before the channels.
       const first = $$('a[href], button, input, summary').find(e => e.tabIndex >= 0);
       told.skip = [first.className, !!$(first.getAttribute('href'))];
       // Before each table of several links there is a link that leads past it, and nothing else is passed.
-      const past = [...$$('.skip.here')].find(link => link.nextElementSibling.contains(table)), address = location.href;
-      told.skips = $$('table').filter(t => t.querySelectorAll('a, button').length > 1).length - $$('.skip.here').length;
-      told.hidden = getComputedStyle(past).clipPath; past.focus(); told.seen = getComputedStyle(past).clipPath;
+      const past = [...$$('.skip.here')].find(link => link.nextElementSibling.contains(table)),
+        address = location.href;
+      told.skips = $$('table').filter(t => t.querySelectorAll('a, button').length > 1).length
+        - $$('.skip.here').length;
+      told.hidden = getComputedStyle(past).clipPath; past.focus();
+      told.seen = getComputedStyle(past).clipPath;
       past.click(); const after = document.activeElement;
-      told.past = past.nextElementSibling.nextElementSibling === after; told.address = location.href === address;
+      told.past = past.nextElementSibling.nextElementSibling === after;
+      told.address = location.href === address;
       tell(told);)");
     EXPECT_EQ(seen.console, "");
     const json& told = seen.told;
@@ -151,14 +165,18 @@ TEST(PageKeys, APlotIsOneStop) {
     ASSERT_EQ(runTool(folder, "tradeoff builtin:triangle --size 32x24 --runs 2 -q -o t").code, 0);
     const Visit seen = visit(folder, folder / "t/index.html", R"(
       const plot = $('svg.chart'), points = [...plot.querySelectorAll('.point[tabindex]')];
-      const stops = () => points.filter(point => point.tabIndex === 0).length, x = () => document.activeElement.getBoundingClientRect().left;
+      const stops = () => points.filter(point => point.tabIndex === 0).length,
+        x = () => document.activeElement.getBoundingClientRect().left;
       const told = { points: points.length, first: stops() }, times = [];
       points[0].focus(); key('Home');
-      const order = points.map(point => { const box = point.getBoundingClientRect(); return box.left + box.width / 2; });
+      const order = points.map(point => { const box = point.getBoundingClientRect();
+        return box.left + box.width / 2; });
       points[order.indexOf(Math.min(...order))].focus();
-      for (let i = 0; i < points.length - 1; ++i) { const before = document.activeElement; key('ArrowRight'); times.push(document.activeElement !== before); }
+      for (let i = 0; i < points.length - 1; ++i) { const before = document.activeElement; key('ArrowRight');
+        times.push(document.activeElement !== before); }
       told.reached = times.every(Boolean); told.last = stops();
-      told.card = $$('.row-card').filter(card => card.offsetHeight > 0).map(card => card.dataset.row)[0] === document.activeElement.dataset.row;
+      told.card = $$('.row-card').filter(card => card.offsetHeight > 0)
+        .map(card => card.dataset.row)[0] === document.activeElement.dataset.row;
       tell(told);)");
     EXPECT_EQ(seen.console, "");
     ASSERT_TRUE(seen.told.is_object()) << seen.told;

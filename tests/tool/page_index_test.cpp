@@ -30,9 +30,12 @@ const char* const look = R"(
   const lines = $$('.index tbody tr'), visible = () => lines.filter(line => line.offsetHeight > 0).length;
   const sections = () => $$('.comparison').map(section => section.id);
   const loaded = () => $$('img').filter(image => image.complete && image.naturalWidth).length;
-  const told = { lines: lines.length, first: lines.slice(0, 2).map(line => line.cells[1].textContent), sections: sections(),
-                 nodes: $$('*').length, images: $$('img').length, loaded: loaded(), scripts: $$('script[src]').length,
-                 laidOut: $$('.comparison').filter(s => s.querySelector('.card').checkVisibility({ contentVisibilityAuto: true })).length };
+  const told = { lines: lines.length, first: lines.slice(0, 2).map(line => line.cells[1].textContent),
+    sections: sections(),
+                 nodes: $$('*').length, images: $$('img').length, loaded: loaded(),
+                   scripts: $$('script[src]').length,
+                 laidOut: $$('.comparison').filter(s =>
+                   s.querySelector('.card').checkVisibility({ contentVisibilityAuto: true })).length };
   const filter = $('.index [type=search]');
   filter.value = 'FAIL 97.glb'; filter.dispatchEvent(new Event('input', { bubbles: true }));
   told.filtered = visible(); told.shown = $('.index .shown').textContent;

@@ -21,10 +21,13 @@ TEST(PageReport, ASingleFileLoadsNoOther) {
       await until(() => $$('img').every(i => i.complete));
       pointer('pointermove', $('#c0-roughness .panel'), .5, .5); await wait(100);
       const panel = $('#c0-roughness .panel img');
-      tell({ sources: images.filter(i => !(i.getAttribute('src') || i.getAttribute('href')).startsWith('data:')).length,
-             broken: $$('img').filter(i => !i.naturalWidth).length, half: [panel.naturalWidth, panel.naturalHeight],
+      tell({ sources: images.filter(i => !(i.getAttribute('src')
+        || i.getAttribute('href')).startsWith('data:')).length,
+             broken: $$('img').filter(i => !i.naturalWidth).length,
+               half: [panel.naturalWidth, panel.naturalHeight],
              scripts: $$('script[src], link').length, says: $('#c0-roughness .readout').textContent,
-             fetched: performance.getEntriesByType('resource').map(e => e.name).filter(n => !n.startsWith('data:')) });)");
+             fetched: performance.getEntriesByType('resource').map(e => e.name)
+               .filter(n => !n.startsWith('data:')) });)");
     EXPECT_EQ(seen.console, "");
     ASSERT_TRUE(seen.told.is_object()) << seen.told;
     EXPECT_EQ(seen.told["sources"], 0);
@@ -47,10 +50,13 @@ TEST(PageReport, ARealReportIsWholeAndSilent) {
       const images = $$('img'); images.forEach(image => image.loading = 'eager');
       await until(() => images.every(image => image.complete));
       const cards = $$('.card'), bars = $$('.bar').map(bar => bar.getBoundingClientRect().width);
-      for (const card of cards) { card.scrollIntoView(); pointer('pointermove', card.querySelector('.panel'), .5, .5);
+      for (const card of cards) { card.scrollIntoView();
+        pointer('pointermove', card.querySelector('.panel'), .5, .5);
         await until(() => card.querySelector('.readout').children.length > 1); }
-      tell({ images: images.length, broken: images.filter(image => !image.naturalWidth).map(image => image.src), cards: cards.length,
-             unread: cards.filter(card => card.querySelector('.readout').children.length < 2).map(card => card.id),
+      tell({ images: images.length, broken: images.filter(image => !image.naturalWidth)
+        .map(image => image.src), cards: cards.length,
+             unread: cards.filter(card => card.querySelector('.readout').children.length < 2)
+               .map(card => card.id),
              timed: bars.filter(width => width > 20).length, plots: $$('.plot rect').length > 50,
              marks: $$('.checks tr').length > 5 });)");
     EXPECT_EQ(seen.console, "");

@@ -12,7 +12,8 @@ using nlohmann::json;
 constexpr const char* decimalPoints = R"(
   await until(() => document.readyState === 'complete');
   const point = cell => {
-    const text = cell.firstChild, words = text.textContent, dot = words.match(/^-?\d+/)[0].length, range = document.createRange();
+    const text = cell.firstChild, words = text.textContent, dot = words.match(/^-?\d+/)[0].length,
+      range = document.createRange();
     range.setStart(text, 0); range.setEnd(text, dot);
     return range.getBoundingClientRect().right;
   };
@@ -24,7 +25,8 @@ TEST(PageTable, DecimalPointsStandOneBelowTheOther) {
     const Folder folder;
     const fs::path page = written(folder, reportOf(rampFrames()));
     const Visit seen = visit(folder, page, std::string(decimalPoints) + R"(
-      const rows = texts => '<table><thead><tr><th class=n>n</th></tr></thead>' + texts.map(t => `<tr><td class=n>${t}</td></tr>`).join('') + '</table>';
+      const rows = texts => '<table><thead><tr><th class=n>n</th></tr></thead>' + texts
+        .map(t => `<tr><td class=n>${t}</td></tr>`).join('') + '</table>';
       const made = texts => {
         const box = document.createElement('div');
         box.innerHTML = rows(texts);
@@ -33,9 +35,12 @@ TEST(PageTable, DecimalPointsStandOneBelowTheOther) {
         prepare(box);
         return [before, spread([...box.querySelectorAll('td')])];
       };
-      const cells = [...$('.overview').querySelectorAll('tbody tr')].map(row => row.cells[2]).filter(cell => /^-?\d/.test(cell.textContent));
-      tell({ numbers: made(['1', '12.5', '0.0039', '1.21e-05', '-3']), percent: made(['100 %', '99.6 %', '0.52 %']),
-             bytes: made(['1.871 MiB', '763.7 KiB', '12 B']), page: spread(cells), cells: cells.map(cell => cell.textContent) });)");
+      const cells = [...$('.overview').querySelectorAll('tbody tr')].map(row => row.cells[2])
+        .filter(cell => /^-?\d/.test(cell.textContent));
+      tell({ numbers: made(['1', '12.5', '0.0039', '1.21e-05', '-3']),
+        percent: made(['100 %', '99.6 %', '0.52 %']),
+             bytes: made(['1.871 MiB', '763.7 KiB', '12 B']), page: spread(cells),
+             cells: cells.map(cell => cell.textContent) });)");
     EXPECT_EQ(seen.console, "");
     const json& told = seen.told;
     ASSERT_TRUE(told.is_object()) << told;

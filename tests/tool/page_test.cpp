@@ -11,12 +11,15 @@ TEST(Page, SliderKeysAndButtonsWork) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const Visit seen = visit(folder, written(folder, reportOf(rampFrames())), R"(
-      const card = $('#c0-roughness'), pair = card.querySelector('.pair'), slider = pair.querySelector('input');
+      const card = $('#c0-roughness'), pair = card.querySelector('.pair'),
+        slider = pair.querySelector('input');
       const panel = pair.querySelector('.panel');
-      const state = () => [pair.dataset.mode, pair.style.getPropertyValue('--w'), card.querySelector('[data-show].on').dataset.show];
+      const state = () => [pair.dataset.mode, pair.style.getPropertyValue('--w'),
+        card.querySelector('[data-show].on').dataset.show];
       const told = { open: card.open, first: state() };
       slider.value = 30; slider.dispatchEvent(new Event('input', { bubbles: true })); told.slid = state();
-      pointer('pointerdown', panel, .25, .5, { button: 0 }); pointer('pointermove', panel, .75, .5); pointer('pointerup', panel, .75, .5);
+      pointer('pointerdown', panel, .25, .5, { button: 0 }); pointer('pointermove', panel, .75, .5);
+      pointer('pointerup', panel, .75, .5);
       told.dragged = state(); told.focused = document.activeElement === slider;
       key('ArrowLeft'); told.arrow = state();
       key('1'); told.left = state(); key('2'); told.right = state(); key('s'); told.side = state();
@@ -60,29 +63,36 @@ TEST(Page, ZoomAndPanMoveAllPicturesOfACard) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const Visit seen = visit(folder, written(folder, reportOf(rampFrames())), R"(
-      const card = $('#c0-roughness'), panels = [...card.querySelectorAll('.panel')], pair = card.querySelector('.pair');
+      const card = $('#c0-roughness'), panels = [...card.querySelectorAll('.panel')],
+        pair = card.querySelector('.pair');
       await until(() => panels.every(panel => panel.querySelector('img').complete));
       // Which part of the picture a panel shows: left, top, width in parts of it, measured on the screen.
-      const part = panel => { const f = panel.getBoundingClientRect(), i = panel.querySelector('img').getBoundingClientRect();
-        return [(f.left - i.left) / i.width, (f.top - i.top) / i.height, f.width / i.width].map(v => +v.toFixed(3)); };
+      const part = panel => { const f = panel.getBoundingClientRect(),
+        i = panel.querySelector('img').getBoundingClientRect();
+        return [(f.left - i.left) / i.width, (f.top - i.top) / i.height, f.width / i.width]
+          .map(v => +v.toFixed(3)); };
       const parts = () => panels.map(part);
       const told = { panels: panels.length, first: parts() };
       // Not clicked into: the wheel is the page's.
-      const wheel = (panel, x, y, more) => panel.dispatchEvent(new WheelEvent('wheel', { bubbles: true, cancelable: true, deltaY: -240, ...at(panel, x, y), ...more }));
+      const wheel = (panel, x, y, more) => panel.dispatchEvent(new WheelEvent('wheel',
+        { bubbles: true, cancelable: true, deltaY: -240, ...at(panel, x, y), ...more }));
       told.scrolls = wheel(panels[0], .5, .5, {}); told.unzoomed = parts();
       told.taken = !wheel(panels[0], .25, .5, { ctrlKey: true }); told.wheel = parts();
       key('0'); told.fit = parts();
       pointer('pointermove', panels[0], .5, .5); for (let i = 0; i < 4; ++i) key('+'); told.keys = parts();
       told.pixelated = panels.map(panel => getComputedStyle(panel.querySelector('img')).imageRendering);
       // A drag away from the divider pans by what it moved; the arrows do, too.
-      pointer('pointerdown', panels[0], .8, .5, { button: 0 }); pointer('pointermove', panels[0], .6, .5); pointer('pointerup', panels[0], .6, .5);
+      pointer('pointerdown', panels[0], .8, .5, { button: 0 }); pointer('pointermove', panels[0], .6, .5);
+      pointer('pointerup', panels[0], .6, .5);
       told.panned = parts(); told.wipe = pair.style.getPropertyValue('--w');
       key('ArrowRight'); told.arrow = parts();
       for (let i = 0; i < 99; ++i) key('ArrowRight'); told.end = parts();
       key('0');
       // Two fingers, twice as far apart.
-      const finger = (type, id, x) => pointer(type, panels[0], x, .5, { pointerId: id, pointerType: 'touch', button: 0 });
-      finger('pointerdown', 7, .4); finger('pointerdown', 8, .6); finger('pointermove', 7, .3); finger('pointermove', 8, .7);
+      const finger = (type, id, x) => pointer(type, panels[0], x, .5,
+        { pointerId: id, pointerType: 'touch', button: 0 });
+      finger('pointerdown', 7, .4); finger('pointerdown', 8, .6); finger('pointermove', 7, .3);
+      finger('pointermove', 8, .7);
       finger('pointerup', 7, .3); finger('pointerup', 8, .7); told.pinch = parts();
       tell(told);)");
     EXPECT_EQ(seen.console, "");
@@ -118,12 +128,16 @@ TEST(Page, WorstPixelsLeadIntoThePicture) {
       const card = $('#c0-roughness'), panel = card.querySelector('.panel');
       await until(() => card.querySelector('.readout').children.length > 1);
       // The pixel at the middle of the panel, and how many stand side by side in it.
-      const where = () => { const f = panel.getBoundingClientRect(), i = panel.querySelector('img').getBoundingClientRect();
-        return [Math.floor((f.left + f.width / 2 - i.left) / i.width * 96), Math.floor((f.top + f.height / 2 - i.top) / i.height * 54), Math.round(f.width / i.width * 96)]; };
+      const where = () => { const f = panel.getBoundingClientRect(),
+        i = panel.querySelector('img').getBoundingClientRect();
+        return [Math.floor((f.left + f.width / 2 - i.left) / i.width * 96),
+          Math.floor((f.top + f.height / 2 - i.top) / i.height * 54), Math.round(f.width / i.width * 96)]; };
       const first = where(), says = () => card.querySelector('.readout').firstChild.textContent;
-      const told = { links: [...card.querySelectorAll('[data-pixel]')].map(link => link.dataset.pixel), first, says: says() };
+      const told = { links: [...card.querySelectorAll('[data-pixel]')].map(link => link.dataset.pixel),
+        first, says: says() };
       pointer('pointermove', panel, .5, .5);
-      card.querySelectorAll('[data-pixel]')[1].click(); told.second = where(); await wait(400); told.hash = location.hash;
+      card.querySelectorAll('[data-pixel]')[1].click(); told.second = where(); await wait(400);
+      told.hash = location.hash;
       key('n'); told.next = where(); key('p'); told.previous = where();
       tell(told);)";
     const Visit seen = visit(folder, written(folder, reportOf(rampFrames())), script, "#c0-roughness@40,20");

@@ -23,7 +23,8 @@ TEST(PageValues, TheValuesUnderTheCursorAreThoseOfTheFrames) {
         return [...out.children].map(row => row.textContent);
       };
       const scripts = () => $$('script[src]').map(script => script.getAttribute('src'));
-      tell({ before: scripts(), lit: await read('#c0-lit', 5, 3), roughness: await read('#c0-roughness', 40, 20),
+      tell({ before: scripts(), lit: await read('#c0-lit', 5, 3),
+        roughness: await read('#c0-roughness', 40, 20),
              albedo: await read('#c0-albedo', 3, 2), id: await read('#c0-material_id', 0, 0),
              only: await read('#c0-texcoords', 95, 53), after: scripts() });)");
     EXPECT_EQ(seen.console, "");

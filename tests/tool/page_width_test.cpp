@@ -16,11 +16,16 @@ addEventListener('load', () => setTimeout(() => {
   const all = s => [...document.querySelectorAll(s)], seen = e => e.getClientRects().length > 0;
   all('details').forEach(d => d.open = true);
   const name = e => e.tagName + '.' + (e.className.baseVal ?? e.className), wide = innerWidth + 1;
-  const scrolls = all('body *').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1 && /auto|scroll/.test(getComputedStyle(e).overflowX));
-  const over = all('body *').filter(e => seen(e) && !e.closest('.scroll, .loupe, .panel, svg, .skip') && e.getBoundingClientRect().right > wide);
-  const cut = all('.buttons, .readout, .again, dl, .box, summary').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1);
-  const hidden = all('.overview .verdict').filter(e => seen(e) && e.getBoundingClientRect().right > e.closest('.box').getBoundingClientRect().right + 1);
-  parent.postMessage({ which: WHICH, verdicts: hidden.length, body: document.scrollingElement.scrollWidth - innerWidth,
+  const scrolls = all('body *').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1
+    && /auto|scroll/.test(getComputedStyle(e).overflowX));
+  const over = all('body *').filter(e => seen(e) && !e.closest('.scroll, .loupe, .panel, svg, .skip')
+    && e.getBoundingClientRect().right > wide);
+  const cut = all('.buttons, .readout, .again, dl, .box, summary')
+    .filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1);
+  const hidden = all('.overview .verdict').filter(e => seen(e)
+    && e.getBoundingClientRect().right > e.closest('.box').getBoundingClientRect().right + 1);
+  parent.postMessage({ which: WHICH, verdicts: hidden.length,
+    body: document.scrollingElement.scrollWidth - innerWidth,
                        scrolls: scrolls.map(name), over: [...over, ...cut].map(name).slice(0, 5) }, '*');
 }, 300));)";
 
@@ -131,9 +136,12 @@ TEST(PagePrint, LeavesOutWhatNeedsAMouse) {
           const shown = s => $$(s).filter(e => e.getClientRects().length > 0).length;
           const box = s => $('#c0-roughness ' + s).getBoundingClientRect();
           const cut = getComputedStyle($('#c0-roughness .left')).clipPath;
-          tell({ buttons: shown('button'), readouts: shown('.readout'), sliders: shown('.pair input'), keys: shown('.keys'),
-                 dividers: shown('.divider'), pictures: shown('.card[open] .panel img'), whole: cut === 'none',
-                 beside: box('.right').left >= box('.left').right, commands: shown('.again code'), closed: shown('.card[open] details:not([open])') });)");
+          tell({ buttons: shown('button'), readouts: shown('.readout'), sliders: shown('.pair input'),
+            keys: shown('.keys'),
+                 dividers: shown('.divider'), pictures: shown('.card[open] .panel img'),
+                   whole: cut === 'none',
+                 beside: box('.right').left >= box('.left').right, commands: shown('.again code'),
+                 closed: shown('.card[open] details:not([open])') });)");
         EXPECT_EQ(seen.console, "");
         const json& told = seen.told;
         ASSERT_TRUE(told.is_object()) << told;
