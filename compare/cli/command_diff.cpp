@@ -64,7 +64,7 @@ int diffFolders(const Options& options, PictureDiffOptions settings, const std::
         writePictureDiffs(std::move(diff.pictures), output->path,
                           {pictureChoice(options), options.single_file, options.keep, options.force,
                            stage.part(measuring, 1)},
-                          wordsOfWhatCounts(options), diff.errors);
+                          wordsOfWhatCounts(options), diff.errors, diff.failures());
     progress.wipe();
     print(options, text);
     sayErrors(diff.errors);

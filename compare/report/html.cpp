@@ -85,7 +85,8 @@ std::string firstNotes(const Report& report) {
 // The failures of all comparisons: where to look first.
 std::string failures(const Report& report, const ReportLayout& layout) {
     std::vector<std::string> items;
-    for (const SceneError& error : report.errors) items.push_back(markup(errorText(error)));
+    for (const auto* unpaired : {&report.errors, &report.failures})
+        for (const SceneError& error : *unpaired) items.push_back(markup(errorText(error)));
     for (const std::size_t i : layout.order) {
         const Comparison& comparison = report.comparisons[i];
         const std::string where = whereOf(report, layout, comparison);

@@ -162,10 +162,11 @@ std::string reportJson(const Report& report, const ReportLayout* layout) {
         {"comparisons", comparisons},
         {"truth", closer},
         {"compare_ms", report.diff_ms}};
-    Json errors = Json::array();
-    for (const SceneError& error : report.errors)
-        errors.push_back({{"scene", error.scene}, {"message", error.message}});
-    json["errors"] = errors;
+    for (const auto& [key, all] :
+         {std::pair{"errors", &report.errors}, std::pair{"failures", &report.failures}}) {
+        json[key] = Json::array();
+        for (const SceneError& of : *all) json[key].push_back({{"scene", of.scene}, {"message", of.message}});
+    }
     if (layout) {
         json["encode_ms"] = layout->encode_ms;
         json["files"] = layout->files();

@@ -34,13 +34,14 @@ std::string nowInUtc() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::time(nullptr)));
 }
 
-// A scene that could not be drawn: a suite of one case with an error.
-std::string errorSuite(const SceneError& error) {
+// A scene without a comparison: a suite of one case with an "error" or a "failure".
+std::string unpairedSuite(const SceneError& of, std::string_view outcome) {
     return fmt::format(
-        "  <testsuite name=\"{}\" tests=\"1\" failures=\"0\" errors=\"1\" skipped=\"0\" time=\"0.000\">\n"
+        "  <testsuite name=\"{}\" tests=\"1\" failures=\"{}\" errors=\"{}\" skipped=\"0\" time=\"0.000\">\n"
         "    <testcase classname=\"{}\" name=\"scene\" time=\"0.000\">\n"
-        "      <error type=\"scene\" message=\"{}\"/>\n    </testcase>\n  </testsuite>\n",
-        markup(error.scene), classNameOf(error.scene), markup(errorText(error)));
+        "      <{} type=\"scene\" message=\"{}\"/>\n    </testcase>\n  </testsuite>\n",
+        markup(of.scene), outcome == "failure" ? 1 : 0, outcome == "error" ? 1 : 0, classNameOf(of.scene),
+        outcome, markup(errorText(of)));
 }
 
 class Suite {
@@ -165,9 +166,10 @@ private:
 std::string reportJunit(const Report& report, const ReportLayout& layout,
                         const std::filesystem::path& folder) {
     std::string suites;
-    std::size_t tests = report.errors.size(), failures = 0;
+    std::size_t tests = report.errors.size() + report.failures.size(), failures = report.failures.size();
     double seconds = 0;
-    for (const SceneError& error : report.errors) suites += errorSuite(error);
+    for (const SceneError& error : report.errors) suites += unpairedSuite(error, "error");
+    for (const SceneError& failure : report.failures) suites += unpairedSuite(failure, "failure");
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
         const Suite suite(report, layout, folder, i);
         suites += suite.xml();

@@ -107,11 +107,12 @@ void addTo(Report& report, PictureDiff& diff, const std::vector<DebugMode>& mode
 
 void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::path& folder,
                        const ReportOptions& options, const std::vector<std::string>& words,
-                       const std::vector<SceneError>& errors) {
+                       const std::vector<SceneError>& errors, const std::vector<SceneError>& failures) {
     std::vector<std::vector<DebugMode>> modes;
     for (const PictureDiff& diff : diffs) modes.push_back(modesOf(diff));
     Report report;
     report.errors = errors;
+    report.failures = failures;
     for (std::size_t i = 0; i < diffs.size(); ++i)
         addTo(report, diffs[i], modes[i],
               withOption(withWords({"diff", diffs[i].reference, diffs[i].test}, words), "-o",
@@ -124,7 +125,7 @@ void writePictureDiff(PictureDiff diff, const Output& output, const ReportOption
     if (output.kind == OutputKind::folder) {
         std::vector<PictureDiff> one;
         one.push_back(std::move(diff));
-        return writePictureDiffs(std::move(one), output.path, options, words, {});
+        return writePictureDiffs(std::move(one), output.path, options, words, {}, {});
     }
     if (output.kind == OutputKind::exr) {
         std::vector<Image> errors;

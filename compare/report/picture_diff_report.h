@@ -21,6 +21,6 @@ void writePictureDiff(PictureDiff diff, const Output& output, const ReportOption
 // The same report of several pairs, those of two folders. Throws as writePictureDiff().
 void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::path& folder,
                        const ReportOptions& options, const std::vector<std::string>& words,
-                       const std::vector<SceneError>& errors);
+                       const std::vector<SceneError>& errors, const std::vector<SceneError>& failures);
 
 }  // namespace diptych

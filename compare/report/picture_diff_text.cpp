@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace diptych {
 
@@ -196,6 +197,14 @@ bool FolderDiff::passed() const {
            std::ranges::all_of(pictures, &PictureDiff::passed);
 }
 
+std::vector<SceneError> FolderDiff::failures() const {
+    std::vector<SceneError> all;
+    for (const auto& [names, folder] :
+         {std::pair{&reference_alone, &reference}, std::pair{&test_alone, &test}})
+        for (const std::string& name : *names) all.push_back({name, fmt::format("is in {} alone", *folder)});
+    return all;
+}
+
 std::string folderDiffTable(const FolderDiff& diff) {
     std::string out;
     std::vector<std::string> failed;
@@ -203,10 +212,7 @@ std::string folderDiffTable(const FolderDiff& diff) {
         out += pictureDiffTable(picture);
         if (!picture.passed()) failed.push_back(picture.name);
     }
-    for (const std::string& name : diff.reference_alone)
-        out += fmt::format("FAIL {}: is in {} alone\n", name, diff.reference);
-    for (const std::string& name : diff.test_alone)
-        out += fmt::format("FAIL {}: is in {} alone\n", name, diff.test);
+    for (const SceneError& failure : diff.failures()) out += fmt::format("FAIL {}\n", errorText(failure));
     for (const SceneError& error : diff.errors) out += fmt::format("ERROR {}\n", errorText(error));
     const std::size_t alone = diff.reference_alone.size() + diff.test_alone.size(),
                       all = diff.pictures.size();

@@ -23,6 +23,7 @@ struct FolderDiff {
     std::vector<SceneError> errors;                        // pairs that could not be compared
 
     bool passed() const;
+    std::vector<SceneError> failures() const;  // of the names that one folder lacks
 };
 std::string folderDiffTable(const FolderDiff& diff);
 std::string folderDiffJson(const FolderDiff& diff);

@@ -132,7 +132,9 @@ constexpr std::size_t scenesNamed = 8;
 std::string errorsText(const Report& report) {
     std::vector<std::string> scenes;
     for (const SceneError& error : report.errors) scenes.push_back(error.scene);
-    return fmt::format("{} scene{} could not be drawn: {}", scenes.size(), scenes.size() == 1 ? "" : "s",
+    const bool files = report.device.name.empty();  // diff draws nothing
+    return fmt::format("{} {}{} could not be {}: {}", scenes.size(), files ? "picture" : "scene",
+                       scenes.size() == 1 ? "" : "s", files ? "compared" : "drawn",
                        listed(scenes, scenesNamed));
 }
 
@@ -165,12 +167,18 @@ std::string verdictLine(const Report& report) {
     }
     const std::string errors = report.errors.empty() ? "" : fmt::format("ERROR: {}; ", errorsText(report));
     const std::size_t all = report.comparisons.size();
+    std::vector<std::string> unpaired;
+    for (const SceneError& failure : report.failures) unpaired.push_back(errorText(failure));
+    const std::string alone = listed(unpaired, scenesNamed);
+    if (failing == 0 && !alone.empty())
+        return fmt::format("{}FAIL: {}{}", errors, alone, hardlyAnything(report));
     if (failing == 0)
         return fmt::format("{}pass: all {} channels{} are within tolerance{}", errors, compared,
                            all == 1 ? "" : fmt::format(" of {} comparisons", all), hardlyAnything(report));
     std::string what = others.empty() ? "" : listed(others, 1);
     if (!channels.empty())
         what += fmt::format("{}{} beyond tolerance", what.empty() ? "" : "; ", fmt::join(channels, ", "));
+    if (!alone.empty()) what += "; " + alone;
     what += hardlyAnything(report);
     if (all == 1) return fmt::format("{}FAIL: {}", errors, what);
     return fmt::format("{}FAIL: {} of {} comparisons failed: {} ({})", errors, failing, all,

@@ -108,7 +108,7 @@ bool Comparison::passed() const {
 }
 
 bool Report::passed() const {
-    return std::ranges::all_of(comparisons, &Comparison::passed);
+    return failures.empty() && std::ranges::all_of(comparisons, &Comparison::passed);
 }
 
 Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t test,

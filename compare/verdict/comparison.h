@@ -34,7 +34,8 @@ struct Comparison {
     bool passed() const;
 };
 
-// A scene that could not be drawn while others of the same call were.
+// What is said of a scene or picture that has no comparison: why it could not be drawn while others of the
+// same call were, or why it fails.
 struct SceneError {
     std::string scene, message;
 };
@@ -45,6 +46,7 @@ struct Report {
     std::vector<Comparison> comparisons;
     std::vector<std::string> first_notes;  // what a reader must know before any number
     std::vector<SceneError> errors;
+    std::vector<SceneError> failures;      // of no comparison: pictures that one of two folders lacks
     std::vector<CloserPath> closer_paths;  // with --baseline reference: one per scene and camera
     double diff_ms = 0;                    // time of comparing alone
 

@@ -300,9 +300,17 @@ TEST(DiffCommand, FoldersAreComparedByName) {
     // One that is missing, and one that cannot be read.
     fs::copy_file(folder / "a/same.exr", folder / "a/alone.exr");
     EXPECT_EQ(runTool(folder, "diff a a -q").code, 0);
-    ran = runTool(folder, "diff b a --metric max --tolerance 0.2");
+    ran = runTool(folder, "diff b a --metric max --tolerance 0.2 -o missing");
     EXPECT_EQ(ran.code, 1);
     EXPECT_NE(ran.out.find("FAIL alone.exr: is in a alone\n"), std::string::npos) << ran.out;
+    const Json missing = Json::parse(contentsOf(folder / "missing/report.json"));
+    EXPECT_EQ(missing["verdict"], "fail");
+    EXPECT_EQ(missing["failures"][0]["scene"], "alone.exr");
+    EXPECT_NE(contentsOf(folder / "missing/index.html").find("<li>alone.exr: is in a alone</li>"),
+              std::string::npos);
+    EXPECT_NE(contentsOf(folder / "missing/junit.xml")
+                  .find("<failure type=\"scene\" message=\"alone.exr: is in a alone\"/>"),
+              std::string::npos);
     folder.write("b/alone.exr", "no picture");
     ran = runTool(folder, "diff b a --metric max --tolerance 0.2 --json");
     EXPECT_EQ(ran.code, 2);

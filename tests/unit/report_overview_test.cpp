@@ -59,5 +59,27 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     EXPECT_NE(page.find("<p>ERROR: 1 scene could not be drawn: a/bad.glb; pass"), std::string::npos);
 }
 
+// What fails without a comparison fails the whole, and page, JSON and JUnit name it; with it gone all pass.
+TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
+    Report report = reportOf(bothFrames());
+    ASSERT_TRUE(report.passed());
+    for (const bool lacking : {false, true}) {
+        if (lacking) report.failures = {{"only_a.exr", "is in A alone"}};
+        const std::filesystem::path out = folder() / (lacking ? "lacking" : "whole");
+        writeReport(report, out, {});
+        EXPECT_EQ(report.passed(), !lacking);
+        const std::string page = contentsOf(out / "index.html"), json = contentsOf(out / "report.json"),
+                          junit = contentsOf(out / "junit.xml");
+        EXPECT_EQ(countOf(page, "<h1><span class=\"verdict fail\">fail</span>"), lacking);
+        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A alone</p>"), lacking);
+        EXPECT_EQ(countOf(page, "<li>only_a.exr: is in A alone</li>"), lacking);
+        EXPECT_EQ(countOf(json, "\n  \"verdict\": \"fail\""), lacking);
+        EXPECT_EQ(countOf(json, "\"scene\": \"only_a.exr\""), lacking);
+        EXPECT_EQ(countOf(junit, "<testsuite name=\"only_a.exr\" tests=\"1\" failures=\"1\" errors=\"0\""),
+                  lacking);
+        EXPECT_EQ(countOf(junit, "<failure type=\"scene\" message=\"only_a.exr: is in A alone\"/>"), lacking);
+    }
+}
+
 }  // namespace
 }  // namespace diptych
