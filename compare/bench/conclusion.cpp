@@ -72,10 +72,11 @@ std::string Conclusion::inWords() const {
         return fmt::format("{} ({})", nameOf(s.path), nameOf(s.assign));
     };
     std::string words = fmt::format(
-        "{}x{}, {} lights: {} takes {} ms, {} takes {:.2f} times as long ({:.2f} to {:.2f} at {:.1f} % "
-        "confidence, from {} pairs of frames)",
+        "{}x{}, {} lights: {} takes {} ms, {} takes {:.2f} times as long: the median ratio of {} pairs of "
+        "frames "
+        "drawn in turn, not that of the medians ({:.2f} to {:.2f} at {:.1f} % confidence)",
         a.size.width, a.size.height, faster->counters.lights, mode(a), msText(faster->time.median), mode(b),
-        ratio.median, ratio.low, ratio.high, 100 * ratio.confidence, ratio.pairs);
+        ratio.median, ratio.pairs, ratio.low, ratio.high, 100 * ratio.confidence);
     if (!ratio.isSure()) return words + ": which of them is faster cannot be told; with more --runs it may";
     if (!pass.empty())
         words += fmt::format("; the pass that differs most is {}: {} against {}", pass, passMs(faster_ms),

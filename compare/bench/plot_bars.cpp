@@ -89,7 +89,8 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
         drawing.text("tick middle", x(tick), bottom + 20, fmt::format("{:.6g}", tick));
     }
     drawing.line("axis", plotLeft, bottom, right, bottom);
-    drawing.text("name middle", (plotLeft + right) / 2, bottom + 47, "time of a frame by pass, ms");
+    drawing.text("name middle", (plotLeft + right) / 2, bottom + 47,
+                 "passes of a profiled frame, one after the other, ms");
     double y = above + headHeight + rowHeight - barHeight - 8;
     for (const BenchRow* row : rows) {
         const std::string label = modeLabel(row->settings.path, row->settings.assign);
@@ -114,6 +115,10 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
         out += fmt::format("<rect class=\"part part{}\" x=\"{}\" y=\"{}\" width=\"24\" height=\"14\"/>{}",
                            part, svgNumber(lx), svgNumber(ly - 7), legend.words(names[part]));
     }
+    const auto [lx, ly] = legend.next();
+    out += fmt::format("<path class=\"frame\" d=\"M{0} {2}H{1}M{3} {4}V{5}\"/>{6}", svgNumber(lx),
+                       svgNumber(lx + 24), svgNumber(ly), svgNumber(lx + 12), svgNumber(ly - 8),
+                       svgNumber(ly + 8), legend.words("an unprofiled frame: median, least to most"));
     return {out, legend.end()};
 }
 

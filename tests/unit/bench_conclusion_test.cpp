@@ -99,8 +99,8 @@ TEST(BenchConclusion, SaysWhichIsFasterByHowMuchAndWhy) {
     EXPECT_EQ(
         all[0].inWords(),
         "64x48, 16 lights: deferred (clustered) takes 10 ms, forward_plus (clustered) takes 2.05 times as "
-        "long "
-        "(2.00 to 2.17 at 96.9 % confidence, from 6 pairs of frames); the pass that differs most is shade: "
+        "long: the median ratio of 6 pairs of frames drawn in turn, not that of the medians "
+        "(2.00 to 2.17 at 96.9 % confidence); the pass that differs most is shade: "
         "none against 19 ms");
 }
 
