@@ -15,6 +15,12 @@ constexpr int distances = 6;
 constexpr std::array<std::pair<int, int>, 8> directions{
     {{1, -1}, {-1, 1}, {1, 1}, {-1, -1}, {0, -1}, {0, 1}, {1, 0}, {-1, 0}}};
 
+constexpr double between = 4;  // two labels
+
+PlotBox grown(PlotBox box) {
+    return {box.left - between, box.top - between, box.right + between, box.bottom + between};
+}
+
 double overlap(const PlotBox& a, const PlotBox& b) {
     const double across = std::min(a.right, b.right) - std::max(a.left, b.left),
                  down = std::min(a.bottom, b.bottom) - std::max(a.top, b.top);
@@ -46,7 +52,7 @@ std::vector<PlotBox> placeLabels(const std::vector<Label>& labels, const std::ve
                 const double room = label.width * label.height;
                 // What weighs more is worse than any number of what weighs less.
                 double cost = distance + 0.01 * static_cast<double>(d);
-                for (const PlotBox& other : placed) cost += 1e3 * overlap(box, other) / room;
+                for (const PlotBox& other : placed) cost += 1e3 * overlap(box, grown(other)) / room;
                 for (const PlotBox& mark : marks) cost += 10 * overlap(box, mark) / room;
                 if (cost >= least) continue;
                 least = cost;

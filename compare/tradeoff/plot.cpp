@@ -134,7 +134,8 @@ private:
                            svgNumber(py));
     }
 
-    // The number of each row on the front, above all points; a line leads to one that had to go far.
+    // The number of each row on the front, above all points; a line leads to one that had to go far, or
+    // that stands nearer to another point than to its own.
     std::string rowNumbers() const {
         std::vector<Label> labels;
         std::vector<PlotBox> marks;
@@ -153,7 +154,11 @@ private:
         for (std::size_t i = 0; i < places.size(); ++i) {
             const double px = (places[i].left + places[i].right) / 2,
                          py = (places[i].top + places[i].bottom) / 2;
-            if (std::hypot(px - labels[i].x, py - labels[i].y) > farLabel)
+            const double own = std::hypot(px - labels[i].x, py - labels[i].y);
+            const bool misread = std::ranges::any_of(marks, [&](const PlotBox& m) {
+                return std::hypot(px - (m.left + m.right) / 2, py - (m.top + m.bottom) / 2) < own - 1e-6;
+            });
+            if (own > farLabel || misread)
                 out += fmt::format("<path class=\"lead\" d=\"M{} {}L{} {}\"/>", svgNumber(labels[i].x),
                                    svgNumber(labels[i].y), svgNumber(px), svgNumber(py));
             out += fmt::format("<text class=\"row middle\" x=\"{}\" y=\"{}\">{}</text>", svgNumber(px),

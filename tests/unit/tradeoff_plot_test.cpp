@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <regex>
 
@@ -86,6 +88,39 @@ TEST(TradeoffPlot, NumbersOfTheFrontStandApart) {
     for (std::size_t i = 0; i < boxes.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(meet(boxes[i], boxes[j])) << i << " " << j;
     EXPECT_NE(svg.find("class=\"lead\""), std::string::npos) << "a number that went far is led to";
+}
+
+// Of scattered rows: a number that has another row's mark nearer than its own has a line to its own.
+TEST(TradeoffPlot, ANumberNearerToAnotherPointIsLedTo) {
+    int near = 0;
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        Tradeoff tradeoff;
+        tradeoff.scene = "s";
+        unsigned state = seed;
+        const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
+        for (int i = 0; i < 60; ++i)
+            tradeoff.rows.push_back(timed("deferred", std::pow(10.0, 1e-3 * (next() % 1000)),
+                                          std::pow(10.0, -1e-3 * (next() % 1000))));
+        const std::string svg = tradeoffPlot(tradeoff, 0, {}, PlotPlace::page);
+        const std::regex mark(
+            R"re(data-row="(\d+)"[^>]*><path[^>]*><circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
+            label(
+                R"re((class="lead"[^>]*>)?<text class="row middle" x="([\d.]+)" y="([\d.]+)">(\d+)</text>)re");
+        std::map<int, std::array<double, 2>> marks;
+        for (std::sregex_iterator i(svg.begin(), svg.end(), mark), end; i != end; ++i)
+            marks[std::stoi((*i)[1])] = {std::stod((*i)[2]), std::stod((*i)[3])};
+        ASSERT_EQ(marks.size(), 60u);
+        for (std::sregex_iterator i(svg.begin(), svg.end(), label), end; i != end; ++i) {
+            const double x = std::stod((*i)[2]), y = std::stod((*i)[3]) + 3 - 17 / 2.0;  // its middle
+            const auto from = [&](const std::array<double, 2>& m) { return std::hypot(x - m[0], y - m[1]); };
+            const double own = from(marks.at(std::stoi((*i)[4])));
+            const bool other =
+                std::ranges::any_of(marks, [&](const auto& m) { return from(m.second) < own - 0.2; });
+            near += other && own < 40;
+            EXPECT_TRUE(!other || (*i)[1].matched) << "seed " << seed << ", row " << (*i)[4];
+        }
+    }
+    EXPECT_GT(near, 0) << "there are such numbers, not far from their points";
 }
 
 TEST(TradeoffPlot, TheErrorIsNamedAboveItsAxis) {
