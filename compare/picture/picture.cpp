@@ -218,10 +218,27 @@ std::array<std::uint8_t, 3> errorColor(double t) {
             byteOf(srgbFromLinear(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s))};
 }
 
+namespace {
+
+constexpr int beyondShades = 9;
+
+// From beyondColor just above the top to white at farBeyond times it, even steps of the logarithm.
+Rgb8 beyondShade(double times) {
+    const double share = std::min(std::log(times) / std::log(farBeyond), 1.0);
+    const double t = std::min(std::floor(share * beyondShades), beyondShades - 1.0) / (beyondShades - 1);
+    Rgb8 color{};
+    for (std::size_t c = 0; c < color.size(); ++c)
+        color[c] =
+            static_cast<std::uint8_t>(std::lround(std::lerp(static_cast<double>(beyondColor[c]), 255.0, t)));
+    return color;
+}
+
+}  // namespace
+
 Image8 errorPicture(const Image& errors, double top) {
-    // With black and the two colours of what is beyond, a palette holds all.
-    static const std::array<Rgb8, 253> map = [] {
-        std::array<Rgb8, 253> colors;
+    // With black, the shades of what is beyond and the colour of infinity, a palette holds all.
+    static const std::array<Rgb8, 254 - beyondShades> map = [] {
+        std::array<Rgb8, 254 - beyondShades> colors;
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = errorColor(static_cast<double>(i) / (colors.size() - 1));
         return colors;
@@ -232,7 +249,7 @@ Image8 errorPicture(const Image& errors, double top) {
         if (!std::isfinite(e))
             put(result, i, nonfiniteColor);
         else if (e > top * (1 + 1e-6))  // an error image is float32, its top a double
-            put(result, i, beyondColor);
+            put(result, i, beyondShade(e / top));
         else if (e > 0)
             put(result, i,
                 map[static_cast<std::size_t>(

@@ -63,9 +63,10 @@ double srgbFromLinear(double linear);
 std::array<std::uint8_t, 3> errorColor(double t);
 
 // W x H x 1 errors by errorColor(sqrt(error / top)), so that the small ones of a skewed lot are seen too;
-// above `top` cyan, infinite magenta, 0 black.
+// above `top` cyan, paler the more often it is exceeded, white from 1000 times; infinite magenta, 0 black.
 Image8 errorPicture(const Image& errors, double top);
 constexpr std::array<std::uint8_t, 3> beyondColor{40, 230, 240}, nonfiniteColor{255, 0, 255};
+constexpr double farBeyond = 1000;  // times the top: white
 
 // Half as wide and high, 2x2 pixels averaged as they are encoded; at least 1x1.
 Image8 halfSize(const Image8& image);

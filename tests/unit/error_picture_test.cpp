@@ -89,6 +89,17 @@ TEST(ErrorPicture, OnlyWhatIsAboveTheTopIsBeyond) {
     EXPECT_EQ(pixelOf(picture, 4), beyondColor);
 }
 
+// What is beyond keeps its order: paler, and white from a thousand times on.
+TEST(ErrorPicture, BeyondTheTopColoursAreOrdered) {
+    Image errors(6, 1, 1);
+    errors.data = {0.6f, 5, 50, 490, 500, 1e9f};
+    const Image8 picture = errorPicture(errors, 0.5);
+    EXPECT_EQ(pixelOf(picture, 0), beyondColor);
+    for (std::size_t i = 1; i < 4; ++i)
+        EXPECT_GT(pixelOf(picture, i)[0], pixelOf(picture, i - 1)[0]) << errors.data[i];
+    for (const std::size_t i : {4u, 5u}) EXPECT_EQ(pixelOf(picture, i), (Rgb{255, 255, 255}));
+}
+
 // ---- The page's legend ----
 
 // The card's difference: its picture, the ramp's colours and the words below it.

@@ -83,7 +83,16 @@ std::vector<Frame> greyFrames(float deferred, float forward, const std::string& 
 }
 
 constexpr std::array<int, 3> quarter{64, 64, 64}, most{191, 191, 191}, black{0, 0, 0}, white{255, 255, 255};
-constexpr std::array<int, 3> beyond{beyondColor[0], beyondColor[1], beyondColor[2]};
+
+// The colour of an error of 0.5, which is beyond the channel's tolerance many times.
+std::array<int, 3> errorOfHalf(const Report& report, const std::string& name) {
+    for (const ChannelDiff& channel : report.comparisons[0].channels)
+        if (channel.mode->name == name) {
+            const Image8 pixel = errorPicture(Image(1, 1, 1, 0.5f), channel.tolerance.max);
+            return {pixel.data[0], pixel.data[1], pixel.data[2]};
+        }
+    return {};
+}
 
 TEST(ReportPictures, LeftIsTheBaselineRightTheOther) {
     for (const Path baseline : {Path::deferred, Path::forward_plus})
@@ -97,13 +106,14 @@ TEST(ReportPictures, LeftIsTheBaselineRightTheOther) {
             const fs::path out = folder() / "report";
             writeReport(report, out, how);
             const std::string page = contentsOf(out / "index.html");
-            CardPictures expected{quarter,        most,       beyond,         "deferred",
-                                  "forward_plus", "deferred", "forward_plus", {quarter, most, beyond}};
-            if (baseline == Path::forward_plus)
-                expected = {most,       quarter,        beyond,     "forward_plus",
-                            "deferred", "forward_plus", "deferred", {most, quarter, beyond}};
-            if (single) expected.loupes.clear();  // half as large, so that nothing can be enlarged
             for (const char* channel : {"c0-roughness", "c0-metallic"}) {
+                const std::array<int, 3> apart = errorOfHalf(report, channel + 3);
+                CardPictures expected{quarter,        most,       apart,          "deferred",
+                                      "forward_plus", "deferred", "forward_plus", {quarter, most, apart}};
+                if (baseline == Path::forward_plus)
+                    expected = {most,       quarter,        apart,      "forward_plus",
+                                "deferred", "forward_plus", "deferred", {most, quarter, apart}};
+                if (single) expected.loupes.clear();  // half as large, so that nothing can be enlarged
                 const CardPictures shown = cardIn(page, out, channel);
                 EXPECT_EQ(shown.left, expected.left) << channel << single;
                 EXPECT_EQ(shown.right, expected.right) << channel << single;
