@@ -49,6 +49,18 @@ TEST(PageTradeoff, PointingFocusAndTapShowTheRowAndItsCommand) {
     EXPECT_EQ(told["byLine"], json{"1"});
 }
 
+// Reasons take the whole width, whatever else the page makes of lists of terms.
+TEST(PageTradeoff, WhatWasNotDrawnIsReadableOnAPhone) {
+    SKIP_WITHOUT_BROWSER();
+    const Folder folder;
+    const Visit seen = visitSweep(folder, R"(
+  const inner = $('.skips dl').getBoundingClientRect().width;
+  tell($$('.skips dt, .skips dd').map(item => item.getBoundingClientRect().width / inner));)",
+                                  390);
+    ASSERT_TRUE(seen.told.is_array() && !seen.told.empty()) << seen.told;
+    for (const double share : seen.told) EXPECT_GT(share, 0.95);
+}
+
 TEST(PageTradeoff, AnotherErrorAndAnotherOrder) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
