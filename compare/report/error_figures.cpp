@@ -70,7 +70,7 @@ std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t most, int a
                 left[static_cast<std::size_t>(v) * static_cast<std::size_t>(errors.width) +
                      static_cast<std::size_t>(u)] = 0;
     };
-    if (most > 0 && first_x >= 0 && first_y >= 0) take(first_x, first_y);
+    if (most > 0 && first_x >= 0 && first_y >= 0 && errors.at(first_x, first_y) > 0) take(first_x, first_y);
     while (worst.size() < most) {
         const auto largest = std::ranges::max_element(left);
         if (largest == left.end() || !(*largest > 0)) break;

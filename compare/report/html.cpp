@@ -34,6 +34,16 @@ std::string titleOf(const Report& report, const ReportLayout& layout, const Comp
     return title;
 }
 
+// Of the channels that the tables list and the verdict does not count.
+std::string notCompared(const Report& report) {
+    std::ptrdiff_t alone = 0;
+    for (const Comparison& comparison : report.comparisons)
+        alone += std::ranges::count(comparison.channels, Verdict::forward_only, &ChannelDiff::verdict);
+    if (alone == 0) return {};
+    return fmt::format("; {} made by one path alone and not compared",
+                       alone == 1 ? "1 is" : fmt::format("{} are", alone));
+}
+
 std::string header(const Report& report, const ReportLayout& layout) {
     const char* verdict = report.passed() && report.errors.empty() ? "pass" : "fail";
     const std::size_t count = report.comparisons.size();
@@ -52,7 +62,7 @@ std::string header(const Report& report, const ReportLayout& layout) {
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"
         "<p>{3}</p><p class=\"soft\">{2}</p></header>\n",
-        verdict, markup(title), markup(drawn), markup(verdictLine(report)));
+        verdict, markup(title), markup(drawn), markup(verdictLine(report)) + notCompared(report));
 }
 
 std::string listBox(const char* style, const char* heading, const std::string& items) {
@@ -198,7 +208,7 @@ std::string overview(const Comparison& comparison, std::size_t index) {
         "optional\">mean</th><th "
         "class=\"n optional\">p99.9</th><th class=\"by\">judged by</th><th class=\"n\">measured</th><th "
         "class=\"n\">limit</th>"
-        "<th class=\"optional\">used of it</th><th>verdict</th></tr></thead>\n<tbody>");
+        "<th class=\"optional\">used</th><th>verdict</th></tr></thead>\n<tbody>");
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const ChannelStats& s = channel->stats;
         out += fmt::format("<tr><td><a href=\"#{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
@@ -221,9 +231,13 @@ std::string overview(const Comparison& comparison, std::size_t index) {
     return out +
            "</tbody></table><p class=\"soft small\">A channel is judged by its largest error (max), by the "
            "one that "
-           "999 of 1000 pixels stay below (p99.9), by a figure of a rule, or by the number of pixels whose "
+           "999 of 1000 pixels stay below (p99.9), by the same of its excess over what the reference leaves "
+           "open and the G-buffer's bits allow, by a figure of a rule, or by the number of pixels whose "
            "difference "
-           "the encoding of the G-buffer does not explain: none may.</p></div>\n";
+           "the encoding of the G-buffer does not explain: none may. Used is how much of the limit is "
+           "measured; "
+           "where unexplained pixels are counted, how much of what its bits allow the pixel uses that uses "
+           "most.</p></div>\n";
 }
 
 std::string footer(const Report& report, const ReportLayout& layout) {

@@ -144,9 +144,11 @@ private:
     bool hasTolerance() const { return std::isfinite(channel_.tolerance.max); }
 
     std::string because() const {
-        const std::string decides = channel_.rule.empty()
-                                        ? fmt::format("Tolerance {}", number(channel_.tolerance.max))
-                                        : fmt::format("Rule of {}", markup(channel_.rule));
+        const std::string decides =
+            !channel_.rule.empty() ? fmt::format("Rule of {}", markup(channel_.rule))
+            : channel_.encoding_use
+                ? fmt::format("Tolerance of each pixel's own, {} at most", number(channel_.tolerance.max))
+                : fmt::format("Tolerance {}", number(channel_.tolerance.max));
         if (channel_.tolerance.because.empty())
             return fmt::format("<p class=\"because\"><b>{}</b></p>\n", decides);
         return fmt::format("<p class=\"because\"><b>{}</b> <span class=\"soft\">because</span> {}</p>\n",
@@ -192,31 +194,35 @@ private:
         if (pictures_.difference.empty()) return "<p class=\"equal\">no difference at any pixel</p>\n";
         std::string stops;
         for (int i = 0; i <= 12; ++i) stops += ", " + hex(errorColor(i / 12.0));
-        const bool toTolerance = hasTolerance() && channel_.tolerance.max > 0 && !channel_.shown_error;
+        const bool toLimit = pictures_.error_limit && *pictures_.error_limit > 0;
+        const char* const limit = channel_.rule.empty() ? "tolerance" : "limit";
         std::string beyond;
-        const auto swatch = [&](const auto& color, const char* word) {
+        const auto swatch = [&](const auto& color, const std::string& word) {
             beyond += fmt::format("<span><i class=\"swatch\" style=\"background:{}\"></i>{}</span>",
                                   hex(color), word);
         };
-        if (toTolerance && channel_.stats.max > channel_.tolerance.max)
-            swatch(beyondColor, "beyond tolerance");
+        if (toLimit && !pictures_.worst.empty() && pictures_.worst.front().error > *pictures_.error_limit)
+            swatch(beyondColor, fmt::format("beyond {}, paler up to white at {:g} times it",
+                                            channel_.rule.empty() ? "tolerance" : "the limit", farBeyond));
         if (channel_.stats.infinite > 0) swatch(nonfiniteColor, "infinite");
         return fmt::format(
             "<figure><div class=\"stage\">{}</div><figcaption><div class=\"legend\"><span "
             "class=\"title\">{}</span><div class=\"ramp\" "
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{}</span><span>{} "
-            "({})</span></div></div><span>black: equal</span>{}</figcaption></figure>\n",
+            "({})</span></div></div><span>black: {}</span>{}</figcaption></figure>\n",
             panel(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstRing()),
             errorTitle(), stops, number(pictures_.error_top / 4), number(pictures_.error_top),
-            channel_.shown_error ? markup(channel_.shown_error_name)
-            : toTolerance        ? "tolerance"
-                                 : "max",
-            beyond);
+            toLimit                ? limit
+            : channel_.shown_error ? markup(channel_.shown_error_name)
+                                   : "max",
+            channel_.certain_p999 && channel_.shown_error ? "no excess" : "equal", beyond);
     }
 
     // What the colours of the error map mean, and in which unit.
     std::string errorTitle() const {
+        if (channel_.certain_p999 && channel_.shown_error)
+            return "excess: relative error less what the reference leaves open and the G-buffer's bits allow";
         if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
             return markup(channel_.shown_error_name);
         switch (channel_.shown_error ? Metric::relative : channel_.mode->metric) {
@@ -242,8 +248,11 @@ private:
         for (const auto& [name, value] :
              {std::pair{"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p99.9", s.p999}})
             row(name, number(value) + unit);
+        if (channel_.certain_p999) row("p99.9 of the excess", number(*channel_.certain_p999));
         if (channel_.flip) row("FLIP, mean", number(*channel_.flip));
-        if (hasTolerance()) row("tolerance", number(channel_.tolerance.max) + unit);
+        if (hasTolerance())
+            row(channel_.encoding_use ? "tolerance, at most" : "tolerance",
+                number(channel_.tolerance.max) + unit);
         row("pixels that differ", fmt::format("{}", s.different));
         if (channel_.unexplained_pixels)
             row("not explained by encoding", fmt::format("{}", *channel_.unexplained_pixels));
@@ -284,11 +293,14 @@ private:
                 "<figure>{}<figcaption>{}<br><span class=\"values\">{}</span></figcaption></figure>", glass,
                 caption, text);
         };
-        const std::string there = fmt::format("worst pixel {}, {}", x, y);
+        const bool isDrawn = !pictures_.worst.empty();  // else the errors that are drawn are 0 everywhere
+        const std::string there =
+            fmt::format("worst pixel {}, {}{}", x, y,
+                        isDrawn && channel_.shown_error ? ", by " + markup(channel_.shown_error_name) : "");
+        const double largest = isDrawn ? pictures_.worst.front().error : channel_.stats.max;
         return "<div class=\"loupes\">" + loupe(pictures_.baseline, markup(left_.name), values(left_)) +
                loupe(pictures_.test, markup(right_.name), values(right_)) +
-               loupe(pictures_.difference, there, fmt::format(" {}", number(channel_.stats.max))) +
-               "</div>\n";
+               loupe(pictures_.difference, there, fmt::format(" {}", number(largest))) + "</div>\n";
     }
 
     // A forward-only channel has one picture and no verdict.

@@ -63,8 +63,8 @@ std::string materials(const Report& report, const CloserPath& closer, const Clos
             m.id, markup(m.name), m.pixels, cell(number(m.mean[0]), m.mean[0] < m.mean[1]),
             cell(number(m.mean[1]), m.mean[1] < m.mean[0]));
     return out +
-           "</table></div><p class=\"soft\">Mean errors; the materials first where the paths stand furthest "
-           "apart from each other.</p>\n";
+           "</table></div><p class=\"soft\">Mean errors; the materials first that add most to how far the "
+           "paths stand apart: mean times pixels.</p>\n";
 }
 
 std::string picture(const Report& report, const ReportLayout& layout, const CloserPath& closer,

@@ -19,29 +19,30 @@ namespace {
 // The bars are stretched over the figure's width; words stand beside them, at percentages of it.
 class Histogram {
 public:
-    Histogram(const ChannelDiff& channel, const ErrorHistogram& errors)
-        : mode_(*channel.mode),
-          tolerance_(std::isfinite(channel.tolerance.max) ? channel.tolerance.max : 0),
-          fails_(channel.stats.max > channel.tolerance.max),
-          errors_(errors) {}
+    Histogram(const ChannelDiff& channel, const ChannelPictures& pictures)
+        : channel_(channel),
+          mode_(*channel.mode),
+          limit_(pictures.error_limit),
+          beyond_(limit_ && !pictures.worst.empty() && pictures.worst.front().error > *limit_),
+          errors_(pictures.histogram) {}
 
     std::string html() const {
         if (errors_.bins.empty()) return {};
         return fmt::format(
-            "<figure class=\"histogram\"><div class=\"plot\"><svg viewBox=\"0 0 {} 100\" "
+            "<figure class=\"histogram\"><div class=\"plot{}\"><svg viewBox=\"0 0 {} 100\" "
             "preserveAspectRatio=\"none\" role=\"img\" aria-label=\"histogram of error\">{}</svg>{}</div>"
             "<div class=\"axis\">{}</div><figcaption>{}</figcaption></figure>\n",
-            errors_.bins.size(), bars(), limit(), axis(), markup(words()));
+            limit_ ? "" : " unbounded", errors_.bins.size(), bars(), limit(), axis(), markup(words()));
     }
 
 private:
     std::string size(double error) const { return number(error) + unitOf(mode_); }
 
-    // If a channel fails, the bin that holds the tolerance is split at it: the part on the right is coloured
-    // as beyond.
+    // If an error is beyond the limit, the bin that holds the limit is split at it: the part on the right is
+    // coloured as beyond.
     std::string bars() const {
         const std::uint64_t most = std::ranges::max(errors_.bins);
-        const double line = tolerance_ > 0 ? binAt(tolerance_) : 0;
+        const double line = drawn() ? binAt(*limit_) : 0;
         std::string out;
         for (std::size_t i = 0; i < errors_.bins.size(); ++i) {
             const std::uint64_t count = errors_.bins[i];
@@ -49,7 +50,7 @@ private:
             const double height =
                 100 * std::log1p(static_cast<double>(count)) / std::log1p(static_cast<double>(most));
             const auto left = static_cast<double>(i),
-                       cut = fails_ ? std::clamp(line, left, left + 1) : left + 1;
+                       cut = beyond_ ? std::clamp(line, left, left + 1) : left + 1;
             const std::string title = fmt::format(
                 "{} to {}: {} pixels{}", size(errors_.edge(i)), size(errors_.edge(i + 1)), count,
                 i == 0 && errors_.smaller > 0 ? fmt::format(", {} of them below", errors_.smaller) : "");
@@ -73,11 +74,14 @@ private:
         return 100 * binAt(error) / static_cast<double>(errors_.bins.size());
     }
 
-    // A tolerance outside of the plot is marked at its edge; words() says its size.
+    // Whether a logarithmic axis can show the limit.
+    bool drawn() const { return limit_ && *limit_ > 0; }
+
+    // A limit outside of the plot is marked at its edge; words() says its size.
     std::string limit() const {
-        if (!(tolerance_ > 0)) return {};
+        if (!drawn()) return {};
         return fmt::format("<i class=\"limit\" style=\"left:{:.2f}%\"></i>",
-                           std::clamp(percent(tolerance_), 0.0, 100.0));
+                           std::clamp(percent(*limit_), 0.0, 100.0));
     }
 
     std::string axis() const {
@@ -93,22 +97,33 @@ private:
     std::string words() const {
         std::uint64_t all = errors_.equal + errors_.infinite;
         for (const std::uint64_t count : errors_.bins) all += count;
-        std::string out = fmt::format(
-            "pixels by {}, the height by the logarithm of their number; {} of {} are equal",
-            mode_.metric == Metric::angular ? "angle" : fmt::format("{} error", nameOf(mode_.metric)),
-            errors_.equal, all);
+        std::string out =
+            fmt::format("pixels by {}, the height by the logarithm of their number; {} of {} are equal",
+                        kind(), errors_.equal, all);
         if (errors_.infinite > 0) out += fmt::format("; {} are infinitely far apart", errors_.infinite);
-        if (tolerance_ > 0)
-            out += fmt::format("; line: tolerance {}{}", size(tolerance_),
-                               percent(tolerance_) > 100 ? ", beyond the right edge"
-                               : percent(tolerance_) < 0 ? ", beyond the left edge"
-                                                         : "");
+        if (drawn())
+            out +=
+                fmt::format("; line: {} {}{}", channel_.rule.empty() ? "tolerance" : "limit", size(*limit_),
+                            percent(*limit_) > 100 ? ", beyond the right edge"
+                            : percent(*limit_) < 0 ? ", beyond the left edge"
+                                                   : "");
+        if (!limit_ && channel_.criterion)
+            out += fmt::format("; the limit is on {}, not on these errors", channel_.criterion->figure);
         return out;
     }
 
+    // Of error, in a word or two.
+    std::string kind() const {
+        if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
+            return channel_.shown_error_name;
+        if (channel_.shown_error) return "relative error";
+        return mode_.metric == Metric::angular ? "angle" : fmt::format("{} error", nameOf(mode_.metric));
+    }
+
+    const ChannelDiff& channel_;
     const DebugMode& mode_;
-    double tolerance_;
-    bool fails_;
+    const std::optional<double> limit_;
+    const bool beyond_;
     const ErrorHistogram& errors_;
 };
 
@@ -123,9 +138,9 @@ std::string worstList(const ChannelDiff& channel, const ChannelPictures& picture
             fmt::format("<li>{}<span>{}{}</span></li>", place, number(pixel.error), unitOf(*channel.mode));
     }
     return fmt::format(
-        "<div class=\"worst\"><h4>Worst pixels</h4><ol>{}</ol><p class=\"soft\">at least {} pixels "
+        "<div class=\"worst\"><h4>Worst pixels{}</h4><ol>{}</ol><p class=\"soft\">at least {} pixels "
         "apart</p></div>\n",
-        items, worstApart);
+        channel.shown_error ? ", by " + markup(channel.shown_error_name) : "", items, worstApart);
 }
 
 }  // namespace
@@ -133,7 +148,7 @@ std::string worstList(const ChannelDiff& channel, const ChannelPictures& picture
 std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
     if (pictures.worst.empty()) return {};
     const std::string histogram =
-        channel.mode->metric == Metric::exact ? "" : Histogram(channel, pictures.histogram).html();
+        channel.mode->metric == Metric::exact ? "" : Histogram(channel, pictures).html();
     return "<div class=\"spread\">" + histogram + worstList(channel, pictures, id) + "</div>\n";
 }
 

@@ -43,9 +43,10 @@ std::string times(const Frame& a, const Frame& b) {
             out += fmt::format(
                 "<tr><td class=\"soft\">{}</td><td class=\"bars\">{}</td><td class=\"n\">{:.2f}</td></tr>",
                 markup(pass.name), bar(pass.ms, top, which), pass.ms);
-        out += fmt::format(
-            "<tr><td colspan=\"3\" class=\"soft wide\">median of {} runs, {:.2f} to {:.2f}</td></tr>",
-            time.runs, time.min, time.max);
+        out += fmt::format("<tr><td colspan=\"3\" class=\"soft wide\">{}</td></tr>",
+                           time.runs == 1 ? "one run"
+                                          : fmt::format("median of {} runs, {:.2f} to {:.2f}", time.runs,
+                                                        time.min, time.max));
         out += hostRow("recording its commands, host", time.record);
         if (time.object_lists > 0) out += hostRow("choosing each object's lights, host", time.object_lists);
     }

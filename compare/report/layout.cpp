@@ -10,17 +10,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 
 namespace diptych {
 
 namespace {
 
-// The error at the end of the colour map: the tolerance if there is one, so that the picture shows how much
-// of it is used and larger errors stand out; otherwise the largest finite error.
-double errorTop(const ChannelDiff& channel, const Image& baseline, const Image& test,
-                const Coverage& coverage) {
+// Whether `figure` of a rule is of single errors in the metric that is drawn: the largest, or a percentile.
+bool isDrawn(const ChannelDiff& channel, std::string_view figure) {
+    const auto isOneOf = [&](std::initializer_list<std::string_view> names) {
+        return std::ranges::count(names, figure) > 0;
+    };
+    if (channel.shown_error_name == "FLIP") return figure == "flip_max";
+    const Metric metric =
+        channel.shown_error_name == nameOf(Metric::relative) ? Metric::relative : channel.mode->metric;
+    if (metric == channel.mode->metric && isOneOf({"max", "p99", "p999"})) return true;
+    return (metric == Metric::relative && isOneOf({"relative_max", "relative_p99", "relative_p999"})) ||
+           (metric == Metric::angular && figure == "angle_max");
+}
+
+std::optional<double> errorLimit(const ChannelDiff& channel) {
+    if (channel.rule.empty())
+        return std::isfinite(channel.tolerance.max) ? std::optional(channel.tolerance.max) : std::nullopt;
+    if (!channel.criterion) return {};
+    if (channel.criterion->above && !channel.shown_error) return channel.criterion->above;
+    return isDrawn(channel, channel.criterion->figure) ? std::optional(channel.criterion->limit)
+                                                       : std::nullopt;
+}
+
+// The error at the end of the colour map: the limit if there is one, so that the picture shows how much of it
+// is used and larger errors stand out; otherwise the largest finite error.
+double errorTop(const ChannelDiff& channel, const std::optional<double>& limit, const Image& baseline,
+                const Image& test, const Coverage& coverage) {
+    if (limit && *limit > 0) return *limit;
     if (channel.shown_error) return channel.shown_error_top;
-    if (channel.tolerance.max > 0 && std::isfinite(channel.tolerance.max)) return channel.tolerance.max;
     if (std::isfinite(channel.stats.max)) return channel.stats.max;
     float largest = 0;
     for (const float e : errorImage(channel.mode->metric, channel.mode->kind, baseline, test, coverage).data)
@@ -50,8 +74,9 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
     if (channel.verdict != Verdict::forward_only && channel.stats.different > 0) {
         pictures.differ = true;
         pictures.difference = files + ".difference.png";
-        pictures.error_top = errorTop(channel, left.channels.at(mode.number), right.channels.at(mode.number),
-                                      comparison.coverage);
+        pictures.error_limit = errorLimit(channel);
+        pictures.error_top = errorTop(channel, pictures.error_limit, left.channels.at(mode.number),
+                                      right.channels.at(mode.number), comparison.coverage);
     }
     return pictures;
 }

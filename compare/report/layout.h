@@ -8,6 +8,7 @@
 #include "compare/verdict/comparison.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct ChannelPictures {
     bool kept = true;  // else --keep leaves the files out
     PictureScale scale;
     double error_top = 0;  // the error at the end of the error map
+    // The most that a single error of the map may be; empty where the verdict bounds no single error.
+    std::optional<double> error_limit;
     // Of the difference; filled in by the writer of its picture.
     ErrorHistogram histogram;
     std::vector<WorstPixel> worst;

@@ -223,7 +223,8 @@ std::string folderDiffTable(const FolderDiff& diff) {
     std::string why;
     if (!failed.empty()) why = fmt::format("{} of {} pictures: {}", failed.size(), all, listed(failed, 8));
     if (alone > 0)
-        why += fmt::format("{}{} pictures are in one folder alone", why.empty() ? "" : "; ", alone);
+        why += fmt::format("{}{} in one folder alone", why.empty() ? "" : "; ",
+                           alone == 1 ? "1 picture is" : fmt::format("{} pictures are", alone));
     return out + fmt::format("{}FAIL: {}\n", line, why);
 }
 

@@ -96,12 +96,12 @@ private:
         Image errors;
         if (pictures.differ) {
             errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);
+            const Image& shown = channel.shown_error ? *channel.shown_error : errors;
             if (!pictures.difference.empty())
-                write(pictures.difference,
-                      errorPicture(channel.shown_error ? *channel.shown_error : errors, pictures.error_top));
-            pictures.histogram = errorHistogram(errors, comparison.coverage);
+                write(pictures.difference, errorPicture(shown, pictures.error_top));
+            pictures.histogram = errorHistogram(shown, comparison.coverage);
             pictures.worst =
-                worstPixels(errors, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
+                worstPixels(shown, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
         }
         writeValues(pictures.values, left ? left : right, left ? right : nullptr,
                     errors.empty() ? nullptr : &errors);

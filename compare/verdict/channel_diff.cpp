@@ -40,7 +40,9 @@ Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const M
                 .differing = true};
     }
     const bool most = channel.tolerance.most_pixels;
-    return {.figure = most ? "p99.9" : "max",
+    return {.figure = !most                  ? "max"
+                      : channel.certain_p999 ? "p99.9 of the excess"
+                                             : "p99.9",
             .measured = most ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max,
             .limit = channel.tolerance.max,
             .pixels = pixelsBeyond(channel, pair, measurement)};
@@ -73,8 +75,8 @@ std::string faultOf(const ChannelDiff& channel) {
     if (c.measured <= c.limit) return {};
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     return channel.tolerance.most_pixels
-               ? fmt::format("{} of the pixels exceed {:.4g} and 0.1 % may: p99.9 is {:.4g}", share, c.limit,
-                             c.measured)
+               ? fmt::format("{} of the pixels exceed {:.4g} and 0.1 % may: {} is {:.4g}", share, c.limit,
+                             c.figure, c.measured)
                : fmt::format("max {:.4g} exceeds {:.4g} at {} of the pixels", c.measured, c.limit, share);
 }
 
@@ -94,6 +96,26 @@ void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
         if (count > 0)
             who += fmt::format("{}{} pixel(s) of {}", who.empty() ? "" : " and ", count, frame->name);
     channel.reason = fmt::format("NaN or infinity at {}; {}", who, channel.reason);
+}
+
+// Shows the errors that are judged where those are not the metric's own, and their largest: what exceeds what
+// the reference leaves open and the bits allow.
+void showExcess(ChannelDiff& channel, const FramePair& pair) {
+    const std::optional<std::vector<double>> excess = certainErrors(*channel.mode, pair);
+    if (!excess) return;
+    const Image& like = pair.baseline.channels.at(channel.mode->number);
+    auto shown = std::make_shared<Image>(like.width, like.height, 1);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < shown->pixels(); ++i)
+        if (pair.coverage.covered[i]) shown->data[i] = static_cast<float>((*excess)[next++]);
+    if (const auto most = std::ranges::max_element(shown->data); most != shown->data.end() && *most > 0) {
+        const auto at = static_cast<int>(most - shown->data.begin());
+        channel.stats.worst_x = at % like.width;
+        channel.stats.worst_y = at / like.width;
+    }
+    channel.shown_error = std::move(shown);
+    channel.shown_error_name = "excess";
+    channel.shown_error_top = channel.tolerance.max;
 }
 
 // The sum of what two runs of each path differ by.
@@ -122,6 +144,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measu
     channel.footprints = footprints(mode, pair);
     if (channel.footprints) channel.tolerance = footprintTolerance(*channel.footprints);
     channel.certain_p999 = certainP999(mode, pair);
+    if (!channel.footprints) showExcess(channel, pair);
     channel.criterion = criterionOf(channel, pair, measurement);
     setShare(*channel.criterion, pair.coverage);
     channel.reason = faultOf(channel);

@@ -10,7 +10,7 @@ namespace diptych {
 
 struct Criterion {
     // A figure of rules.h, "p99.9", "pixels unexplained", "times the bits", "times the bounds" (of smooth
-    // pixels), "flip of detail", "pixels NaN or infinite".
+    // pixels), "flip of detail", "pixels NaN or infinite", "p99.9 of the excess" (certainErrors()).
     std::string figure;
     double measured = 0;
     double limit = 0;               // the most that passes, or with `least` the least

@@ -5,9 +5,11 @@
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 namespace diptych {
@@ -116,6 +118,61 @@ TEST(ReportErrors, ThePageTellsThem) {
     EXPECT_NE(id.find("data-pixel=\"0,0\""), std::string::npos);
     EXPECT_EQ(id.find("class=\"histogram\""), std::string::npos) << "an exact channel's errors are all 1";
     EXPECT_EQ(lit.find("data-pixel"), std::string::npos) << "nothing differs";
+}
+
+// The card of roughness, a pixel of which is 0.25 off, judged by a rule; `shown`: its FLIP.
+std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr) {
+    std::vector<Frame> frames = bothFrames();
+    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    Report report = reportOf(std::move(frames));
+    for (ChannelDiff& channel : report.comparisons[0].channels) {
+        if (channel.mode->name != "roughness") continue;
+        channel.rule = "rules.json, rule 1";
+        channel.tolerance.max = HUGE_VAL;
+        channel.criterion = criterion;
+        if (!shown) continue;
+        channel.shown_error = std::make_shared<Image>(*shown);
+        channel.shown_error_name = "FLIP";
+    }
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    return cardOf(contentsOf(out / "index.html"), "roughness");
+}
+
+TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
+    const std::string largest = judgedCard({.figure = "max", .measured = 0.25, .limit = 0.002});
+    EXPECT_NE(largest.find("line: limit 0.002"), std::string::npos) << largest;
+    EXPECT_NE(largest.find("<rect class=\"beyond\""), std::string::npos);
+    EXPECT_NE(largest.find("</i>beyond the limit"), std::string::npos) << "in the difference's legend";
+    const std::string within = judgedCard({.figure = "p999", .measured = 0.25, .limit = 0.5});
+    EXPECT_NE(within.find("line: limit 0.5"), std::string::npos) << within;
+    EXPECT_EQ(within.find("<rect class=\"beyond\""), std::string::npos);
+    for (const char* figure : {"mean", "flip", "relative_max", "angle_max"}) {
+        const std::string other = judgedCard({.figure = figure, .measured = 0.25, .limit = 0.002});
+        EXPECT_NE(other.find("class=\"plot unbounded\""), std::string::npos)
+            << "no colour says that it passes";
+        EXPECT_NE(other.find(fmt::format("the limit is on {}, not on these errors", figure)),
+                  std::string::npos)
+            << other;
+        EXPECT_EQ(other.find("line: "), std::string::npos);
+    }
+}
+
+// One order: that of the errors which are drawn, and each pixel beside its own.
+TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
+    Image flip(4, 3, 1, 0.0f);
+    flip.at(1, 2) = 0.125f;
+    const std::string card = judgedCard({.figure = "flip", .measured = 0.25, .limit = 0.002}, &flip);
+    EXPECT_NE(card.find("<h4>Worst pixels, by FLIP</h4>"), std::string::npos) << card;
+    EXPECT_NE(card.find("data-pixel=\"1,2\">1, 2</a><span>0.125</span>"), std::string::npos) << card;
+    EXPECT_NE(card.find("worst pixel 1, 2, by FLIP<br><span class=\"values\"> 0.125</span>"),
+              std::string::npos)
+        << card;
+    EXPECT_NE(card.find("pixels by FLIP, the height"), std::string::npos);
+    EXPECT_EQ(
+        judgedCard({.figure = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
+        std::string::npos)
+        << "nothing of it is worst";
 }
 
 TEST(ReportErrors, OnlyAFailingChannelHasItsCommand) {

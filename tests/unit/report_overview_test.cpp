@@ -4,6 +4,7 @@
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace diptych {
@@ -34,8 +35,7 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
         std::string::npos)
         << lit;
     EXPECT_EQ(lit.find("class=\"beyond\""), std::string::npos);
-    EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance</p>"), std::string::npos)
-        << "the verdict's line";
+    EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance; "), std::string::npos) << "the verdict's line";
 }
 
 // Notes stand below the index, each once with its scenes; scenes that could not be drawn are failures.
@@ -59,6 +59,19 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     EXPECT_NE(page.find("<p>ERROR: 1 scene could not be drawn: a/bad.glb; pass"), std::string::npos);
 }
 
+// The tables have more rows than the verdict counts.
+TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
+    const Report report = reportOf(bothFrames());
+    const auto alone =
+        std::ranges::count(report.comparisons[0].channels, Verdict::forward_only, &ChannelDiff::verdict);
+    ASSERT_GT(alone, 1);
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    EXPECT_NE(contentsOf(out / "index.html")
+                  .find(fmt::format(" are within tolerance; {} are made by one path alone", alone)),
+              std::string::npos);
+}
+
 // What fails without a comparison fails the whole, and page, JSON and JUnit name it; with it gone all pass.
 TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
     Report report = reportOf(bothFrames());
@@ -71,7 +84,7 @@ TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
         const std::string page = contentsOf(out / "index.html"), json = contentsOf(out / "report.json"),
                           junit = contentsOf(out / "junit.xml");
         EXPECT_EQ(countOf(page, "<h1><span class=\"verdict fail\">fail</span>"), lacking);
-        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A alone</p>"), lacking);
+        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A alone; "), lacking);
         EXPECT_EQ(countOf(page, "<li>only_a.exr: is in A alone</li>"), lacking);
         EXPECT_EQ(countOf(json, "\n  \"verdict\": \"fail\""), lacking);
         EXPECT_EQ(countOf(json, "\"scene\": \"only_a.exr\""), lacking);

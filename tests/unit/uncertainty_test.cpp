@@ -142,6 +142,28 @@ TEST(Uncertainty, OfAnySizeExcusesNothingThatIsNoNumber) {
         }
 }
 
+// The picture, the worst pixel and the figure's name are of what is judged: the left pixel's error is the
+// larger one, and the reference is too unsure of it.
+TEST(Uncertainty, WhatIsJudgedIsWhatIsShown) {
+    const ChannelDiff fails = judged(sampled(), frameOf(Path::forward_plus, 1.5f, 2.5f));
+    EXPECT_EQ(fails.verdict, Verdict::fail);
+    ASSERT_TRUE(fails.criterion && fails.shown_error);
+    EXPECT_EQ(fails.criterion->figure, "p99.9 of the excess") << "the column p99.9 is of all of the error";
+    EXPECT_NE(fails.reason.find("p99.9 of the excess is"), std::string::npos) << fails.reason;
+    EXPECT_EQ(fails.shown_error->data[0], 0);
+    EXPECT_NEAR(fails.shown_error->data[1], 0.25 - 2.29 * 0.01 / 2, 1e-6);
+    EXPECT_EQ(fails.shown_error_top, fails.tolerance.max);
+    EXPECT_EQ(fails.stats.worst_x, 1);
+    EXPECT_EQ(fails.stats.max, 0.5) << "the statistics stay those of the error";
+    const ChannelDiff passes = judged(sampled(), frameOf(Path::forward_plus, 1.5f, 2));
+    EXPECT_EQ(passes.verdict, Verdict::pass);
+    ASSERT_TRUE(passes.shown_error);
+    EXPECT_EQ(passes.shown_error->data, (PixelData{0, 0})) << "nothing of a channel that passes is beyond";
+    Frame bare = sampled();
+    bare.uncertainty = {};
+    EXPECT_FALSE(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).shown_error);
+}
+
 // Where nothing is relative to anything, any light is too much.
 TEST(Uncertainty, OfABlackReferenceExcusesNoLight) {
     Frame traced = frameOf(Path::reference, 0, 0);
