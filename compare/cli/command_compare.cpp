@@ -65,14 +65,27 @@ std::vector<std::string> materialNames(const Scene& scene) {
     return names;
 }
 
-RenderOptions bothOptions(const Options& options) {
+// `traced`: some comparison is with a reference in mode scene.
+RenderOptions bothOptions(const Options& options, bool traced) {
     RenderOptions render = renderOptions(options);
     render.through_gbuffer = true;
     render.twice = true;
-    // Which tells the background, and that is outside every mean.
-    constexpr auto background = static_cast<int>(gpu::DEBUG_material_id);
-    if (std::ranges::count(render.channels, background) == 0) render.channels.push_back(background);
+    // Channels that nobody asked for: which tells the background, and that is outside every mean; and by
+    // which light is judged.
+    std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};
+    if (traced) helpers = footprintChannels();
+    for (const int mode : helpers)
+        if (std::ranges::count(render.channels, mode) == 0) render.channels.push_back(mode);
     return render;
+}
+
+// Whether a comparison is with a reference in mode scene, drawn now or read from a file.
+bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline) {
+    const auto traced = [](const Settings& s) {
+        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+    };
+    return std::ranges::any_of(settings, traced) ||
+           (baseline && isReferenceFrame(*baseline) && traced(baseline->settings));
 }
 
 // Where in the command's time drawing ends, and comparing. In frames drawn, to a Frame: comparing takes one,
@@ -143,9 +156,8 @@ std::vector<std::string> soundScenes(const Options& options, std::vector<SceneEr
     return sound;
 }
 
-Drawn draw(const Options& options, const std::vector<Settings>& settings, Device& device,
-           KeptReferences& kept, Progress& progress) {
-    RenderOptions render = bothOptions(options);
+Drawn draw(const Options& options, const std::vector<Settings>& settings, RenderOptions render,
+           Device& device, KeptReferences& kept, Progress& progress) {
     render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
         return kept.open(key, floats);
     };
@@ -194,9 +206,8 @@ const Frame& renewing(const Options& options, const Frame* old, const std::vecto
     throw std::runtime_error(fmt::format("--path {}: compare draws deferred and forward_plus", nameOf(path)));
 }
 
-Report reportOf(const Options& options, Drawn& drawn, std::optional<Frame> baseline,
+Report reportOf(const Options& options, CompareOptions compare, Drawn& drawn, std::optional<Frame> baseline,
                 const ReportDevice& device, const Stage& progress) {
-    CompareOptions compare = compareOptions(options);
     compare.progress = progress;
     compare.texels = drawn.texels;
     if (againstReference(options))
@@ -221,6 +232,7 @@ int runCompare(const Options& options) {
     if (options.heat) note(options, "--heat is not used: the report shows every channel, light_count too");
     if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
     const PictureChoice picture = pictureChoice(options);
+    const CompareOptions compare = compareOptions(options);
     std::optional<Frame> baseline;
     if (!options.baseline_file.empty()) {
         checkOnePicture(options, settings);
@@ -232,15 +244,17 @@ int runCompare(const Options& options) {
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
     KeptReferences kept(folder, true);
-    Drawn drawn = draw(options, settings, device, kept, progress);
+    const RenderOptions render = bothOptions(options, isTraced(settings, baseline));
+    Drawn drawn = draw(options, settings, render, device, kept, progress);
     const ReportDevice here = reportDevice(device);
     std::string updated;
     if (options.update_baseline)
         updated = updateBaseline(options.baseline_file,
                                  renewing(options, baseline ? &*baseline : nullptr, drawn.frames), here);
     const Stage stage(progress, folder.string());
-    const auto [drawing, comparing] = sharesOf(bothOptions(options));
-    Report report = reportOf(options, drawn, std::move(baseline), here, stage.part(drawing, comparing));
+    const auto [drawing, comparing] = sharesOf(render);
+    Report report =
+        reportOf(options, compare, drawn, std::move(baseline), here, stage.part(drawing, comparing));
     report.errors = std::move(drawn.errors);
     for (Comparison& comparison : report.comparisons)
         comparison.command = withOption(comparison.command, "-o", againFolder(folder));

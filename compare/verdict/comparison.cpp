@@ -100,6 +100,20 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
                                        : std::string();
 }
 
+// The channels of which a reference in mode scene judges next to no pixel by a bound of its own. Empty where
+// there are none: a verdict that says what it seems to.
+std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
+    std::vector<std::string> words;
+    for (const ChannelDiff& channel : channels)
+        if (const auto& f = channel.footprints; f && f->closeShare() < leastCloseShare)
+            words.push_back(fmt::format(
+                "{} ({} of {} pixels{})", channel.mode->name, f->smooth, f->smooth + f->detailed + f->edges,
+                f->detailed > 0 ? fmt::format(", the others by a mean FLIP of {}", detailFlip) : ""));
+    return words.empty()
+               ? std::string()
+               : fmt::format("hardly a pixel is held to a bound of its own in {}", fmt::join(words, ", "));
+}
+
 }  // namespace
 
 bool Comparison::passed() const {
@@ -215,6 +229,12 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             comparison.failures.push_back(emptiness + "; --allow-empty grants that");
         else
             comparison.emptiness = emptiness;
+    }
+    if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) {
+        if (options.strict)
+            comparison.failures.push_back(loose + ", and --strict asks for more");
+        else
+            comparison.emptiness += (comparison.emptiness.empty() ? "" : "; ") + loose;
     }
     return comparison;
 }

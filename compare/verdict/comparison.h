@@ -26,7 +26,8 @@ struct Comparison {
     std::vector<std::string>
         failures;  // in addition to the channels', e.g. a capture that is not the timed frame
     std::vector<std::string> notes;  // what a reader must know although it is no failure
-    std::string emptiness;           // why the verdict says little, where the pictures show hardly anything
+    // Why the verdict says little: the pictures show hardly anything, or hardly a pixel was judged closely.
+    std::string emptiness;
     std::vector<std::string>
         command;  // the command line that repeats this comparison; --channels may be added
     std::vector<FeatureChecks> visual_checks;  // places that a person must look at

@@ -44,6 +44,11 @@ bool isGeometry(const DebugMode& mode) {
     }
 }
 
+// Channels of what a surface is made of, whose light may differ where they do.
+bool isSurface(const DebugMode& mode) {
+    return mode.maker == MadeBy::both && !isLit(mode.number) && !isGeometry(mode);
+}
+
 const Image* find(const Frame& frame, gpu::uint mode) {
     const auto found = frame.channels.find(static_cast<int>(mode));
     return found == frame.channels.end() ? nullptr : &found->second;
@@ -151,12 +156,14 @@ private:
         return inside;
     }
 
-    // Whether both pictures show one surface, so that what its light differs by is not its textures'.
+    // Whether both pictures show one surface, so that what its light differs by is not its textures'. Only a
+    // file leaves channels out: what neither picture has tells nothing, what one of them lacks may differ.
     bool isSameSurface(std::size_t i) const {
         for (const DebugMode& mode : debugModes()) {
-            if (mode.maker != MadeBy::both || isLit(mode.number) || isGeometry(mode)) continue;
+            if (!isSurface(mode)) continue;
             const Image *a = find(pair_.baseline, static_cast<gpu::uint>(mode.number)),
                         *b = find(pair_.test, static_cast<gpu::uint>(mode.number));
+            if (!a && !b) continue;
             if (!a || !b) return false;
             const double size =
                 mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
@@ -323,6 +330,18 @@ Tolerance footprintTolerance(const Footprints& footprints) {
                                detailFlip, footprints.flip);
     if (footprints.edges > 0) because += fmt::format("; {} at edges to nothing", footprints.edges);
     return {footprints.most, because, true};
+}
+
+double Footprints::closeShare() const {
+    const std::uint64_t all = smooth + detailed + edges;
+    return all > 0 ? static_cast<double>(smooth) / static_cast<double>(all) : 1;
+}
+
+std::vector<int> footprintChannels() {
+    std::vector<int> channels{static_cast<int>(gpu::DEBUG_material_id)};
+    for (const DebugMode& mode : debugModes())
+        if (isSurface(mode) && mode.number != channels.front()) channels.push_back(mode.number);
+    return channels;
 }
 
 std::optional<Footprints> footprints(const DebugMode& mode, const FramePair& pair) {

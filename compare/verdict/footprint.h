@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace diptych {
 
@@ -28,7 +29,16 @@ struct Footprints {
     std::uint64_t detailed = 0;  // pixels judged by FLIP
     double flip = 0;             // its mean over them
     std::uint64_t edges = 0;     // pixels that neither judges: of channels that are no picture
+
+    double closeShare() const;  // of all pixels, those held to a bound of their own; 1 where there are none
 };
+
+// A verdict of fewer pixels held to bounds of their own is one of FLIP alone, which 0.3 of light passes.
+inline constexpr double leastCloseShare = 0.01;
+
+// The channels by which footprints() knows one surface in two pictures: both need all of them, whichever are
+// compared.
+std::vector<int> footprintChannels();
 
 // What they are held to, for people: the largest bound, and why.
 Tolerance footprintTolerance(const Footprints& footprints);

@@ -363,6 +363,27 @@ TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     EXPECT_EQ(diff.out.find("uncertainty"), std::string::npos) << diff.out;
 }
 
+// Light is judged as closely when few channels are compared, as a report's own command for one channel does:
+// this ambient light is within what FLIP alone passes.
+TEST(ReferenceTool, FewerChannelsAreNotJudgedMoreLoosely) {
+    const Folder folder;
+    const std::string scene = "builtin:spheres --size 64x36 --runs 0 ";
+    ASSERT_EQ(runTool(folder, "render " + scene +
+                                  "--path reference --reference-mode scene --ambient 0.5,0.5,0.5 -q -o r.exr")
+                  .code,
+              0);
+    const Ran ran =
+        runTool(folder, "compare " + scene + "--baseline r.exr --channels lit,lit_diffuse -q -o report");
+    EXPECT_EQ(ran.code, 1) << ran.err;
+    const Json report = jsonIn(folder / "report/report.json");
+    for (const std::size_t pair : {0u, 1u}) {
+        const Json& channels = report["comparisons"][pair]["channels"];
+        ASSERT_EQ(channels.size(), 2u) << "what light is judged by is not compared";
+        EXPECT_EQ(channels[0]["verdict"], "fail");
+        EXPECT_GT(channels[0]["footprints"]["smooth"].get<int>(), 0);
+    }
+}
+
 // Mode scene needs no Vulkan at all.
 TEST(ReferenceTool, ModeSceneIsDrawnWithoutADevice) {
     const Folder folder;

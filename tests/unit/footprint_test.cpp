@@ -228,6 +228,43 @@ TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     EXPECT_EQ(judged(frames, gpu::DEBUG_metallic).verdict, Verdict::fail);
 }
 
+// Light is judged alike whichever channels are compared: the others are helpers, and what neither picture has
+// does not count. What one lacks may differ, and then a verdict of FLIP alone says so, or fails.
+TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
+    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames) frame.requested = {lit};
+    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v *= 1.01f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail);
+    for (Frame& frame : frames) frame.channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail) << "neither has albedo";
+    frames[0].channels.erase(static_cast<int>(gpu::DEBUG_metallic));
+    const ChannelDiff loose = judged(frames, gpu::DEBUG_lit);
+    EXPECT_EQ(loose.footprints->closeShare(), 0);
+    EXPECT_EQ(loose.verdict, Verdict::pass);
+    Report report;
+    report.device = {"a CPU", "1.0", "cpu"};
+    report.frames = std::move(frames);
+    CompareOptions options;
+    const std::string line =
+        "hardly a pixel is held to a bound of its own in lit (0 of 1024 pixels, the others by a mean FLIP of "
+        "0.3)";
+    EXPECT_EQ(compareFrames(report, 0, 1, {}, options).emptiness, line);
+    options.strict = true;
+    const Comparison strict = compareFrames(report, 0, 1, {}, options);
+    EXPECT_EQ(strict.failures, std::vector<std::string>{line + ", and --strict asks for more"});
+    EXPECT_FALSE(strict.passed());
+}
+
+TEST(Footprint, TheChannelsOfASurfaceAreThoseThatLightNeeds) {
+    const std::vector<int> channels = footprintChannels();
+    for (const gpu::uint mode : {gpu::DEBUG_albedo, gpu::DEBUG_metallic, gpu::DEBUG_roughness,
+                                 gpu::DEBUG_normals, gpu::DEBUG_emission, gpu::DEBUG_material_id})
+        EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 1) << mode;
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_depth, gpu::DEBUG_light_count})
+        EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 0) << mode;
+}
+
 // What the device makes of texels is granted as it is measured: at this code and no more.
 TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
     CompareOptions options;
