@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace diptych {
@@ -91,19 +92,30 @@ std::string withoutNumbers(const std::string& text) {
 
 std::vector<GroupedNote> groupedNotes(const Report& report) {
     std::vector<GroupedNote> grouped;
-    std::vector<std::string> keys;
+    std::vector<std::map<std::string, std::string>> texts;  // of each group, by scene
     for (const Comparison& comparison : report.comparisons)
         for (const std::string& note : notesOf(report, comparison)) {
-            const std::string key = withoutNumbers(note);
-            const auto at = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
-            if (at == keys.size()) {
-                keys.push_back(key);
+            const std::string& scene = report.baseline(comparison).scene;
+            // Two texts of one scene are two notes, whatever they differ in.
+            const auto groupOf = [&](const auto& isAlike) {
+                std::size_t i = 0;
+                while (i < grouped.size() && !(isAlike(grouped[i].text) &&
+                                               (!texts[i].contains(scene) || texts[i].at(scene) == note)))
+                    ++i;
+                return i;
+            };
+            std::size_t at = groupOf([&](const std::string& text) { return text == note; });
+            if (at == grouped.size())
+                at = groupOf([key = withoutNumbers(note)](const std::string& text) {
+                    return withoutNumbers(text) == key;
+                });
+            if (at == grouped.size()) {
                 grouped.push_back({note, {}});
+                texts.emplace_back();
             }
             GroupedNote& group = grouped[at];
             group.varies = group.varies || group.text != note;
-            const std::string& scene = report.baseline(comparison).scene;
-            if (std::ranges::count(group.scenes, scene) == 0) group.scenes.push_back(scene);
+            if (texts[at].emplace(scene, note).second) group.scenes.push_back(scene);
         }
     return grouped;
 }

@@ -40,7 +40,7 @@ struct GroupedNote {
     std::vector<std::string> scenes;
     bool varies = false;  // other scenes have other numbers in it
 };
-// The notes of all comparisons, each once, whatever numbers are in it.
+// The notes of all comparisons, each once; of several scenes, whatever numbers are in it.
 std::vector<GroupedNote> groupedNotes(const Report& report);
 
 // "bad.glb: is cut short", whether or not the message begins with the name.

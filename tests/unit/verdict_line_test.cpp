@@ -188,6 +188,22 @@ TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
     EXPECT_NE(table.find("\nnote, c.glb: another\n"), table.npos) << table;
 }
 
+// Within one scene each stands by itself: a fault of three materials is three notes, and another scene's
+// joins the one that it equals.
+TEST(VerdictLine, NotesOfOneSceneThatDifferInNumbersAreSeveral) {
+    std::vector<Frame> frames;
+    for (const char* scene : {"a.glb", "b.glb"})
+        for (Frame& frame : bothFrames(scene)) frames.push_back(std::move(frame));
+    frames[0].notes = {"material 1: roughness 2", "material 2: roughness 3", "material 3: roughness 4"};
+    frames[2].notes = {"material 2: roughness 3", "material 4: roughness 5"};
+    const std::string table = reportTable(reportOf(frames));
+    EXPECT_NE(table.find("\nnote, 2 scenes: material 2: roughness 3\n"), table.npos) << table;
+    EXPECT_NE(table.find("\nnote, a.glb: material 3: roughness 4\n"), table.npos) << table;
+    EXPECT_NE(table.find("\nnote, 2 scenes, with other numbers each: material 1: roughness 2\n"), table.npos)
+        << table;
+    EXPECT_EQ(countOf(table, "\nnote"), 3u) << table;
+}
+
 TEST(DidYouMean, FindsTheNearestWordOrNone) {
     const std::vector<std::string> words{"gallery", "spheres", "furnace", "lit"};
     EXPECT_EQ(didYouMean("galery", words), "; did you mean gallery?");
