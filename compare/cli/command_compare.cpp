@@ -34,7 +34,11 @@ CompareOptions compareOptions(const Options& options) {
     compare.allow_empty = options.allow_empty;
     compare.required = options.channels;
     compare.words = wordsOfWhatCounts(options);
-    if (!options.tolerances.empty()) compare.rules = readRules(options.tolerances);
+    if (options.tolerances.empty()) return compare;
+    compare.rules = readRules(options.tolerances);
+    std::vector<std::string> known;
+    for (const DebugMode& mode : debugModes()) known.emplace_back(mode.name);
+    checkChannels(compare.rules, known);
     return compare;
 }
 

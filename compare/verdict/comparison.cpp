@@ -156,6 +156,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                          options.texels ? &*options.texels : nullptr};
 
     bool shared = false;
+    std::vector<std::string> names;  // of the channels that one side has at least
     ChannelDemands demands{options.rules, {}, options.strict};
     for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
     for (const Frame* frame : {&left, &right})
@@ -167,6 +168,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
                    onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
         const bool paths = mode.maker == MadeBy::paths_only;
+        if (onLeft || onRight) names.emplace_back(mode.name);
         if (paths && onLeft && onRight && left.settings.assign != right.settings.assign) {
             comparison.notes.push_back(
                 fmt::format("{} was not compared: --assign {} and {} evaluate other lights", mode.name,
@@ -215,9 +217,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             fmt::format("mode scene: tight is the share of pixels whose surroundings are smooth in both "
                         "pictures, which are held to a bound each; the others are held to a mean FLIP of {}",
                         detailFlip));
-    std::vector<std::string> names;
-    for (const ChannelDiff& channel : comparison.channels) names.emplace_back(channel.mode->name);
-    for (const std::string& line : idleRules(options.rules, names)) comparison.notes.push_back(line);
+    for (const Rule* rule : idleRules(options.rules, names))
+        comparison.notes.push_back(idleText(*rule, names));
     if (!comparison.coverage.known)
         comparison.notes.push_back(
             "neither material_id nor depth is there: background pixels count in every mean");

@@ -106,7 +106,7 @@ void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
     channel.worst_y = at / errors.width;
 }
 
-// Notes on what no figure shows: a NaN in both pictures, a rule that names no channel.
+// Notes on what no figure shows: a NaN in both pictures, a figure that is not defined.
 void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
     std::vector<std::string> without;
     for (const auto& channel : diff.channels) {
@@ -121,9 +121,13 @@ void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
         diff.notes.push_back(
             fmt::format("{} is not defined for {}: {}", options.metric, fmt::join(without, ", "),
                         options.metric_given ? "not judged" : "judged by the largest error"));
-    std::vector<std::string> names;
-    for (const auto& channel : diff.channels) names.push_back(channel->pair.name);
-    for (const std::string& line : idleRules(options.rules, names)) diff.notes.push_back(line);
+}
+
+// `names`: of both files' channels. A rule that names none of them by its whole name judges nothing, which
+// whoever wrote it does not expect; a pattern may well match nothing.
+void judgeIdleRules(PictureDiff& diff, std::span<const Rule> rules, const std::vector<std::string>& names) {
+    for (const Rule* rule : idleRules(rules, names))
+        (isPattern(*rule) ? diff.notes : diff.failures).push_back(idleText(*rule, names));
 }
 
 }  // namespace
@@ -198,6 +202,9 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
         everyPixel(static_cast<std::size_t>(diff.width) * static_cast<std::size_t>(diff.height)));
     applySelection(*diff.coverage, diff.width, diff.height, options.selection, objectsOf(left, right),
                    diff.notes);
+    std::vector<std::string> names;
+    for (const auto* side : {&left, &right})
+        for (const PictureChannel& channel : *side) names.push_back(channel.name);
     MatchedChannels matched = matchChannels(std::move(left), std::move(right), options.channels);
     diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
     for (const OneSidedChannel& channel : matched.one_sided)
@@ -234,11 +241,18 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
         throw std::runtime_error(
             fmt::format("--metric {}: not defined for any channel of these pictures", options.metric));
     addNotes(diff, options);
+    judgeIdleRules(diff, options.rules, names);
     const bool black = std::ranges::all_of(diff.channels, [&](const auto& channel) {
         return isBlack(channel->pair.reference, *diff.coverage) &&
                isBlack(channel->pair.test, *diff.coverage);
     });
-    if (black && !options.allow_empty) diff.emptiness = "both pictures are black: every value compared is 0";
+    constexpr const char* blackness = "both pictures are black: every value compared is 0";
+    if (black && !options.allow_empty) {
+        if (options.strict)
+            diff.failures.push_back(fmt::format("{}; --allow-empty grants that", blackness));
+        else
+            diff.emptiness = blackness;
+    }
     return diff;
 }
 

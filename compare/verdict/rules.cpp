@@ -2,6 +2,7 @@
 #include "compare/verdict/rules.h"
 
 #include "shared/image/file_bytes.h"
+#include "shared/text/did_you_mean.h"
 #include "shared/text/fail.h"
 #include "shared/text/json.h"
 #include "shared/text/named.h"
@@ -259,12 +260,28 @@ bool namesChannels(const Rule& rule) {
     return rule.channel.find_first_not_of('*') != std::string::npos;
 }
 
-std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels) {
-    std::vector<std::string> lines;
+bool isPattern(const Rule& rule) {
+    return rule.channel.find_first_of("*?") != std::string::npos;
+}
+
+std::vector<const Rule*> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels) {
+    std::vector<const Rule*> idle;
     for (const Rule& rule : rules)
         if (std::ranges::none_of(channels, [&](const auto& name) { return matches(rule.channel, name); }))
-            lines.push_back(fmt::format("{}: no channel here is called {}", rule.origin, rule.channel));
-    return lines;
+            idle.push_back(&rule);
+    return idle;
+}
+
+std::string idleText(const Rule& rule, const std::vector<std::string>& channels) {
+    return fmt::format("{}: no channel here is called {}{}", rule.origin, rule.channel,
+                       isPattern(rule) ? "" : didYouMean(rule.channel, channels));
+}
+
+void checkChannels(std::span<const Rule> rules, const std::vector<std::string>& known) {
+    for (const Rule* rule : idleRules(rules, known))
+        if (!isPattern(*rule))
+            throw std::runtime_error(fmt::format("{}: no channel is called {}{}", rule->origin, rule->channel,
+                                                 didYouMean(rule->channel, known)));
 }
 
 std::vector<Rule> rulesFromJson(std::string_view text, const std::string& name) {

@@ -85,8 +85,15 @@ const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel);
 // Whether the rule is about channels that it names, and not about all ("*").
 bool namesChannels(const Rule& rule);
 
-// A line for each rule whose pattern is that of none of the channels.
-std::vector<std::string> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels);
+// Whether the rule's channel is a pattern (* and ?) and not one name.
+bool isPattern(const Rule& rule);
+
+// The rules that match none of the channels, and the line that says so of one, with the name that was meant.
+std::vector<const Rule*> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels);
+std::string idleText(const Rule& rule, const std::vector<std::string>& channels);
+
+// Throws std::runtime_error, one line, over a rule for one channel by a name that is none of the known.
+void checkChannels(std::span<const Rule> rules, const std::vector<std::string>& known);
 
 // A tolerance file, as tolerances.schema.json describes it. Every rule names its reason. Throws
 // std::runtime_error, one line: "FILE: rule 2: no such figure maxx; there are ...".

@@ -151,7 +151,9 @@ TEST(DiffCommand, WhatIsAskedForAndNotThereIsSaid) {
     EXPECT_TRUE(runTool(folder, "diff a.png a.png --blur nan").failedOver("--blur"));
     folder.write("t.json", R"({"rules": [{"channel": "LIT", "max": 1, "because": "x"}]})");
     const Ran ran = runTool(folder, "diff a.png a.png --tolerances t.json");
-    EXPECT_NE(ran.out.find("note: t.json, rule 1: no channel here is called LIT"), std::string::npos)
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_NE(ran.out.find("FAIL t.json, rule 1: no channel here is called LIT; did you mean lit?\n"),
+              std::string::npos)
         << ran.out;
 }
 

@@ -61,5 +61,14 @@ TEST(StrictTool, CompareFailsOverAChannelThatTheBaselineLacks) {
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
 }
 
+// A misspelled rule stops compare before anything is drawn.
+TEST(StrictTool, CompareRefusesARuleForNoChannel) {
+    const Folder folder;
+    folder.write("t.json", R"({"rules": [{"channel": "albdeo", "max": 1, "because": "any"}]})");
+    EXPECT_TRUE(runTool(folder, "compare builtin:points --size 16x9 --runs 0 --tolerances t.json")
+                    .failedOver("t.json, rule 1: no channel is called albdeo; did you mean albedo?"));
+    EXPECT_FALSE(fs::exists(folder / "diptych-report"));
+}
+
 }  // namespace
 }  // namespace diptych

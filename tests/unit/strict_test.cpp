@@ -251,6 +251,74 @@ TEST(Strict, DiffDemandsWhatARuleNames) {
     EXPECT_EQ(diff.failures, Lines{"two is in the reference alone, and t.json, rule 1 judges it"});
 }
 
+// Pictures that show nothing pass with a word about it, and fail where --strict asks for more.
+TEST(Strict, FailsADiffOfBlackPictures) {
+    const std::filesystem::path here = folder();
+    const Image none(4, 3, 3);
+    writeExr(here / "a.exr", {{{"R", "G", "B"}, &none}});
+    const auto diff = [&](bool strict, bool allowed) {
+        PictureDiffOptions options;
+        options.strict = strict;
+        options.allow_empty = allowed;
+        return diffPictures((here / "a.exr").string(), (here / "a.exr").string(), options);
+    };
+    const std::string line = "both pictures are black: every value compared is 0";
+    EXPECT_TRUE(diff(false, false).passed());
+    EXPECT_EQ(diff(false, false).emptiness, line);
+    EXPECT_EQ(diff(true, false).failures, Lines{line + "; --allow-empty grants that"});
+    EXPECT_FALSE(diff(true, false).passed());
+    EXPECT_TRUE(diff(true, true).passed());
+}
+
+// A rule for one channel that neither side has judges nothing: that is a mistake, a pattern's is none, and
+// neither is a channel that --channels left out.
+TEST(Strict, ARuleForAChannelOfNeitherFileFails) {
+    const std::filesystem::path here = folder();
+    const Image grey(4, 3, 1, 0.5f);
+    writeExr(here / "a.exr", {{{"one.Y"}, &grey}, {{"two.Y"}, &grey}});
+    PictureDiffOptions options;
+    options.channels = {"one"};
+    options.rules = rulesFromJson(R"({"rules": [{"channel": "tow", "max": 1, "because": "any"},
+                                                {"channel": "three*", "max": 1, "because": "any"},
+                                                {"channel": "two", "max": 1, "because": "any"}]})",
+                                  "t.json");
+    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "a.exr").string(), options);
+    EXPECT_EQ(diff.failures, Lines{"t.json, rule 1: no channel here is called tow; did you mean two?"});
+    EXPECT_EQ(diff.notes.back(), "t.json, rule 2: no channel here is called three*");
+}
+
+// One for a channel that one side has is judged there: it is no rule without a channel.
+TEST(Strict, ARuleOnAOneSidedChannelIsNotIdle) {
+    CompareOptions options;
+    options.rules =
+        rulesFromJson(R"({"rules": [{"channel": "albedo", "max": 1, "because": "any"}]})", "t.json");
+    std::vector<Frame> frames = fewChannels();
+    frames[0].channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+    Report report;
+    report.device = strictDevice;
+    report.frames = std::move(frames);
+    const Comparison comparison = compareFrames(report, 0, 1, {}, options);
+    EXPECT_EQ(comparison.failures, Lines{"albedo is in forward_plus alone, and t.json, rule 1 judges it"});
+    EXPECT_EQ(comparison.notes, Lines{});
+}
+
+// compare knows all channels that there can be.
+TEST(Rules, AreRefusedForAChannelThatIsNone) {
+    const std::vector<Rule> rules =
+        rulesFromJson(R"({"rules": [{"channel": "lit*", "max": 1, "because": "any"},
+                                    {"channel": "albdeo", "max": 1, "because": "any"}]})",
+                      "t.json");
+    const std::vector<std::string> known{"lit", "albedo"};
+    EXPECT_NO_THROW(checkChannels(std::span(rules).first(1), known));
+    EXPECT_NO_THROW(checkChannels(std::span(rules).first(1), {"other"})) << "a pattern may match nothing";
+    try {
+        checkChannels(rules, known);
+        ADD_FAILURE() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "t.json, rule 2: no channel is called albdeo; did you mean albedo?");
+    }
+}
+
 // The option reaches both commands, and the command that a report prints.
 TEST(Strict, IsAnOptionOfCompareAndDiff) {
     for (const Lines& words :
