@@ -150,6 +150,13 @@ std::string errorsText(const Report& report) {
                        listed(scenes, scenesNamed));
 }
 
+// A place, and which of its pairs where it has several: "Box.glb b.exr/deferred".
+std::string pairPlaceOf(const Report& report, const Comparison& comparison) {
+    const std::string place = placeOf(report, comparison);
+    if (!hasSeveralPairs(report)) return place;
+    return fmt::format("{} {}/{}", place, report.baseline(comparison).name, report.test(comparison).name);
+}
+
 // What a verdict about hardly anything must not be read without.
 std::string hardlyAnything(const Report& report) {
     std::vector<std::string> places, why;
@@ -175,7 +182,7 @@ std::string verdictLine(const Report& report) {
             if (channel.verdict == Verdict::fail) addOnce(channels, std::string(channel.mode->name));
         }
         failing += !comparison.passed();
-        if (!comparison.passed()) addOnce(places, placeOf(report, comparison));
+        if (!comparison.passed()) addOnce(places, pairPlaceOf(report, comparison));
     }
     const std::string errors = report.errors.empty() ? "" : fmt::format("ERROR: {}; ", errorsText(report));
     const std::size_t all = report.comparisons.size();
@@ -187,14 +194,17 @@ std::string verdictLine(const Report& report) {
     if (failing == 0)
         return fmt::format("{}pass: all {} channels{} are within tolerance{}", errors, compared,
                            all == 1 ? "" : fmt::format(" of {} comparisons", all), hardlyAnything(report));
-    std::string what = others.empty() ? "" : listed(others, 1);
+    // Of one comparison all stands in one sentence; of several, in parentheses, what is counted stands after.
+    std::string what = others.empty() ? "" : all == 1 ? listed(others, 1) : others.front();
     if (!channels.empty())
         what += fmt::format("{}{} beyond tolerance", what.empty() ? "" : "; ", fmt::join(channels, ", "));
     if (!alone.empty()) what += "; " + alone;
     what += hardlyAnything(report);
     if (all == 1) return fmt::format("{}FAIL: {}", errors, what);
-    return fmt::format("{}FAIL: {} of {} comparisons failed: {} ({})", errors, failing, all,
-                       listed(places, scenesNamed), what);
+    const std::string more =
+        others.size() > 1 ? fmt::format(", and {} more", others.size() - 1) : std::string();
+    return fmt::format("{}FAIL: {} of {} comparisons failed: {} ({}){}", errors, failing, all,
+                       listed(places, scenesNamed), what, more);
 }
 
 }  // namespace diptych
