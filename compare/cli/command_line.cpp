@@ -76,6 +76,12 @@ Settings settingsOf(const ParsedOptions& parsed) {
     return settings;
 }
 
+std::vector<std::string> pathNames() {
+    std::vector<std::string> names;
+    for (const auto& [path, name] : enumNames<Path>()) names.emplace_back(name);
+    return names;
+}
+
 void resolveBaseline(Options& options, const ParsedOptions& parsed) {
     const auto path =
         std::ranges::find(enumNames<Path>(), parsed.baseline, &std::pair<Path, std::string_view>::second);
@@ -83,8 +89,8 @@ void resolveBaseline(Options& options, const ParsedOptions& parsed) {
     if (isPath) options.baseline = path->first;
     if (!isPath && !parsed.baseline.ends_with(".exr"))
         throw std::runtime_error(
-            fmt::format("--baseline {}: is none of deferred, forward_plus, reference, and no .exr file",
-                        parsed.baseline));
+            fmt::format("--baseline {}: is none of deferred, forward_plus, reference, and no .exr file{}",
+                        parsed.baseline, didYouMean(parsed.baseline, pathNames())));
     if (!isPath) options.baseline_file = parsed.baseline;
     if (options.update_baseline && isPath)
         throw std::runtime_error("--update-baseline: --baseline FILE.exr says which file");

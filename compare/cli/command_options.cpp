@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <initializer_list>
-#include <map>
+#include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace diptych::cli {
 namespace {
@@ -100,14 +101,19 @@ void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
         "--no-tonemap", [&options] { options.picture.tonemap = false; }, "clip instead, pictures only");
 }
 
+ColorChoice colorOf(const std::string& word) {
+    for (const auto& [name, choice] :
+         {std::pair{"auto", ColorChoice::automatic}, {"on", ColorChoice::on}, {"off", ColorChoice::off}})
+        if (word == name) return choice;
+    throw std::runtime_error(fmt::format("--color {}: auto, on or off", word));
+}
+
 void addOutput(CLI::App& app, Options& options) {
     app.option_defaults()->group(output_group);
     app.add_flag("--json", options.json, "the result as JSON on stdout, and nothing else there");
-    static const std::map<std::string, ColorChoice> colors{
-        {"auto", ColorChoice::automatic}, {"on", ColorChoice::on}, {"off", ColorChoice::off}};
-    app.add_option("--color", options.color,
-                   "colours of verdicts: auto, on, off (auto: on a terminal, but not with NO_COLOR)")
-        ->transform(CLI::CheckedTransformer(colors))
+    app.add_option_function<std::string>(
+           "--color", [&options](const std::string& word) { options.color = colorOf(word); },
+           "colours of verdicts: auto, on, off (auto: on a terminal, but not with NO_COLOR)")
         ->type_name("auto|on|off");
     CLI::Option* quiet = app.add_flag("-q,--quiet", options.quiet, "print only errors");
     app.add_flag("-v,--verbose", options.verbose, "say on stderr what is being done")->excludes(quiet);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/frame/settings.h"
 
+#include "shared/text/did_you_mean.h"
 #include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
@@ -11,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <type_traits>
 
@@ -146,6 +148,15 @@ struct Codec<Rgb> {
     }
 };
 
+// The words of an enumeration's "compact|full"; of other values none.
+std::vector<std::string> alternatives(const std::string& accepted) {
+    std::vector<std::string> words;
+    if (accepted.find('|') == accepted.npos) return words;
+    std::istringstream list(accepted);
+    for (std::string word; std::getline(list, word, '|');) words.push_back(word);
+    return words;
+}
+
 template <class T>
 using CodecOf = Codec<std::remove_cvref_t<T>>;
 
@@ -245,8 +256,9 @@ void Settings::set(std::string_view option, const std::string& value) {
     visitField(*this, option, [&](const Field& field, auto& member) {
         using Value = CodecOf<decltype(member)>;
         if (!Value::read(member, ownWord(field, value)))
-            throw std::runtime_error(
-                fmt::format("--{} {}: not {}", option, value, inWords(Value::accepted())));
+            throw std::runtime_error(fmt::format("--{} {}: not {}{}", option, value,
+                                                 inWords(Value::accepted()),
+                                                 didYouMean(value, alternatives(Value::accepted()))));
     });
 }
 

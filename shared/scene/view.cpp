@@ -3,6 +3,7 @@
 
 #include "shared/scene/model/axes.h"
 #include "shared/scene/motion/bounds.h"
+#include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -242,7 +243,10 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
             view = explicitView(defaultView, bounds, aspect, choice);
         }
     } else {
-        failCamera(choice, fmt::format("{}; it takes {}", listOf(pose.cameras), accepted));
+        std::vector<std::string> names;
+        for (const Camera& camera : pose.cameras) names.push_back(camera.name);
+        failCamera(choice, fmt::format("{}{}; it takes {}", listOf(pose.cameras), didYouMean(choice, names),
+                                       accepted));
     }
     view.width = width;
     view.height = height;

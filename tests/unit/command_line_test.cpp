@@ -83,12 +83,18 @@ TEST(CommandLine, AMistypedWordIsFollowedByTheOneThatWasMeant) {
         {{"diff", "a", "b", "--metrik=rmse"}, "; did you mean --metric?"},
         {{"render", "--debug", "albdeo"}, "; did you mean albedo?"},
         {{"render", "--channels", "lit,albdeo"}, "; did you mean albedo?"},
+        {{"render", "--gbuffer", "comapct"}, "; did you mean compact?"},
+        {{"compare", "--assign", "tile"}, "; did you mean tiled?"},
+        {{"compare", "--baseline", "defered"}, "; did you mean deferred?"},
     };
     for (const auto& [words, meant] : mistyped) {
         const std::string what = whatIsThrown(words);
         EXPECT_NE(what.find(meant), std::string::npos) << what;
     }
     EXPECT_EQ(whatIsThrown({"compare", "--paint"}).find("did you mean"), std::string::npos);
+    EXPECT_EQ(whatIsThrown({"compare", "--size", "WxxH"}).find("did you mean"), std::string::npos)
+        << "no word of a list";
+    EXPECT_EQ(whatIsThrown({"compare", "--color", "maybe"}), "--color maybe: auto, on or off");
 }
 
 TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
