@@ -9,8 +9,6 @@
 
 namespace diptych {
 
-namespace {
-
 std::vector<PassTime> mediansOf(const std::vector<std::vector<PassTime>>& frames) {
     if (frames.empty()) return {};
     std::vector<PassTime> passes = frames.front();
@@ -22,7 +20,10 @@ std::vector<PassTime> mediansOf(const std::vector<std::vector<PassTime>>& frames
     return passes;
 }
 
-}  // namespace
+void takeTurns(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw) {
+    for (int round = 0; round < rounds; ++round)
+        for (std::size_t i = 0; i < count; ++i) draw(round, i);
+}
 
 std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
                                     int profiled,
@@ -32,15 +33,13 @@ std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std:
     std::vector<std::vector<std::vector<PassTime>>> passes(which.size());
     frames.warmUp(which);
     const auto inTurns = [&](int rounds, const char* what, const std::function<void(std::size_t)>& draw) {
-        for (int round = 0; round < rounds; ++round)
-            for (std::size_t i = 0; i < which.size(); ++i) {
-                if (step) step(which[i], fmt::format("{} {} of {}", what, round + 1, rounds));
-                const auto start = std::chrono::steady_clock::now();
-                draw(i);
-                timed[i].made_in_ms +=
-                    std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                        .count();
-            }
+        takeTurns(rounds, which.size(), [&](int round, std::size_t i) {
+            if (step) step(which[i], fmt::format("{} {} of {}", what, round + 1, rounds));
+            const auto start = std::chrono::steady_clock::now();
+            draw(i);
+            timed[i].made_in_ms +=
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        });
     };
     inTurns(runs, "frame", [&](std::size_t i) {
         timed[i].ms.push_back(frames.draw(which[i]));

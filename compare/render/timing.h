@@ -27,6 +27,13 @@ std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std:
                                     int profiled,
                                     const std::function<void(std::size_t, const std::string&)>& step = {});
 
+// Calls draw(round, i) for each of `count` frames once a round, one round after the other.
+void takeTurns(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw);
+
+// The passes of the first frame, each with the median of its times over all frames, which have the same
+// passes. Empty of no frames.
+std::vector<PassTime> mediansOf(const std::vector<std::vector<PassTime>>& frames);
+
 // Where a frame keeps them.
 void addTimes(const TimedFrame& timed, Frame& frame);
 

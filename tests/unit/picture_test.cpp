@@ -22,6 +22,34 @@ TEST(Picture, HighlightsHoldTheAutomaticExposure) {
     EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 2, 1e-9);
 }
 
+// Three pixels of a hundred are no highlights to expose for: the 95th percentile is not among them.
+TEST(Picture, ExposureIsForTheNinetyFifthPercentile) {
+    Image lit(100, 1, 3, 0.01f);
+    for (int x = 0; x < 20; ++x)
+        for (int c = 0; c < 3; ++c) lit.at(x, 0, c) = x < 3 ? 100 : 4;
+    Coverage all;
+    all.covered.assign(100, true);
+    EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 4, 1e-6);
+}
+
+// What is one object has one colour, and neighbouring numbers have others.
+TEST(Picture, AnIdHasItsColour) {
+    Frame frame = bothFrames()[0];
+    const DebugMode& ids = debugMode(gpu::DEBUG_material_id);
+    Image& image = frame.channels.at(gpu::DEBUG_material_id);
+    for (int x = 0; x < 4; ++x) image.at(x, 2) = static_cast<float>(std::array{0, 1, 2, 0}[x]);
+    const Frame* frames[] = {&frame};
+    const Image8 picture = channelPicture(ids, frame, scaleFor(ids, {}, frames));
+    const auto colour = [&](int x) {
+        const std::uint8_t* const p = picture.data.data() + 3 * (2 * 4 + x);
+        return std::array{p[0], p[1], p[2]};
+    };
+    EXPECT_NE(colour(0), colour(1));
+    EXPECT_NE(colour(1), colour(2));
+    EXPECT_NE(colour(0), colour(2));
+    EXPECT_EQ(colour(0), colour(3));
+}
+
 TEST(Picture, BackgroundAndExposure) {
     const Frame frame = bothFrames()[0];
     const DebugMode& lit = debugMode(gpu::DEBUG_lit);

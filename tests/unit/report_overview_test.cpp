@@ -38,6 +38,20 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
     EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance; "), std::string::npos) << "the verdict's line";
 }
 
+// Of the Settings those are coloured in which the two differ, and no others.
+TEST(ReportOverview, ColoursTheSettingsThatDiffer) {
+    Report report = reportOf(bothFrames());
+    report.frames[1].settings.light_cutoff = 0.25f;
+    const std::filesystem::path out = folder() / "report";
+    writeReport(report, out, {});
+    const std::string page = contentsOf(out / "index.html");
+    for (const char* key : {"path", "light_cutoff"})
+        EXPECT_NE(page.find(std::string("<tr class=\"differs\"><td>") + key + "</td>"), std::string::npos)
+            << key;
+    for (const char* key : {"size", "assign", "gbuffer"})
+        EXPECT_NE(page.find(std::string("<tr><td>") + key + "</td>"), std::string::npos) << key;
+}
+
 // Notes stand below the index, each once with its scenes; scenes that could not be drawn are failures.
 TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     std::vector<Frame> frames;

@@ -174,6 +174,25 @@ TEST(VerdictLine, SaysThatPicturesShowNothing) {
     EXPECT_EQ(json["comparisons"][0]["emptiness"], "both pictures are empty: no surface is in view");
 }
 
+// A surface on 1 % of the picture is one; on less, the background decides every picture.
+TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
+    for (const int shown : {1, 2}) {
+        std::vector<Frame> frames = bothFrames();
+        for (Frame& frame : frames) {
+            frame.settings.size = {40, 5};
+            for (auto* images : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
+                for (auto& [mode, image] : *images) {
+                    Image wide(40, 5, image.components, images == &frame.channels && mode == idMode ? -1 : 0);
+                    for (int x = 0; x < shown; ++x)
+                        for (int c = 0; c < image.components; ++c) wide.at(x, 0, c) = image.at(1, 2, c);
+                    image = std::move(wide);
+                }
+        }
+        EXPECT_EQ(reportWith(frames, {}).comparisons.at(0).emptiness,
+                  shown == 1 ? "only 0.5 % of the picture shows the scene" : "");
+    }
+}
+
 TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
     std::vector<Frame> frames;
     for (const char* scene : {"a.glb", "b.glb", "c.glb"})

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The order in which frames are timed, and what is kept of their passes' times; no clock is read.
+#include "compare/render/timing.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace diptych {
+namespace {
+
+// Each is drawn once before any is drawn again: what slows the machine down for a while slows all of them.
+TEST(Timing, FramesAreDrawnInTurns) {
+    std::vector<std::pair<int, std::size_t>> order;
+    takeTurns(2, 3, [&](int round, std::size_t i) { order.emplace_back(round, i); });
+    EXPECT_EQ(order,
+              (std::vector<std::pair<int, std::size_t>>{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}}));
+    takeTurns(0, 3, [](int, std::size_t) { ADD_FAILURE() << "no round"; });
+}
+
+// The median lies in the middle frame of one pass and in the last of the other; neither is first or largest.
+TEST(Timing, APassHasTheMedianOfItsTimes) {
+    const std::vector<PassTime> medians =
+        mediansOf({{{"shade", 9}, {"lists", 1}}, {{"shade", 4}, {"lists", 8}}, {{"shade", 2}, {"lists", 5}}});
+    ASSERT_EQ(medians.size(), 2u);
+    EXPECT_EQ(medians[0].name, "shade");
+    EXPECT_EQ(medians[0].ms, 4);
+    EXPECT_EQ(medians[1].name, "lists");
+    EXPECT_EQ(medians[1].ms, 5);
+    EXPECT_TRUE(mediansOf({}).empty());
+}
+
+}  // namespace
+}  // namespace diptych
