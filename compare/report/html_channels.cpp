@@ -257,7 +257,8 @@ private:
         if (channel_.unexplained_pixels)
             row("not explained by encoding", fmt::format("{}", *channel_.unexplained_pixels));
         if (const auto& f = channel_.footprints) {
-            row("smooth around, held tightly", fmt::format("{} px, {:.3g} of it used", f->smooth, f->used));
+            row("smooth around, held to a bound each",
+                fmt::format("{} px, {:.3g} of it used", f->smooth, f->used));
             if (f->detailed > 0)
                 row("with detail, by FLIP", fmt::format("{} px, {:.3g}", f->detailed, f->flip));
             if (f->edges > 0) row("at edges, not judged", fmt::format("{} px", f->edges));

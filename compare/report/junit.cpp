@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <set>
 
 namespace diptych {
 
@@ -115,14 +116,14 @@ private:
             channel.warning.empty()
                 ? ""
                 : markup(fmt::format("warning: {} ({})", channel.warning, channel.rule)) + "\n";
-        if (channel.verdict == Verdict::pass)
-            return warning.empty() ? "" : fmt::format("      <system-out>{}</system-out>\n", warning);
-        const ChannelStats& s = channel.stats;
         const std::string limit =
             channel.criterion
                 ? fmt::format("{} {}, limit {}", channel.criterion->figure,
                               number(channel.criterion->measured), number(channel.criterion->limit))
                 : "nothing bounded";
+        if (channel.verdict == Verdict::pass)
+            return fmt::format("      <system-out>{}{}\n</system-out>\n", warning, markup(limit));
+        const ChannelStats& s = channel.stats;
         return failure("difference", channel.reason,
                        fmt::format("max {} mean {} p99.9 {} ({}), worst at {},{}; {}: {}", number(s.max),
                                    number(s.mean), number(s.p999), nameOf(channel.mode->metric), s.worst_x,
@@ -136,8 +137,9 @@ private:
     // difference, where there is one.
     std::string attachments(const ChannelDiff& channel, const ChannelPictures& pictures) const {
         std::string lines;
+        std::set<std::string> attached;  // both sides of equal channels share a picture
         for (const std::string* picture : {&pictures.difference, &pictures.baseline, &pictures.test})
-            if (!picture->empty())
+            if (!picture->empty() && attached.insert(*picture).second)
                 lines += fmt::format("[[ATTACHMENT|{}]]\n", markup((folder_ / *picture).generic_string()));
         if (!comparison_.command.empty())
             lines += markup("again: " + shellLine(withOption(comparison_.command, "--channels",

@@ -100,6 +100,28 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
                                        : std::string();
 }
 
+// In mode scene: how many pixels of which channel are judged in which way; empty elsewhere.
+std::string waysOfJudging(const std::vector<ChannelDiff>& channels) {
+    const ChannelDiff *fewest = nullptr, *most = nullptr;
+    for (const ChannelDiff& channel : channels) {
+        if (!channel.footprints) continue;
+        const std::uint64_t smooth = channel.footprints->smooth;
+        if (!fewest || smooth < fewest->footprints->smooth) fewest = &channel;
+        if (!most || smooth > most->footprints->smooth) most = &channel;
+    }
+    if (!fewest) return {};
+    const auto of = [](const ChannelDiff& channel) {
+        const Footprints& f = *channel.footprints;
+        return fmt::format("{} of {} in {}", f.smooth, f.smooth + f.detailed + f.edges, channel.mode->name);
+    };
+    return fmt::format(
+        "mode scene: pixels whose surroundings are smooth in both pictures are held to a bound each, the "
+        "others "
+        "together to a mean FLIP of {}; smooth are from {} to {}, and each channel's section has its own "
+        "numbers",
+        detailFlip, of(*fewest), of(*most));
+}
+
 // The channels of which a reference in mode scene judges next to no pixel by a bound of its own. Empty where
 // there are none: a verdict that says what it seems to.
 std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
@@ -211,12 +233,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         readCounters(*frame, comparison);
         readNoise(*frame, cpu, options.allow_noise, comparison);
     }
-    if (std::ranges::any_of(comparison.channels,
-                            [](const ChannelDiff& c) { return c.footprints.has_value(); }))
-        comparison.notes.push_back(
-            fmt::format("mode scene: tight is the share of pixels whose surroundings are smooth in both "
-                        "pictures, which are held to a bound each; the others are held to a mean FLIP of {}",
-                        detailFlip));
+    if (const std::string ways = waysOfJudging(comparison.channels); !ways.empty())
+        comparison.notes.push_back(ways);
     for (const Rule* rule : idleRules(options.rules, names))
         comparison.notes.push_back(idleText(*rule, names));
     if (!comparison.coverage.known)

@@ -2,7 +2,7 @@
 // A path against the reference's own materials, textures and camera (mode scene). What the two filter
 // differently (a mip level here, the mean over the pixel there) is no fault of either, but it can only show
 // where a picture changes from pixel to pixel. So a pixel whose surroundings are smooth in both pictures is
-// held to a tight bound, and the others are judged together, as the eye sees them.
+// held to a bound each, and the others are judged together, as the eye sees them.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"

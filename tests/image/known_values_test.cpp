@@ -247,6 +247,27 @@ TEST(Extremes, AFlattenedNodeKeepsItsNormals) {
     expectColor(colorAt(frames[1], normals, 4, 4), {0, 0, 1}, float32, "the triangle's normal stands in");
 }
 
+// What an orthographic camera sees faces against its direction, not towards its place: far to the side a
+// steep triangle's normal points away from that.
+TEST(KnownValues, GeometricNormalsFaceAnOrthographicViewer) {
+    Scene scene = square();
+    scene.cameras[0].orthographic = true;
+    scene.cameras[0].ymag = 4;
+    scene.cameras[0].far = 100;
+    const double angle = 80 * std::numbers::pi / 180, sine = std::sin(angle), cosine = std::cos(angle);
+    glm::dmat4& place = scene.nodes[0].parent_from_node;
+    place[0] = {cosine, 0, -sine, 0};
+    place[2] = {sine, 0, cosine, 0};
+    place[3] = {2.5, 0, -2, 1};
+    const auto frames = draw(scene, 64);
+    constexpr int geometric = static_cast<int>(gpu::DEBUG_geometric_normal);
+    for (const Frame& frame : frames) {
+        const glm::vec3 normal = colorAt(frame, geometric, 52, 32);
+        EXPECT_NEAR(double{normal.x}, sine, 1e-5) << frame.name;
+        EXPECT_NEAR(double{normal.z}, cosine, 1e-5) << frame.name;
+    }
+}
+
 // The picture is the same at any scale: lengths scaled by s, intensities by s^2.
 TEST(Extremes, ScaleDoesNotChangeThePicture) {
     Scene scene = square();

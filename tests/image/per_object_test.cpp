@@ -241,5 +241,21 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     EXPECT_GT(from_vertices, 0.1 * from_harmonics);
 }
 
+// A double-sided square under a lamp that is shaded at its vertices is as bright from behind as from the
+// front.
+TEST(PerObject, VertexLightsReachTheBackOfADoubleSidedMaterial) {
+    Scene scene = square();
+    scene.materials[0].double_sided = true;
+    Light lamp;
+    lamp.position = {0, 0, 20};
+    lamp.intensity = 400;
+    scene.lights = {lamp};
+    const float front = drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(lit).at(8, 8, 0);
+    scene.nodes[0].parent_from_node[0].x = scene.nodes[0].parent_from_node[2].z = -1;  // half a turn
+    const float back = drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(lit).at(8, 8, 0);
+    EXPECT_GT(front, 0.05f);
+    EXPECT_NEAR(back, front, 1e-5f * front);
+}
+
 }  // namespace
 }  // namespace diptych::tests

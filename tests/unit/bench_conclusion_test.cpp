@@ -176,6 +176,22 @@ TEST(BenchPlot, OfOneLightCountHasABarAModeStackedOfItsPasses) {
     EXPECT_NE(svg.find("deferred, clustered: 10 ms"), std::string::npos);
 }
 
+// Each part begins where the one before it ends.
+TEST(BenchPlot, PartsOfABarStandBesideEachOther) {
+    const std::string svg = benchPlot(oneCount(), PlotPlace::file);
+    const std::regex part(
+        "x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\" height=\"[0-9.]+\"><title>"
+        "deferred, clustered, [^<]*ms</title>");
+    Times begins, ends;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), part), end; at != end; ++at) {
+        begins.push_back(std::stod((*at)[1]));
+        ends.push_back(begins.back() + std::stod((*at)[2]));
+    }
+    ASSERT_EQ(begins.size(), 3u) << svg;
+    EXPECT_NEAR(begins[1], ends[0], 0.1);
+    EXPECT_NEAR(begins[2], ends[1], 0.1);
+}
+
 TEST(BenchPlot, PassesBeyondItsColoursAreOnePart) {
     Bench bench = oneCount();
     for (int i = 0; i < 12; ++i) bench.rows[0].passes.push_back({"pass " + std::to_string(i), 0.01});

@@ -4,6 +4,8 @@
 //   which they must, what a time looks like
 //   GitLab and Jenkins: the counts are those of the cases; a case's name is its suite's own; attachments are
 //   lines [[ATTACHMENT|file]] of a case's system-out, and the files are there
+#include "compare/report/json.h"
+#include "compare/report/layout.h"
 #include "compare/report/report.h"
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
@@ -183,6 +185,38 @@ TEST(ReportJunit, TheRulesFindFaults) {
             bad.replace(bad.find("<testcase/>"), 11, "<testcase name=\"b\"><x/></testcase>");
         EXPECT_NE(faultsOf(rootOf(bad)), std::vector<std::string>{}) << bad;
     }
+}
+
+// What decides a channel and its limit stand in its case, whether it passes or not.
+TEST(ReportJunit, EveryJudgedChannelSaysWhatWasMeasured) {
+    const fs::path here = folder();
+    writeReport(failingOfTwo(), here / "report", {});
+    const Element root = rootOf(contentsOf(here / "report" / "junit.xml"));
+    int passing = 0, failing = 0;
+    for (const Element* suite : root.all("testsuite"))
+        for (const Element* test : suite->all("testcase")) {
+            if (!test->all("skipped").empty() || test->attributes.at("name") == "frames") continue;
+            const std::vector<const Element*> failures = test->all("failure");
+            ASSERT_FALSE(test->all("system-out").empty()) << test->attributes.at("name");
+            const std::string text =
+                failures.empty() ? test->all("system-out").front()->text : failures.front()->text;
+            EXPECT_NE(text.find(", limit "), std::string::npos) << test->attributes.at("name") << text;
+            ++(failures.empty() ? passing : failing);
+        }
+    EXPECT_GT(passing, 0);
+    EXPECT_GT(failing, 0);
+}
+
+// What differs by less than a picture shows has one picture for both sides.
+TEST(ReportJunit, ASharedPictureIsAttachedOnce) {
+    const Report report = failingOfTwo();
+    ReportLayout layout = layoutOf(report, {});
+    for (std::vector<ChannelPictures>& pictures : layout.pictures)
+        for (ChannelPictures& of : pictures) of.baseline = of.test = "same.png";
+    const std::string junit = reportJunit(report, layout, "out");
+    const std::size_t first = junit.find("out/same.png");
+    ASSERT_NE(first, std::string::npos);
+    EXPECT_EQ(junit.find("out/same.png", first + 1), std::string::npos);
 }
 
 // Relative as the folder was given: servers look from where the job runs.
