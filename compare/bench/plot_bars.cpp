@@ -118,7 +118,7 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
     const auto [lx, ly] = legend.next();
     out += fmt::format("<path class=\"frame\" d=\"M{0} {2}H{1}M{3} {4}V{5}\"/>{6}", svgNumber(lx),
                        svgNumber(lx + 24), svgNumber(ly), svgNumber(lx + 12), svgNumber(ly - 8),
-                       svgNumber(ly + 8), legend.words("an unprofiled frame: median, least to most"));
+                       svgNumber(ly + 8), legend.words("frame: median, range"));
     return {out, legend.end()};
 }
 
