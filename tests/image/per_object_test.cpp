@@ -246,6 +246,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
 TEST(PerObject, VertexLightsReachTheBackOfADoubleSidedMaterial) {
     Scene scene = square();
     scene.materials[0].double_sided = true;
+    scene.materials[0].metallic = 0;
     Light lamp;
     lamp.position = {0, 0, 20};
     lamp.intensity = 400;
