@@ -108,9 +108,11 @@ TEST(Bench, PlotsFitAPhone) {
   document.documentElement.style.width = '390px'; await wait(100);
   const plot = $('svg.chart').getBoundingClientRect();
   const boxes = $$('svg.chart text').map(text => [text.textContent, text.getBoundingClientRect()]);
-  const out = boxes.filter(([, b]) => b.left < plot.left || b.right > plot.right || b.bottom > plot.bottom).map(([t]) => t);
+  const out = boxes.filter(([, b]) => b.left < plot.left || b.right > plot.right || b.bottom > plot.bottom)
+    .map(([t]) => t);
   const legend = boxes.filter(([t, b]) => b.top > plot.bottom - 130);
-  const over = legend.filter(([t, a], i) => legend.some(([, b], k) => k < i && a.left < b.right && b.left < a.right && a.top + 2 < b.bottom && b.top + 2 < a.bottom)).map(([t]) => t);
+  const meet = (a, b) => a.left < b.right && b.left < a.right && a.top + 2 < b.bottom && b.top + 2 < a.bottom;
+  const over = legend.filter(([t, a], i) => legend.some(([, b], k) => k < i && meet(a, b))).map(([t]) => t);
   tell({ width: plot.width, words: boxes.length, out, over });)",
                                  "", 390);
         ASSERT_TRUE(seen.told.is_object()) << seen.told;

@@ -2,6 +2,8 @@
 // The page's address leads back to what is seen, and a keyboard reaches everything in few steps.
 #include "tests/tool/page_maker.h"
 
+#include <fmt/format.h>
+
 namespace diptych {
 namespace {
 
@@ -19,6 +21,14 @@ constexpr const char* cardLook = R"(
               .map(v => +v.toFixed(2))]; };
   await until(() => document.readyState === 'complete'); await wait(300);
 )";
+
+// Both paths of so many scenes: scenes/0.glb and on.
+std::vector<Frame> framesOfScenes(int count) {
+    std::vector<Frame> frames;
+    for (int i = 0; i < count; ++i)
+        for (Frame& frame : bothFrames(fmt::format("scenes/{}.glb", i))) frames.push_back(std::move(frame));
+    return frames;
+}
 
 TEST(PageAddress, LeadsBackToWhatWasSeen) {
     SKIP_WITHOUT_BROWSER();
@@ -65,11 +75,7 @@ TEST(PageAddress, PointingAloneDoesNotChangeIt) {
 TEST(PageAddress, AnIndexKeepsItsFilterAndOrder) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
-    std::vector<Frame> frames;
-    for (int i = 0; i < 12; ++i)
-        for (Frame& frame : bothFrames("scenes/" + std::to_string(i) + ".glb"))
-            frames.push_back(std::move(frame));
-    const fs::path page = written(folder, reportOf(std::move(frames)));
+    const fs::path page = written(folder, reportOf(framesOfScenes(12)));
     const std::string seeing = R"(
       await until(() => document.readyState === 'complete');
       const seen = () => $$('.index tbody tr').filter(line => line.offsetHeight > 0)
@@ -108,11 +114,7 @@ TEST(PageAddress, AnIndexKeepsItsFilterAndOrder) {
 TEST(PageKeys, ATableIsOneStopAndArrowsMoveInIt) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
-    std::vector<Frame> frames;
-    for (int i = 0; i < 12; ++i)
-        for (Frame& frame : bothFrames("scenes/" + std::to_string(i) + ".glb"))
-            frames.push_back(std::move(frame));
-    const Visit seen = visit(folder, written(folder, reportOf(std::move(frames))), R"(
+    const Visit seen = visit(folder, written(folder, reportOf(framesOfScenes(12))), R"(
       await until(() => document.readyState === 'complete');
       const table = $('.index table'), stops = () => [...table.querySelectorAll('a, button')]
         .filter(e => e.tabIndex === 0).length;

@@ -26,7 +26,8 @@ constexpr const char* lookAtWords = R"(
       const of = rgba(getComputedStyle(at).backgroundColor);
       layers.push(of); if (of[3] === 1) break; }
     return layers.reduceRight((below, top) => over(top, below), page); };
-  const words = $$('body *').filter(e => e.getClientRects().length > 0 && !e.closest('.panel, .loupe, script, .skip')
+  const words = $$('body *').filter(e => e.getClientRects().length > 0
+    && !e.closest('.panel, .loupe, script, .skip')
     && [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()));
   const pale = [];
   for (const e of words) {
@@ -36,7 +37,8 @@ constexpr const char* lookAtWords = R"(
     const a = luminance(over(ink, ground)), b = luminance(ground);
     const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), size = parseFloat(style.fontSize);
     const large = size >= 24 || (size >= 18.66 && +style.fontWeight >= 700);
-    if (contrast < (large ? 3 : 4.5)) pale.push(e.textContent.trim().slice(0, 30) + ': ' + contrast.toFixed(2));
+    if (contrast < (large ? 3 : 4.5))
+      pale.push(e.textContent.trim().slice(0, 30) + ': ' + contrast.toFixed(2));
   }
   tell({ words: words.length, dark: luminance(groundOf(document.body)) < 0.2, pale: [...new Set(pale)] });)";
 

@@ -116,7 +116,8 @@ TEST(ReferenceTool, ADifferenceIsExitCodeOne) {
 // ---- interrupted -------------------------------------------------------------------------------------
 
 constexpr const char* panel =
-    R"({"lights": [{"type": "rect", "position": [0, 3, 1], "direction": [0, -1, 0], "size": [2, 1], "intensity": 100}]})";
+    R"({"lights": [{"type": "rect", "position": [0, 3, 1], "direction": [0, -1, 0], "size": [2, 1],
+                    "intensity": 100}]})";
 const std::vector<std::string> longDrawing{
     "render", "builtin:gallery", "--path", "reference", "--reference-mode", "scene", "--spp", "2", "--size",
     "64x36",  "--shadows",       "pcf",    "--lights",  "panel.json",       "-o",    "r.exr"};

@@ -104,8 +104,8 @@ TEST(TradeoffPlot, ANumberNearerToAnotherPointIsLedTo) {
         const std::string svg = tradeoffPlot(tradeoff, 0, {}, PlotPlace::page);
         const std::regex mark(
             R"re(data-row="(\d+)"[^>]*><path[^>]*><circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
-            label(
-                R"re((class="lead"[^>]*>)?<text class="row middle" x="([\d.]+)" y="([\d.]+)">(\d+)</text>)re");
+            label(R"re((class="lead"[^>]*>)?<text class="row middle" x="([\d.]+)" )re"
+                  R"re(y="([\d.]+)">(\d+)</text>)re");
         std::map<int, std::array<double, 2>> marks;
         for (std::sregex_iterator i(svg.begin(), svg.end(), mark), end; i != end; ++i)
             marks[std::stoi((*i)[1])] = {std::stod((*i)[2]), std::stod((*i)[3])};
