@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_options.h"
 
+#include "compare/cli/settings_help.h"
+
 #include <fmt/format.h>
 
 #include <initializer_list>
@@ -207,7 +209,13 @@ void hideGroup(CLI::App& app, const std::string& group) {
 void hideUnread(CLI::App& app, const std::string& command) {
     hideGroup(app, later_group);
     hide(app, {"--frames", "--fps"});
-    if (command == "compare") hide(app, {"--debug", "--heat"});
+    if (command != "devices" && command != "diff")
+        for (const Field& field : settingFields())
+            if (!isDrawnBy(command, field)) hide(app, {("--" + std::string(field.option)).c_str()});
+    if (command == "compare") {
+        hide(app, {"--debug", "--heat"});
+        app.get_option("--path")->description("which path --update-baseline writes (that of the file)");
+    }
     if (command == "bench" || command == "tradeoff")
         hide(app, {"--debug", "--heat", "--channels", "--list-channels"});
     if (command == "bench") hideGroup(app, picture_group);

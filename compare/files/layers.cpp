@@ -2,6 +2,7 @@
 #include "compare/files/layers.h"
 
 #include "compare/files/our_files.h"
+#include "shared/text/did_you_mean.h"
 #include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 #include "shared/text/wildcard.h"
@@ -248,6 +249,9 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         return wanted.empty() || std::ranges::any_of(wanted, [&](const auto& w) { return matches(w, name); });
     };
     const std::string inReference = list(reference), inTest = list(test);
+    std::vector<std::string> inBoth;
+    for (const PictureChannel& a : reference)
+        if (std::ranges::count(test, a.name, &PictureChannel::name) > 0) inBoth.push_back(a.name);
     for (PictureChannel& a : reference) {
         if (!isWanted(a.name)) continue;
         const auto b = std::ranges::find(test, a.name, &PictureChannel::name);
@@ -270,10 +274,14 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         if (isWanted(b.name) &&
             std::ranges::find(reference, b.name, &PictureChannel::name) == reference.end())
             matched.one_sided.push_back({b.name, "the test"});
-    const auto both = fmt::format("the reference has {}, the test {}", inReference, inTest);
+    const auto both = inReference == inTest
+                          ? "both have " + inTest
+                          : fmt::format("the reference has {}, the test {}", inReference, inTest);
     for (const std::string& w : wanted)
-        if (std::ranges::none_of(matched.channels, [&](const auto& c) { return matches(w, c.name); }))
-            fail(fmt::format("--channels {}: not in both; {}", w, both));
+        if (std::ranges::none_of(inBoth, [&](const std::string& name) { return matches(w, name); })) {
+            const std::string meant = didYouMean(w, inBoth);
+            fail(fmt::format("--channels {}: not in both{}", w, meant.empty() ? "; " + both : meant));
+        }
     if (matched.channels.empty())
         fail(fmt::format("no layer is in both: {}; --map gives them one name", both));
     return matched;

@@ -34,16 +34,6 @@ std::string titleOf(const Report& report, const ReportLayout& layout, const Comp
     return title;
 }
 
-// Of the channels that the tables list and the verdict does not count.
-std::string notCompared(const Report& report) {
-    std::ptrdiff_t alone = 0;
-    for (const Comparison& comparison : report.comparisons)
-        alone += std::ranges::count(comparison.channels, Verdict::forward_only, &ChannelDiff::verdict);
-    if (alone == 0) return {};
-    return fmt::format("; {} made by one path alone and not compared",
-                       alone == 1 ? "1 is" : fmt::format("{} are", alone));
-}
-
 std::string header(const Report& report, const ReportLayout& layout) {
     const char* verdict = report.passed() && report.errors.empty() ? "pass" : "fail";
     const std::size_t count = report.comparisons.size();
@@ -62,7 +52,7 @@ std::string header(const Report& report, const ReportLayout& layout) {
     return fmt::format(
         "<header><p class=\"brand\">Diptych</p><h1><span class=\"verdict {0}\">{0}</span>{1}</h1>"
         "<p>{3}</p><p class=\"soft\">{2}</p></header>\n",
-        verdict, markup(title), markup(drawn), markup(verdictLine(report)) + notCompared(report));
+        verdict, markup(title), markup(drawn), markup(verdictLine(report)));
 }
 
 std::string listBox(const char* style, const char* heading, const std::string& items) {
@@ -201,6 +191,12 @@ std::string beyondText(const ChannelDiff& channel) {
                        percentText(channel.criterion->share), channel.criterion->differing ? " differ" : "");
 }
 
+// "angle, °": what the figures of the channel's row are, and in which unit, where they have one.
+std::string metricAndUnit(const DebugMode& mode) {
+    const std::string unit = page::unitOf(mode);
+    return std::string(nameOf(mode.metric)) + (unit.empty() ? "" : ", " + unit);
+}
+
 std::string overview(const Comparison& comparison, std::size_t index) {
     std::string out = fmt::format(
         "<div class=\"box scroll\"><table class=\"overview\"><thead><tr><th>channel</th><th "
@@ -213,7 +209,7 @@ std::string overview(const Comparison& comparison, std::size_t index) {
         const ChannelStats& s = channel->stats;
         out += fmt::format("<tr><td><a href=\"#{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
                            cardId(index, *channel->mode), breakable(channel->mode->name),
-                           judgedBelow(*channel), nameOf(channel->mode->metric));
+                           judgedBelow(*channel), metricAndUnit(*channel->mode));
         if (channel->verdict == Verdict::forward_only)
             out +=
                 "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "

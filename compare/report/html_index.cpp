@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace diptych {
 
@@ -53,6 +56,10 @@ std::string litCell(const Comparison& comparison) {
     return numberCell(0, "");
 }
 
+bool isTimed(const Report& report) {
+    return std::ranges::any_of(report.frames, [](const Frame& frame) { return frame.time.runs > 0; });
+}
+
 std::string timeCell(const Frame& frame) {
     return numberCell(frame.time.median, frame.time.runs > 0 ? fmt::format("{:.1f}", frame.time.median) : "");
 }
@@ -64,12 +71,12 @@ std::string line(const Report& report, const ReportLayout& layout, std::size_t i
     const std::string& file = layout.sections[index];
     return fmt::format(
         "<tr data-comparison=\"{0}\"{1}><td><span class=\"verdict {2}\">{2}</span></td><td class=\"wide\"><a "
-        "href=\"#s{0}\" title=\"{9}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}{8}</tr>\n",
+        "href=\"#s{0}\" title=\"{8}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}</tr>\n",
         index, file.empty() ? "" : fmt::format(" data-section=\"{}\"", markup(file)), verdict,
         markup(page::inFolder(left.scene, layout.folder)),
         markup(hasSeveralPairs(report) ? pairTitle(report, comparison) : cameraTitle(left)),
-        worstCell(comparison, index), litCell(comparison), timeCell(left), timeCell(right),
-        markup(left.scene));
+        worstCell(comparison, index), litCell(comparison),
+        isTimed(report) ? timeCell(left) + timeCell(right) : "", markup(left.scene));
 }
 
 }  // namespace
@@ -80,15 +87,15 @@ std::string indexTable(const Report& report, const ReportLayout& layout) {
     for (const std::size_t i : layout.order) lines += line(report, layout, i);
     const Comparison& first = report.comparisons[0];
     const bool pairs = hasSeveralPairs(report);
+    std::vector<std::pair<std::string, bool>> columns{
+        {"verdict", false},       {"scene", false},       {pairs ? "pair" : "camera", false},
+        {"worst channel", false}, {"of its limit", true}, {"lit max", true}};
+    if (isTimed(report)) {
+        columns.emplace_back((pairs ? "left" : report.baseline(first).name) + ", ms", true);
+        columns.emplace_back((pairs ? "right" : report.test(first).name) + ", ms", true);
+    }
     std::string heads;
-    for (const auto& [name, isNumber] : {std::pair<std::string, bool>{"verdict", false},
-                                         {"scene", false},
-                                         {pairs ? "pair" : "camera", false},
-                                         {"worst channel", false},
-                                         {"of its limit", true},
-                                         {"lit max", true},
-                                         {(pairs ? "left" : report.baseline(first).name) + ", ms", true},
-                                         {(pairs ? "right" : report.test(first).name) + ", ms", true}})
+    for (const auto& [name, isNumber] : columns)
         heads += fmt::format("<th{}><button type=\"button\">{}</button></th>",
                              isNumber ? " class=\"n optional\"" : "", markup(name));
     return fmt::format(

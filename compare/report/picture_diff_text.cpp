@@ -218,8 +218,11 @@ std::string folderDiffTable(const FolderDiff& diff) {
                       all = diff.pictures.size();
     std::string line = diff.errors.empty()
                            ? ""
-                           : fmt::format("ERROR: {} pictures could not be compared; ", diff.errors.size());
-    if (diff.passed()) return out + fmt::format("{}pass: all {} pictures are within tolerance\n", line, all);
+                           : fmt::format("ERROR: {} picture{} could not be compared; ", diff.errors.size(),
+                                         diff.errors.size() == 1 ? "" : "s");
+    if (diff.passed())
+        return out + fmt::format("{}pass: {} within tolerance\n", line,
+                                 all == 1 ? "the one picture is" : fmt::format("all {} pictures are", all));
     std::string why;
     if (!failed.empty()) why = fmt::format("{} of {} pictures: {}", failed.size(), all, listed(failed, 8));
     if (alone > 0)

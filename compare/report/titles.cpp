@@ -173,12 +173,12 @@ std::string hardlyAnything(const Report& report) {
 }  // namespace
 
 std::string verdictLine(const Report& report) {
-    std::size_t compared = 0, failing = 0;
+    std::size_t compared = 0, alone_on_a_side = 0, failing = 0;
     std::vector<std::string> others, channels, places;
     for (const Comparison& comparison : report.comparisons) {
         for (const std::string& failure : comparison.failures) addOnce(others, failure);
         for (const ChannelDiff& channel : comparison.channels) {
-            compared += channel.verdict != Verdict::forward_only;
+            ++(channel.verdict == Verdict::forward_only ? alone_on_a_side : compared);
             if (channel.verdict == Verdict::fail) addOnce(channels, std::string(channel.mode->name));
         }
         failing += !comparison.passed();
@@ -192,8 +192,12 @@ std::string verdictLine(const Report& report) {
     if (failing == 0 && !alone.empty())
         return fmt::format("{}FAIL: {}{}", errors, alone, hardlyAnything(report));
     if (failing == 0)
-        return fmt::format("{}pass: all {} channels{} are within tolerance{}", errors, compared,
-                           all == 1 ? "" : fmt::format(" of {} comparisons", all), hardlyAnything(report));
+        return fmt::format(
+            "{}pass: {}{} within tolerance{}{}", errors,
+            compared == 1 ? "the one compared channel" : fmt::format("all {} compared channels", compared),
+            (all == 1 ? "" : fmt::format(" of {} comparisons", all)) + (compared == 1 ? " is" : " are"),
+            alone_on_a_side == 0 ? "" : fmt::format(" ({} more on one side alone)", alone_on_a_side),
+            hardlyAnything(report));
     // Of one comparison all stands in one sentence; of several, in parentheses, what is counted stands after.
     std::string what = others.empty() ? "" : all == 1 ? listed(others, 1) : others.front();
     if (!channels.empty())

@@ -102,5 +102,28 @@ TEST(PageReport, TheCommandOfAReportMakesItAgain) {
     EXPECT_TRUE(fs::exists(folder / "report-again/index.html"));
 }
 
+// What a reader copies from the card of a failing channel fails again by as much, judged by the same rules.
+TEST(PageReport, TheCommandOfAFailingCardFailsAgain) {
+    const Folder folder;
+    folder.write("t.json", R"({"rules": [{"channel": "normals", "max": 0, "because": "to fail"}]})");
+    const Ran first =
+        runTool(folder, "compare builtin:cutout --size 96x54 --runs 0 --tolerances t.json --json -o report");
+    ASSERT_EQ(first.code, 1) << first.err;
+    const std::string page = contentsOf(folder / "report/index.html"), start = "<code>diptych ";
+    ASSERT_EQ(countOf(page, start), 1u);
+    const std::size_t at = page.find(start) + start.size();
+    const std::string copied = page.substr(at, page.find("</code>", at) - at);
+    const Ran again = runTool(folder, copied + " --json --runs 0");
+    EXPECT_EQ(again.code, 1) << copied << again.err;
+    const auto normalsOf = [](const Ran& ran) {
+        const nlohmann::json report = nlohmann::json::parse(ran.out);
+        for (const auto& one : report["comparisons"][0]["channels"])
+            if (one["name"] == "normals") return one;
+        return nlohmann::json();
+    };
+    EXPECT_EQ(normalsOf(again), normalsOf(first)) << copied;
+    EXPECT_EQ(normalsOf(first)["verdict"], "fail");
+}
+
 }  // namespace
 }  // namespace diptych

@@ -30,7 +30,16 @@ public:
         posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
         posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
         posix_spawn_file_actions_addopen(&actions, 2, error_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-        EXPECT_EQ(::posix_spawn(&process_, DIPTYCH_PROGRAM, &actions, nullptr, argv.data(), environ), 0);
+        // A shell's background jobs, and with them these tests, ignore SIGINT; what they start would, too.
+        sigset_t heard;
+        sigemptyset(&heard);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&heard, signal);
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setsigdefault(&attributes, &heard);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+        EXPECT_EQ(::posix_spawn(&process_, DIPTYCH_PROGRAM, &actions, &attributes, argv.data(), environ), 0);
+        posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
     }
     ~Running() {

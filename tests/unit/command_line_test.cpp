@@ -351,6 +351,24 @@ TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     EXPECT_NO_THROW(parseCommandLine({"devices", "--size", "3x3"})) << "it is accepted yet";
 }
 
+// Of a Setting of which a command can draw no value but the default, --help says nothing.
+TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
+    const auto shows = [](const std::string& command, const std::string& option) {
+        return parseCommandLine({command, "--help"}).help.find("--" + option + " ") != std::string::npos;
+    };
+    for (const std::string command : {"compare", "tradeoff", "bench"}) {
+        for (const char* option : {"env", "ibl-intensity", "shadows", "shadow-lights", "evsm-exponent",
+                                   "time", "msaa", "sort", "haze"})
+            EXPECT_FALSE(shows(command, option)) << command << " " << option;
+        for (const char* option : {"gbuffer", "pixel-lights", "spp", "reference-mode", "ambient", "camera"})
+            EXPECT_TRUE(shows(command, option)) << command << " " << option;
+    }
+    for (const char* option : {"env", "ibl-intensity", "shadows", "time", "gbuffer", "spp"})
+        EXPECT_TRUE(shows("render", option)) << option;
+    for (const char* option : {"msaa", "sort", "haze", "shadow-lights"})
+        EXPECT_FALSE(shows("render", option)) << option;
+}
+
 TEST(CommandLine, WhatWasMeantIsSaid) {
     const std::pair<std::vector<std::string>, const char*> cases[] = {
         {{"comapre"}, "did you mean compare?"},

@@ -152,7 +152,9 @@ TEST(Layers, WhatIsNotInBothIsAnError) {
     EXPECT_EQ(thrown([&] { matchChannels(a(), c(), {}); }),
               "no layer is in both: the reference has lit, the test ao; --map gives them one name");
     EXPECT_EQ(thrown([&] { matchChannels(a(), a(), {"normals"}); }),
-              "--channels normals: not in both; the reference has lit, the test lit");
+              "--channels normals: not in both; both have lit");
+    EXPECT_EQ(thrown([&] { matchChannels(a(), a(), {"lti"}); }),
+              "--channels lti: not in both; did you mean lit?");
 }
 
 TEST(Layers, WholeNumbersBeyondFloat32AreToldApart) {

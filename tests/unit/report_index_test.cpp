@@ -56,6 +56,22 @@ TEST(ReportIndex, FailingOnesComeFirst) {
     EXPECT_EQ(filesIn(out), json["files"].get<std::vector<std::string>>());
 }
 
+// Files have no times, and --runs 0 measures none.
+TEST(ReportIndex, TimesHaveColumnsWhereFramesWereTimed) {
+    for (const bool timed : {true, false}) {
+        Report report = manyOf(2);
+        if (!timed)
+            for (Frame& frame : report.frames) frame.time = {};
+        const fs::path out = folder() / (timed ? "timed" : "untimed");
+        writeReport(report, out, {});
+        const std::string page = contentsOf(out / "index.html");
+        const std::string index = page.substr(page.find("<section class=\"index\">"));
+        const auto table = index.substr(0, index.find("</table>"));
+        EXPECT_EQ(countOf(table, ", ms</button></th>"), timed ? 2 : 0);
+        EXPECT_EQ(countOf(table, "<th"), countOf(table, "<td") / 2 + 1) << "and <thead>";
+    }
+}
+
 TEST(ReportIndex, ASinglePageBringsAllAsText) {
     const fs::path out = folder() / "report";
     ReportOptions options;

@@ -35,7 +35,8 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
         std::string::npos)
         << lit;
     EXPECT_EQ(lit.find("class=\"beyond\""), std::string::npos);
-    EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance; "), std::string::npos) << "the verdict's line";
+    EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance</p>"), std::string::npos)
+        << "the verdict's line";
 }
 
 // Of the Settings those are coloured in which the two differ, and no others.
@@ -73,6 +74,15 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     EXPECT_NE(page.find("<p>ERROR: 1 scene could not be drawn: a/bad.glb; pass"), std::string::npos);
 }
 
+TEST(ReportOverview, ErrorsThatAreAnglesHaveAUnit) {
+    const std::filesystem::path out = folder() / "report";
+    writeReport(reportOf(bothFrames()), out, {});
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_NE(page.find(">normals</a>"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"optional soft\">angular, \u00b0</td>"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"optional soft\">relative</td>"), std::string::npos);
+}
+
 // The tables have more rows than the verdict counts.
 TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
     const Report report = reportOf(bothFrames());
@@ -82,7 +92,7 @@ TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
     const std::filesystem::path out = folder() / "report";
     writeReport(report, out, {});
     EXPECT_NE(contentsOf(out / "index.html")
-                  .find(fmt::format(" are within tolerance; {} are made by one path alone", alone)),
+                  .find(fmt::format(" are within tolerance ({} more on one side alone)", alone)),
               std::string::npos);
 }
 
@@ -98,7 +108,7 @@ TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
         const std::string page = contentsOf(out / "index.html"), json = contentsOf(out / "report.json"),
                           junit = contentsOf(out / "junit.xml");
         EXPECT_EQ(countOf(page, "<h1><span class=\"verdict fail\">fail</span>"), lacking);
-        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A alone; "), lacking);
+        EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A alone</p>"), lacking);
         EXPECT_EQ(countOf(page, "<li>only_a.exr: is in A alone</li>"), lacking);
         EXPECT_EQ(countOf(json, "\n  \"verdict\": \"fail\""), lacking);
         EXPECT_EQ(countOf(json, "\"scene\": \"only_a.exr\""), lacking);

@@ -326,8 +326,10 @@ TEST(Report, TheTableSaysFailuresFirstAndTheVerdictLast) {
     EXPECT_TRUE(table.ends_with("FAIL: albedo, roughness beyond tolerance\n")) << table;
     const auto both = std::ranges::count_if(
         debugModes(), [](const DebugMode& mode) { return mode.maker != MadeBy::forward_only; });
-    EXPECT_TRUE(
-        reportTable(passing()).ends_with(fmt::format("pass: all {} channels are within tolerance\n", both)));
+    EXPECT_TRUE(reportTable(passing()).ends_with(
+        fmt::format("pass: all {} compared channels are within tolerance ({} more on one "
+                    "side alone)\n",
+                    both, std::ssize(debugModes()) - both)));
 }
 
 TEST(Report, NotesOfTheSceneAreSaidOnce) {

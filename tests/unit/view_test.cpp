@@ -252,6 +252,8 @@ TEST(MakeView, SceneCamerasByDefaultIndexAndName) {
         EXPECT_NE(error.find("--camera"), error.npos) << wrong;
         EXPECT_NE(error.find("second one"), error.npos) << error;
     }
+    EXPECT_NE(errorOf("Second on", scene).find("; did you mean second one?"), std::string::npos);
+    EXPECT_EQ(errorOf("third", scene).find("did you mean"), std::string::npos);
 }
 
 TEST(MakeView, ExplicitCamera) {
