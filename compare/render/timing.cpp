@@ -20,6 +20,12 @@ std::vector<PassTime> mediansOf(const std::vector<std::vector<PassTime>>& frames
     return passes;
 }
 
+FrameTime timeWithRecording(const std::vector<double>& ms, const std::vector<double>& recording) {
+    FrameTime time = timeOf(ms);
+    time.record = timeOf(recording).median;
+    return time;
+}
+
 void takeTurns(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw) {
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < count; ++i) draw(round, i);
@@ -47,8 +53,7 @@ std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std:
     });
     inTurns(profiled, "passes", [&](std::size_t i) { passes[i].push_back(frames.profile(which[i])); });
     for (std::size_t i = 0; i < which.size(); ++i) {
-        timed[i].time = timeOf(timed[i].ms);
-        timed[i].time.record = timeOf(recording[i]).median;
+        timed[i].time = timeWithRecording(timed[i].ms, recording[i]);
         timed[i].time.object_lists = frames.objectListsMs(which[i]);
         timed[i].passes = mediansOf(passes[i]);
     }

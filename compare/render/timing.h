@@ -30,6 +30,9 @@ std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std:
 // Calls draw(round, i) for each of `count` frames once a round, one round after the other.
 void takeTurns(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw);
 
+// The time of frames that took `ms`, of which recording took `recording`: medians of each.
+FrameTime timeWithRecording(const std::vector<double>& ms, const std::vector<double>& recording);
+
 // The passes of the first frame, each with the median of its times over all frames, which have the same
 // passes. Empty of no frames.
 std::vector<PassTime> mediansOf(const std::vector<std::vector<PassTime>>& frames);

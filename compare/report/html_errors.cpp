@@ -52,7 +52,8 @@ private:
             const auto left = static_cast<double>(i),
                        cut = beyond_ ? std::clamp(line, left, left + 1) : left + 1;
             const std::string title = fmt::format(
-                "{} to {}: {} pixels{}", size(errors_.edge(i)), size(errors_.edge(i + 1)), count,
+                "{} to {}: {} pixel{}{}", size(errors_.edge(i)), size(errors_.edge(i + 1)), count,
+                count == 1 ? "" : "s",
                 i == 0 && errors_.smaller > 0 ? fmt::format(", {} of them below", errors_.smaller) : "");
             out += bar("", left, cut, height, title) + bar(" class=\"beyond\"", cut, left + 1, height, title);
         }

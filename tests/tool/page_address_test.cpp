@@ -36,6 +36,7 @@ TEST(PageAddress, LeadsBackToWhatWasSeen) {
     const fs::path page = written(folder, reportOf(rampFrames()));
     for (const char* actions : {
              "key('s');",
+             "await wait(600); key('s');",  // alone, when nothing else is being remembered
              "pair.querySelector('input').value = 30; pair.querySelector('input').dispatchEvent(new "
              "Event('input', { bubbles: true }));",
              "key('+'); key('+'); key('+');",

@@ -112,7 +112,7 @@ TEST(ReportErrors, ThePageTellsThem) {
     const std::string rough = cardOf(page, "roughness"), id = cardOf(page, "material_id"),
                       lit = cardOf(page, "lit");
     EXPECT_NE(rough.find("11 of 12 are equal"), std::string::npos) << rough;
-    EXPECT_NE(rough.find(": 1 pixels</title>"), std::string::npos);
+    EXPECT_NE(rough.find(": 1 pixel</title>"), std::string::npos);
     EXPECT_NE(rough.find("class=\"beyond\""), std::string::npos) << "0.25 is beyond the tolerance";
     EXPECT_NE(rough.find("href=\"#c0-roughness@1,2\" data-pixel=\"1,2\""), std::string::npos);
     EXPECT_NE(id.find("data-pixel=\"0,0\""), std::string::npos);
@@ -169,6 +169,9 @@ TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
               std::string::npos)
         << card;
     EXPECT_NE(card.find("pixels by FLIP, the height"), std::string::npos);
+    EXPECT_NE(card.find("<title>0.121 to 0.133: 1 pixel</title>"), std::string::npos)
+        << "and not where 0.25 lies: " << card;
+    EXPECT_NE(card.find("the limit is on flip, not on these errors"), std::string::npos) << "it is a mean";
     EXPECT_EQ(
         judgedCard({.figure = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
         std::string::npos)

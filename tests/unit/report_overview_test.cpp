@@ -20,7 +20,8 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
     const std::filesystem::path out = folder() / "report";
-    writeReport(reportOf(std::move(frames)), out, {});
+    Report report = reportOf(std::move(frames));
+    writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
     const std::string roughness = rowOf(page, "roughness"), lit = rowOf(page, "lit");
     // On a narrow page these three cells stay, and the share of what fails.
@@ -35,6 +36,14 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
         std::string::npos)
         << lit;
     EXPECT_EQ(lit.find("class=\"beyond\""), std::string::npos);
+    // The figure of a rule is not the largest error.
+    for (ChannelDiff& channel : report.comparisons[0].channels)
+        if (channel.mode->name == "roughness")
+            channel.criterion = {.figure = "mean", .measured = 0.125, .limit = 0.5};
+    writeReport(report, out, {});
+    EXPECT_NE(rowOf(contentsOf(out / "index.html"), "roughness")
+                  .find("<td class=\"soft by\">mean</td><td class=\"n\">0.125</td><td class=\"n\">0.5</td>"),
+              std::string::npos);
     EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance</p>"), std::string::npos)
         << "the verdict's line";
 }

@@ -18,6 +18,13 @@ TEST(Timing, FramesAreDrawnInTurns) {
     takeTurns(0, 3, [](int, std::size_t) { ADD_FAILURE() << "no round"; });
 }
 
+TEST(Timing, RecordingHasATimeOfItsOwn) {
+    const FrameTime time = timeWithRecording({5, 3, 4}, {2, 0.5, 1});
+    EXPECT_EQ(time.median, 4);
+    EXPECT_EQ(time.record, 1);
+    EXPECT_EQ(time.runs, 3);
+}
+
 // The median lies in the middle frame of one pass and in the last of the other; neither is first or largest.
 TEST(Timing, APassHasTheMedianOfItsTimes) {
     const std::vector<PassTime> medians =
