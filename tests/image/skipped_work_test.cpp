@@ -90,6 +90,23 @@ TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
         }
 }
 
+// Overdraw is counted in a small picture, whose counts are scaled to the whole.
+TEST(SkippedWork, OverdrawIsThatOfEverySize) {
+    const Scene scene = loadScene("builtin:triangle");
+    for (const Size size : {Size{160, 90}, Size{640, 360}, Size{1280, 720}}) {
+        Settings settings = smallFrame(Path::forward_plus);
+        settings.prepass = Switch::automatic;
+        settings.size = size;
+        RenderOptions options;
+        options.channels = {lit};
+        options.runs = 0;
+        const Frame frame = drawAll(scene, {settings}, options).front();
+        EXPECT_TRUE(std::ranges::any_of(frame.notes, [](const std::string& note) {
+            return note.find(" 1.00 fragments a covered pixel") != note.npos;
+        })) << size.width;
+    }
+}
+
 // Nearest objects are drawn first: hidden fragments then fail the depth test before they are shaded. This
 // also holds for an orthographic camera, whose w is always 1.
 TEST(SkippedWork, DrawsGoFromNearToFar) {
