@@ -5,6 +5,7 @@
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -100,8 +101,14 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
     };
     capture(request.modes, {});
     capture(request.through_gbuffer, gpu::SURFACE_DECODED);
-    for (gpu::uint surface = gpu::SURFACE_RAISED; surface < gpu::SURFACE_END; ++surface)
-        capture(request.bounded, surface);
+    // The same channels again, because all surfaces are drawn by one set of pipelines then.
+    for (gpu::uint surface = gpu::SURFACE_RAISED; surface < gpu::SURFACE_END && !request.bounded.empty();
+         ++surface)
+        capture(request.through_gbuffer, surface);
+    std::erase_if(images, [&](const CapturedImage& image) {
+        return image.surface.value_or(gpu::SURFACE_DECODED) != gpu::SURFACE_DECODED &&
+               std::ranges::find(request.bounded, image.mode) == request.bounded.end();
+    });
     return images;
 }
 

@@ -39,17 +39,19 @@ uvec4 viewTexel(int i) {
 
 View readView() {
     View v = view_block;
-    if (feature_view_source == VIEW_UNIFORM || on(feature_orthographic)) return v;
-    uvec4 t0 = viewTexel(0), t1 = viewTexel(1), t2 = viewTexel(2), t3 = viewTexel(3), t4 = viewTexel(4);
-    PACKED_VIEW(UNPACK_FLOAT, UNPACK_UINT)
+    if (feature_view_source != VIEW_UNIFORM && !on(feature_orthographic)) {
+        uvec4 t0 = viewTexel(0), t1 = viewTexel(1), t2 = viewTexel(2), t3 = viewTexel(3), t4 = viewTexel(4);
+        PACKED_VIEW(UNPACK_FLOAT, UNPACK_UINT)
+    }
     return v;
 }
 
 LightGrid readGrid() {
     LightGrid v = grid_block;
-    if (feature_view_source == VIEW_UNIFORM) return v;
-    uvec4 t3 = viewTexel(3), t4 = viewTexel(4);
-    PACKED_GRID(UNPACK_FLOAT, UNPACK_UINT, UNPACK_SHORTS)
+    if (feature_view_source != VIEW_UNIFORM) {
+        uvec4 t3 = viewTexel(3), t4 = viewTexel(4);
+        PACKED_GRID(UNPACK_FLOAT, UNPACK_UINT, UNPACK_SHORTS)
+    }
     return v;
 }
 

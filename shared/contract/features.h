@@ -70,7 +70,7 @@
     /* beyond the packed format's range: float32 */                                                         \
     X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* VIEW_*: where a fragment shader has the view from */                                                 \
-    X(41, view_source,                frame,   0, PASSES_SURFACE | PASS_LIGHTING)                           \
+    X(41, view_source,                frame,   0, PASSES_SHADE)                                             \
     /* for channels, which may need more than shading does */                                               \
     X(42, captured,                   pass,    3, PASSES_SURFACE)                                           \
     /* a depth pre-pass has stored the depth, which the draw reads */                                       \

@@ -31,7 +31,7 @@ struct CapturedImage {
 
 // The channels that a capture makes: of surfaces as they are; and, forward+ only, of surfaces that went
 // through the G-buffer's encoding, which the deferred path has to show, and of those that bound its effect
-// (SURFACE_RAISED and all after it, in this order).
+// (SURFACE_RAISED and all after it, in this order): `bounded`, some of `through_gbuffer`.
 struct CaptureRequest {
     std::vector<int> modes, through_gbuffer, bounded;
 };

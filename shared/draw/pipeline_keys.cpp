@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/pipeline_keys.h"
 
+#include "shared/contract/debug_mode.h"
 #include "shared/contract/object_lights.h"
 #include "shared/draw/pipeline_parts.h"
 
@@ -61,6 +62,10 @@ PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, c
 }
 
 PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface) {
+    bool normals = false;
+    for (gpu::uint i = 0; i < gpu::CAPTURE_ATTACHMENTS; ++i)
+        normals |= key.variant.get(gpu::FEATURE_capture_0 + i) == gpu::DEBUG_geometric_normal;
+    if (!surface && !normals) return key;
     key.variant.take(inputs.variant, featuresSetBy(FeatureSource::gbuffer));
     key.variant.set(gpu::FEATURE_encoded_surface, surface);
     return key;

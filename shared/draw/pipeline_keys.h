@@ -24,7 +24,7 @@ PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, c
 
 // Lets a forward key quantise as the frame's G-buffer would. With `surface` a surface that the encoding may
 // make is shaded (gpu::DrawConstants::surface); without, only the geometric normal is quantised, as both
-// paths must have the same one.
+// paths must have the same one, and keys of other channels stay the same for every encoding.
 PipelineKey quantised(PipelineKey key, const FrameInputs& inputs, bool surface);
 
 }  // namespace diptych
