@@ -292,7 +292,7 @@ TEST(Command, AChannelThatDeferredCannotMakeNamesThePathThatCan) {
 
 TEST(Command, CompareLeavesAReportWhoseVerdictIsTheExitCode) {
     const Folder folder;
-    const Ran ran = runTool(folder, "compare --json" + quick);
+    const Ran ran = runTool(folder, "compare --json" + quickTriangle);
     ASSERT_TRUE(ran.code == 0 || ran.code == 1) << ran.err;
     const Json report = parsed(ran);
     EXPECT_EQ(report["schema"], 1);
@@ -303,7 +303,7 @@ TEST(Command, CompareLeavesAReportWhoseVerdictIsTheExitCode) {
     for (const char* file : {"index.html", "report.json", "junit.xml", "deferred.exr", "forward_plus.exr"})
         EXPECT_TRUE(fs::exists(folder / ("diptych-report/" + std::string(file)))) << file;
     EXPECT_EQ(Json::parse(contentsOf(folder / "diptych-report/report.json")), report);
-    EXPECT_EQ(runTool(folder, "compare -q" + quick).code, ran.code) << "our own report is replaced";
+    EXPECT_EQ(runTool(folder, "compare -q" + quickTriangle).code, ran.code) << "our own report is replaced";
 }
 
 // Both paths shade the same surfaces: parity holds for every encoding on the built-in scene.
@@ -325,7 +325,8 @@ TEST(Command, SettingsOfAReportReproduceIt) {
         parsed(runTool(folder, "render --json --seed 3 --lights point:2 -o a.exr" + quickTriangle));
     const Json settings = first["frames"][0]["settings"];
     folder.write("settings.json", settings.dump());
-    const Json second = parsed(runTool(folder, "render --json --runs 0 --settings settings.json -o b.exr"));
+    const Json second =
+        parsed(runTool(folder, "render builtin:triangle --json --runs 0 --settings settings.json -o b.exr"));
     EXPECT_EQ(second["frames"][0]["settings"], settings);
     EXPECT_EQ(settings["seed"], 3);
 }
