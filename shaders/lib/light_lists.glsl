@@ -127,7 +127,7 @@ void look(inout AreaWalk walk) {
     uint place = min(walk.place, max(walk.end, 1u) - 1u);
     walk.light = lightsOfPacket(place / feature_list_width)[place % feature_list_width];
     uint first = view.directional_light_count + view.point_light_count + view.spot_light_count;
-    walk.number = min(walk.light - first, areaCount());
+    walk.number = walk.light - first;
     walk.more = walk.place < walk.end && walk.number < areaCount();
 }
 AreaWalk areaWalk(uvec2 packets) {

@@ -187,8 +187,10 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     std::uniform_real_distribution<double> unit(-1, 1);
     const auto vec = [&] { return glm::normalize(glm::dvec3(unit(random), unit(random), unit(random))); };
     const glm::dvec3 albedo(0.8, 0.5, 0.25);
-    double from_harmonics = 0, from_vertices = 0;
+    double from_harmonics = 0, from_lists = 0;
+    int shares = 0;
     for (int turn = 0; turn < 12; ++turn) {
+        const int pixels = turn % 2 == 0 ? 0 : 3;  // lights per pixel
         const glm::dvec3 n = vec(), right = glm::normalize(glm::cross(n, vec())), up = glm::cross(n, right);
         const glm::dmat4 turned(glm::dmat3(right, up, n));
         Scene scene = square();
@@ -197,7 +199,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
         scene.materials[0].base_color = glm::vec4(glm::vec3(albedo), 1);
         scene.materials[0].metallic = 0;
         scene.materials[0].specular = 0;
-        // Suns, of which the four brightest are vertex lights: equal at all corners.
+        // Suns, of which the four brightest that no pixel shades are vertex lights: equal at all corners.
         for (int i = 0; i < 14; ++i) {
             Light light;
             light.kind = i < 8 ? LightKind::directional : LightKind::point;
@@ -205,20 +207,23 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
             light.position = (6.0 + i) * vec();
             light.intensity = i < 8 ? std::exp2(-0.5f * static_cast<float>(i)) : 4;
             light.color = glm::abs(glm::vec3(vec()));
-            light.importance = Importance::not_important;
+            if (pixels == 0) light.importance = Importance::not_important;
             scene.lights.push_back(light);
         }
         const View view = makeView(scene, poseAt(scene, 0), "0", 4, 4);
         const GpuLights lights = gpuLights(scene.lights, view.eye());
         const ObjectPlace place{-view.eye(), glm::abs(right) + glm::abs(up)};
-        const ObjectLightLists lists = objectLightLists(lights, std::span(&place, 1), 0);
+        const ObjectLightLists lists = objectLightLists(lights, std::span(&place, 1), pixels);
         const gpu::ObjectLights& object = lists.objects[0];
-        ASSERT_EQ(object.begin, object.area_end) << "none is important";
-        ASSERT_EQ(object.vertex_directional_end, object.vertex_end) << "no point light is so bright";
-        glm::dvec3 vertex(0);
+        ASSERT_EQ(object.begin == object.area_end, pixels == 0);
+        ASSERT_EQ(object.local_begin, object.area_end) << "no point light is so bright";
+        ASSERT_EQ(object.vertex_directional_end, object.vertex_end);
+        glm::dvec3 listed(0);
         for (gpu::uint i = object.begin; i < object.vertex_end; ++i) {
             const gpu::Light& sun = lights.lights[lists.entries[i].light];
-            vertex += glm::dvec3(sun.intensity) * double{lists.entries[i].weight} *
+            const float share = lists.entries[i].weight;
+            shares += i < object.area_end && share > 0.02f && share < 0.98f;
+            listed += glm::dvec3(sun.intensity) * double{share} *
                       std::max(glm::dot(n, glm::dvec3(sun.position)), 0.0);
         }
         const gpu::ObjectIrradiance& e = object.irradiance;
@@ -227,18 +232,19 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
                          mixed = d(e.xy) * n.x * n.y + d(e.yz) * n.y * n.z + d(e.xz) * n.x * n.z,
                          squares = d(e.xx) * (n.x * n.x - n.z * n.z) + d(e.yy) * (n.y * n.y - n.z * n.z);
         const glm::dvec3 harmonics = glm::max(d(e.constant) + linear + squares + 2.0 * mixed, 0.0);
-        const glm::dvec3 expected = albedo / glm::pi<double>() * (vertex + harmonics);
-        const Frame frame = drawn(scene, Assignment::per_object, 0, {4, 4});
+        const glm::dvec3 expected = albedo / glm::pi<double>() * (listed + harmonics);
+        const Frame frame = drawn(scene, Assignment::per_object, pixels, {4, 4});
         // 1e-5: a dozen float32 roundings of sums that partly cancel.
         for (const glm::ivec2 p : {glm::ivec2(0, 0), {2, 1}, {3, 3}})
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(frame.channels.at(lit).at(p.x, p.y, c), expected[c], 1e-5 * (1 + expected[c]))
                     << turn;
         from_harmonics += harmonics.g;
-        from_vertices += vertex.g;
+        from_lists += listed.g;
     }
-    EXPECT_GT(from_harmonics, 0.1 * from_vertices);
-    EXPECT_GT(from_vertices, 0.1 * from_harmonics);
+    EXPECT_GT(from_harmonics, 0.1 * from_lists);
+    EXPECT_GT(from_lists, 0.1 * from_harmonics);
+    EXPECT_GE(shares, 2) << "lights shaded per pixel of which the harmonics have a part";
 }
 
 // A double-sided square under a lamp that is shaded at its vertices is as bright from behind as from the
