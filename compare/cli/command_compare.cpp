@@ -25,23 +25,6 @@
 namespace diptych::cli {
 namespace {
 
-CompareOptions compareOptions(const Options& options) {
-    CompareOptions compare;
-    compare.baseline = options.baseline;
-    compare.selection = options.selection;
-    compare.allow_noise = options.allow_noise;
-    compare.strict = options.strict;
-    compare.allow_empty = options.allow_empty;
-    compare.required = options.channels;
-    compare.words = wordsOfWhatCounts(options);
-    if (options.tolerances.empty()) return compare;
-    compare.rules = readRules(options.tolerances);
-    std::vector<std::string> known;
-    for (const DebugMode& mode : debugModes()) known.emplace_back(mode.name);
-    checkChannels(compare.rules, known);
-    return compare;
-}
-
 // What both paths drew, of every scene and camera.
 struct Drawn {
     std::vector<Frame> frames;  // two by two; three by three where the reference comes first

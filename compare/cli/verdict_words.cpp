@@ -2,6 +2,7 @@
 #include "compare/cli/verdict_words.h"
 
 #include "compare/cli/options.h"
+#include "shared/frame/debug_modes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -79,6 +80,23 @@ std::vector<std::string> wordsOfWhatCounts(const Options& options) {
     if (options.allow_noise) words.words.emplace_back("--allow-noise");
     addFlags(words, options);
     return words.words;
+}
+
+CompareOptions compareOptions(const Options& options) {
+    CompareOptions compare;
+    compare.baseline = options.baseline;
+    compare.selection = options.selection;
+    compare.allow_noise = options.allow_noise;
+    compare.strict = options.strict;
+    compare.allow_empty = options.allow_empty;
+    compare.required = options.channels;
+    compare.words = wordsOfWhatCounts(options);
+    if (options.tolerances.empty()) return compare;
+    compare.rules = readRules(options.tolerances);
+    std::vector<std::string> known;
+    for (const DebugMode& mode : debugModes()) known.emplace_back(mode.name);
+    checkChannels(compare.rules, known);
+    return compare;
 }
 
 }  // namespace diptych::cli

@@ -103,7 +103,10 @@ TEST(VisibleSurface, IsTheNearestThatIsDrawn) {
     scene.materials[0].double_sided = false;
     scene.nodes[0].parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
     const Pose mirrored = poseAt(scene, 0);
-    EXPECT_TRUE(VisibleSurface(scene, mirrored, worldBounds(scene, mirrored)).nearest({0, 0, 0}, {-1, 0, 0}));
+    const auto near =
+        VisibleSurface(scene, mirrored, worldBounds(scene, mirrored)).nearest({0, 0, 0}, {-1, 0, 0});
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(near->distance, 1, 1e-6) << "not the far side, whose back is towards us";
 }
 
 // A skin or a morph target may make one; the rest of the surface is there.
@@ -183,11 +186,32 @@ TEST(DefaultView, OfAClosedRoomIsFromInside) {
     EXPECT_EQ(wordsOf(view), "from inside; 100 % of the picture is covered");
 }
 
-// As tall as a doll's house: nobody stands in it.
-TEST(DefaultView, OfAToyRoomIsFromOutside) {
-    Scene scene = closedRoom();
-    for (Node& node : scene.nodes) node.parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(0.1));
-    EXPECT_EQ(chooseDefaultView(scene).place, Place::usual);
+// As tall as a doll's house, or as a crawl space: nobody stands in it.
+TEST(DefaultView, OfARoomTooLowToStandInIsFromOutside) {
+    for (const auto& [scale, place] :
+         {std::pair{0.1, Place::usual}, {0.65, Place::usual}, {0.7, Place::inside}}) {
+        Scene scene = closedRoom();
+        for (Node& node : scene.nodes) node.parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(scale));
+        EXPECT_EQ(chooseDefaultView(scene).place, place) << 3 * scale << " m";
+    }
+}
+
+// What faces other ways is another part of the picture, whether it is another primitive or not.
+TEST(DefaultView, SidesOfOnePrimitiveArePartsOfThePicture) {
+    Scene scene;
+    addBox(scene, {-1, -1, -1}, {1, 1, 1}, false);
+    const double apart = chooseDefaultView(scene).entropy;
+    Primitive whole;
+    for (const Primitive& side : scene.meshes[0].primitives) {
+        const auto first = static_cast<std::uint32_t>(whole.positions.size());
+        whole.positions.insert(whole.positions.end(), side.positions.begin(), side.positions.end());
+        for (const std::uint32_t i : side.indices) whole.indices.push_back(first + i);
+    }
+    whole.normals.assign(whole.positions.size(), glm::vec3(0, 1, 0));
+    whole.tangents.assign(whole.positions.size(), glm::vec4(1, 0, 0, 1));
+    scene.meshes[0].primitives = {whole};
+    EXPECT_DOUBLE_EQ(chooseDefaultView(scene).entropy, apart);
+    EXPECT_GT(apart, 1.5) << "three sides and what is around them";
 }
 
 TEST(DefaultView, OfAnOpenFloorIsFromOutside) {

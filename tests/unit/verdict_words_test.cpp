@@ -50,5 +50,23 @@ TEST(VerdictWords, DefaultsNeedNone) {
               VerdictWordList{});
 }
 
+TEST(VerdictWords, CompareIsTold) {
+    const auto told = [](VerdictWordList words) {
+        words.insert(words.begin(), "compare");
+        return cli::compareOptions(cli::parseCommandLine(words));
+    };
+    const CompareOptions usual = told({});
+    EXPECT_FALSE(usual.allow_noise || usual.strict || usual.allow_empty);
+    EXPECT_EQ(usual.baseline, Path::deferred);
+    EXPECT_TRUE(usual.required.empty());
+    EXPECT_TRUE(told({"--allow-noise"}).allow_noise);
+    EXPECT_TRUE(told({"--strict"}).strict);
+    EXPECT_TRUE(told({"--allow-empty"}).allow_empty);
+    EXPECT_EQ(told({"--baseline", "forward_plus"}).baseline, Path::forward_plus);
+    EXPECT_EQ(told({"--channels", "lit,depth"}).required, (std::vector<int>{0, 10}));
+    EXPECT_EQ(told({"--ignore-edges", "3"}).selection.ignore_edges, 3);
+    EXPECT_EQ(told({"--strict"}).words, VerdictWordList{"--strict"});
+}
+
 }  // namespace
 }  // namespace diptych
