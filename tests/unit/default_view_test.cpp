@@ -211,7 +211,7 @@ TEST(DefaultView, SidesOfOnePrimitiveArePartsOfThePicture) {
     whole.tangents.assign(whole.positions.size(), glm::vec4(1, 0, 0, 1));
     scene.meshes[0].primitives = {whole};
     EXPECT_DOUBLE_EQ(chooseDefaultView(scene).entropy, apart);
-    EXPECT_GT(apart, 1.5) << "three sides and what is around them";
+    EXPECT_GT(apart, 1) << "more than two parts can have: three sides and what is around them";
 }
 
 TEST(DefaultView, OfAnOpenFloorIsFromOutside) {
