@@ -5,6 +5,7 @@
 #include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
+#include "shared/shadow/shadow_maps.h"
 
 #include <algorithm>
 #include <memory>
@@ -48,6 +49,7 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
         if (image.valid()) pass.samples(image, inFragment);
     batch.read(pass);
     inputs.lists.read(passes, pass);
+    inputs.shadow.read(pass);
     pass.samples(frame.depth, inFragment).depthTest(frame.depth).takes(shadingMs(passes, inputs, batch));
     variant.set(gpu::FEATURE_light_batch, batch.kind);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
@@ -81,6 +83,7 @@ LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const
 
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
+    inputs.shadow.addPasses(passes, inputs);
     images.depth = passes.image("depth", depthFormat);
     for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {
         const VkFormat format = inputs.gbuffer.formats[i];
@@ -94,6 +97,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
     addDeferredLighting(passes, shade, inputs, images, Shader::deferred_shade_frag, lightingVariant(inputs),
                         {litFormat}, last);
+    inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
 

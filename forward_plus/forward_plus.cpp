@@ -4,6 +4,7 @@
 #include "shared/contract/encoded_surface.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
+#include "shared/shadow/shadow_maps.h"
 
 #include <algorithm>
 #include <memory>
@@ -28,6 +29,7 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
     if (stored) pass.samples(images.depth, inFragment);
     batch.read(pass);
     inputs.lists.read(passes, pass);
+    inputs.shadow.read(pass);
     pass.takes(shadingMs(passes, inputs, batch));
     pass.record(recordDraws(
         inputs,
@@ -43,6 +45,7 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
 
 FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
+    inputs.shadow.addPasses(passes, inputs);
     images.depth = passes.image("depth", depthFormat);
     if (inputs.prepass)
         passes.draw("depth pre-pass").depth(images.depth, Load::clear).record(recordDraws(inputs, depthKey));
@@ -66,6 +69,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     });
     images.lit = passes.image("lit", litFormat);
     addShading(passes.draw("shade").color(images.lit, Load::clear), last, forwardKey);
+    inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
 

@@ -61,6 +61,10 @@ RenderOptions bothOptions(const Options& options, bool traced) {
     // which light is judged.
     std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};
     if (traced) helpers = footprintChannels();
+    // How far the shadow filter reaches at a pixel follows from these.
+    if (options.settings.shadows != Shadows::off)
+        for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
+            helpers.push_back(static_cast<int>(mode));
     for (const int mode : helpers)
         if (std::ranges::count(render.channels, mode) == 0) render.channels.push_back(mode);
     return render;

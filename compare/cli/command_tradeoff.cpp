@@ -90,8 +90,8 @@ public:
         say(options, "on " + device_.info().name);
         tradeoff_.scene = options.scenes.front();
         tradeoff_.cameras = options.cameras;
-        tradeoff_.given = options.settings;
-        tradeoff_.reference = referenceSettings(options.settings);
+        tradeoff_.given = truthFor(options.settings, sweep.rows);
+        tradeoff_.reference = referenceSettings(tradeoff_.given);
         tradeoff_.device = reportDevice(device_);
         tradeoff_.runs = options.runs;
         tradeoff_.skips = sweep.skips;
@@ -115,7 +115,7 @@ public:
         drawing.keep = [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
             return references_.open(key, floats);
         };
-        const ReferenceFrames references = drawReferenceFrames(renderer, options_.settings, options_.cameras,
+        const ReferenceFrames references = drawReferenceFrames(renderer, tradeoff_.given, options_.cameras,
                                                                pictureChoice(options_), drawing);
         tradeoff_.cost.reference = msSince(uploaded);
         for (const Frame& frame : references.frames)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -110,6 +111,11 @@ const char* unitOf(const DebugMode& mode) {
 std::string cameraTitle(const Frame& frame) {
     if (!frame.camera.name.empty()) return frame.camera.name;
     return frame.settings.camera.empty() ? "default view" : frame.settings.camera;
+}
+
+std::string numberCell(double value, std::string_view text) {
+    return fmt::format("<td class=\"n\" data-value=\"{}\">{}</td>", std::isfinite(value) ? value : 1e300,
+                       markup(text));
 }
 
 }  // namespace diptych::page

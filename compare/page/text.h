@@ -32,6 +32,10 @@ std::string inFolder(std::string_view path, std::string_view folder);
 // A name that may be broken into lines after its underscores, escaped.
 std::string breakable(std::string_view name);
 
+// A table's cell with a number; `text`: as it is shown. Tables are sorted by the number, what is infinite
+// last.
+std::string numberCell(double value, std::string_view text);
+
 // The camera's name, else --camera as given, else "default view".
 std::string cameraTitle(const Frame& frame);
 

@@ -170,14 +170,17 @@ private:
 }  // namespace
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
-                   const glm::dvec3& eye, const glm::dvec3& ambient)
-    : ambient_(ambient) {
-    for (const Light& light : lights) {
+                   const glm::dvec3& eye, const glm::dvec3& ambient, std::span<const std::size_t> casters,
+                   bool shadowed_environment)
+    : ambient_(ambient), shadowed_environment_(shadowed_environment) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
+        const bool casts = std::ranges::find(casters, i) != casters.end();
         if (glm::dvec3(light.color) * double{light.intensity} == glm::dvec3(0)) continue;
         if (isArea(light.kind) || (light.kind == LightKind::directional && light.angle > 0))
-            emitters_.push_back(emitterOf(light, eye));
+            emitters_.push_back({emitterOf(light, eye), casts});
         else
-            punctual_.push_back({light, light.position - eye});
+            punctual_.push_back({light, light.position - eye, casts});
     }
     if (environment) environment_.emplace(*environment, environment_factor);
     if (environment_ && environment_->black()) environment_.reset();
@@ -189,14 +192,15 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position);
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
-        if (reflected.size() > 0 && (!visible || visible(light.to_light, light.distance)))
+        if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance)))
             sum.reflected += reflected;
         // NaN must not be hidden.
         if (std::isnan(reflected.size())) sum.reflected += reflected;
     }
     for (std::size_t i = 0; i < emitters_.size(); ++i)
-        sum += fromEmitter(emitters_[i], surface.position, brdf, visible, streamOf(seed, i + 1));
-    if (environment_) sum += fromEnvironment(brdf, visible, seed);
+        sum += fromEmitter(emitters_[i].emitter, surface.position, brdf,
+                           emitters_[i].casts ? visible : Visibility{}, streamOf(seed, i + 1));
+    if (environment_) sum += fromEnvironment(brdf, shadowed_environment_ ? visible : Visibility{}, seed);
     // A lightmap has no directions: its irradiance is assumed uniform, and only the diffuse base reflects
     // it.
     if (ambient_ + surface.lightmap != glm::dvec3(0))

@@ -51,26 +51,35 @@ struct Shading {
 class Lighting {
 public:
     // `lights` are in world space; `environment` must outlive this; `eye` becomes the origin of positions;
-    // `ambient` is radiance from all directions.
+    // `ambient` is radiance from all directions; `casters` are the lights, by their places, that cast
+    // shadows.
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
-             const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0));
+             const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
+             std::span<const std::size_t> casters = {}, bool shadowed_environment = false);
 
-    // `visible` empty: there are no shadows. `seed` identifies the shaded surface, for sampling.
+    // `visible`, for what casts shadows; empty: nothing does. `seed` identifies the shaded surface, for
+    // sampling.
     Shading operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const;
 
 private:
     struct Punctual {
         Light light;
         glm::dvec3 position;
+        bool casts;
+    };
+    struct Emitting {
+        Emitter emitter;
+        bool casts;
     };
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
                         const Visibility& visible, std::uint64_t seed) const;
     Shading fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const;
 
     std::vector<Punctual> punctual_;
-    std::vector<Emitter> emitters_;
+    std::vector<Emitting> emitters_;
     std::optional<EnvironmentLight> environment_;
     glm::dvec3 ambient_;
+    bool shadowed_environment_;
 };
 
 }  // namespace diptych::reference

@@ -79,7 +79,7 @@ void addScene(Key& key, const Request& request) {
 // Everything that decides a pixel. The version number must be increased whenever the reference itself draws
 // differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 4;
+    constexpr int version = 6;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));
@@ -87,7 +87,8 @@ std::uint64_t keyOf(const Request& request) {
     key.add(glm::ivec4(view.width, view.height, request.samples, static_cast<int>(request.mode)));
     key.add(view.camera.world_from_camera);
     key.add(glm::dvec4(view.camera.yfov, view.camera.ymag, view.camera.near, view.camera.far));
-    key.add(glm::ivec2(view.camera.orthographic, request.shadows));
+    key.add(glm::ivec2(view.camera.orthographic, request.shadowed_environment));
+    key.addAll(request.casters);
     for (const Light& l : request.lights) {
         key.add(glm::vec4(l.color, l.intensity));
         key.add(glm::vec4(l.range, l.inner_cone, l.outer_cone, l.angle));
@@ -106,7 +107,7 @@ std::uint64_t keyOf(const Request& request) {
     }
     if (request.surfaces)
         for (const auto& [mode, image] : *request.surfaces) key.addAll(image.data);
-    if (request.mode == ReferenceMode::scene || request.shadows) addScene(key, request);
+    if (request.mode == ReferenceMode::scene || request.shadows()) addScene(key, request);
     return key.value();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/reference.h"
 
+#include "compare/reference/area.h"
 #include "compare/reference/checkpoint.h"
 #include "compare/reference/geometry.h"
 #include "compare/reference/lighting.h"
@@ -8,10 +9,14 @@
 #include "compare/reference/pace.h"
 #include "compare/reference/picture_key.h"
 #include "compare/reference/pixel_rays.h"
+#include "compare/reference/punctual.h"
 #include "compare/reference/sampling.h"
+#include "compare/reference/shadow_edge.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/model/axes.h"
+#include "shared/scene/model/luminance.h"
+#include "shared/scene/motion/bounds.h"
 
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -21,6 +26,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -32,6 +40,10 @@ glm::dvec3 specularColor(const Surface& s) {
     return s.dielectric_f0 * (1 - s.metallic) + s.albedo * s.metallic;
 }
 
+bool isLocal(const Light& light) {
+    return light.kind == LightKind::point || light.kind == LightKind::spot;
+}
+
 // ---- channels ----------------------------------------------------------------------------------------
 
 // The result for one pixel. Without a surface it is background.
@@ -39,6 +51,10 @@ struct Pixel {
     std::optional<Surface> surface;
     Shading shading;
     glm::dvec3 lit{0};
+    double sun_visibility = 0;
+    double edge_distance = std::numeric_limits<double>::infinity(), sun_radiance = 0, sun_irradiance = 0;
+    double local_visibility = 0;
+    double local_edge = std::numeric_limits<double>::infinity(), local_radiance = 0;
     double depth = 0;
 };
 
@@ -54,6 +70,10 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return pixel.shading.reflected.specular;
         case gpu::DEBUG_lit_ambient:
             return pixel.shading.ambient;
+        case gpu::DEBUG_shadow_visibility:
+            return glm::dvec3(pixel.sun_visibility);
+        case gpu::DEBUG_local_visibility:
+            return glm::dvec3(pixel.local_visibility);
         default:
             break;
     }
@@ -150,7 +170,15 @@ public:
           geometry_(request.scene, request.pose, eye_, request.mode == ReferenceMode::scene),
           materials_(request.scene, geometry_),
           lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
-                    request.environment_factor, eye_, request.ambient) {}
+                    request.environment_factor, eye_, request.ambient, request.casters,
+                    request.shadowed_environment),
+          scene_radius_(worldBounds(request.scene, request.pose).radius()) {
+        for (const std::size_t caster : request.casters)
+            if (!sun_ && request.lights[caster].kind == LightKind::directional)
+                sun_ = &request.lights[caster];
+        for (const std::size_t caster : request.casters)
+            if (isLocal(request.lights[caster])) locals_.push_back(&request.lights[caster]);
+    }
 
     Pixel render(int x, int y) const {
         const std::uint64_t seed =
@@ -166,17 +194,91 @@ private:
     // How far before the light a shadow ray ends, relative to its length, so that a lamp on a ceiling is not
     // occluded by the ceiling, whose float32 vertices may round to below the lamp.
     static constexpr double lightOffset = 1e-5;
+    // Directions to a sun's disc at the least, and the stream that turns them, which no light has.
+    static constexpr int leastDiscSamples = 64;
+    static constexpr std::uint64_t discStream = ~std::uint64_t{0};
 
     // Light from behind the triangle does not reach it, whatever the shading normal is.
-    Visibility visibilityFrom(const glm::dvec3& place, const glm::dvec3& geometric_normal,
-                              const TriangleId& without, double offset) const {
-        if (!request_.shadows) return {};
-        const double from = offset * glm::length(place);
-        return [this, place, geometric_normal, without, from](const glm::dvec3& to_light, double distance) {
-            if (!(glm::dot(geometric_normal, to_light) > 0)) return false;
-            const Ray ray{place, to_light, from, distance * (1 - lightOffset), without};
+    struct Foot {
+        glm::dvec3 place, geometric_normal;
+        TriangleId without;
+        double offset;
+    };
+    Visibility visibilityFrom(const Foot& foot) const {
+        if (!request_.shadows()) return {};
+        const double from = foot.offset * glm::length(foot.place);
+        return [this, foot, from](const glm::dvec3& to_light, double distance) {
+            if (!(glm::dot(foot.geometric_normal, to_light) > 0)) return false;
+            const Ray ray{foot.place, to_light, from, distance * (1 - lightOffset), foot.without};
             return !geometry_.meets(ray, [this](const Hit& hit) { return materials_.throwsShadow(hit); });
         };
+    }
+
+    // The share of the sun's disc that is seen, by directions that cover it evenly.
+    double seenOfDisc(const Foot& foot, std::uint64_t seed) const {
+        const int samples = std::max(request_.samples, leastDiscSamples);
+        const double radius = emitterOf(*sun_, {}).radius;
+        const glm::dvec3 centre = -sun_->direction, x = perpendicularTo(centre), y = glm::cross(centre, x);
+        const Visibility visible = visibilityFrom(foot);
+        Random turn(streamOf(seed, discStream));
+        const double u = turn();
+        const glm::dvec2 shift(u, turn());
+        int seen = 0;
+        for (int i = 0; i < samples; ++i) {
+            const glm::dvec2 at = evenly(static_cast<std::uint64_t>(i), shift);
+            const double out = radius * std::sqrt(at.x), around = 2 * std::numbers::pi * at.y;
+            seen += visible(glm::normalize(centre + out * (x * std::cos(around) + y * std::sin(around))),
+                            std::numeric_limits<double>::infinity());
+        }
+        return static_cast<double>(seen) / samples;
+    }
+
+    // What the pixel sees of the sun that casts, its centre or its disc: all of it where none does. Where a
+    // part of the disc is seen, the edge of its shadow is there; else as far as that of its centre.
+    void takeShadow(Pixel& pixel, const Surface& s, const Foot& foot, std::uint64_t seed) const {
+        pixel.sun_visibility = 1;
+        if (!sun_) return;
+        const glm::dvec3 to_light = -sun_->direction;
+        const auto sees = [&](const glm::dvec3& place) {
+            Foot there = foot;
+            there.place = place;
+            return visibilityFrom(there)(to_light, std::numeric_limits<double>::infinity());
+        };
+        pixel.sun_visibility = sun_->angle > 0 ? seenOfDisc(foot, seed) : sees(foot.place) ? 1 : 0;
+        if (!(glm::dot(foot.geometric_normal, to_light) > 0)) return;
+        const bool partly = pixel.sun_visibility > 0 && pixel.sun_visibility < 1;
+        pixel.edge_distance =
+            partly ? 0 : edgeDistance(sees, foot.place, foot.geometric_normal, to_light, 2 * scene_radius_);
+        const glm::dvec3 irradiance = incident(*sun_, {}, {}).irradiance;
+        pixel.sun_radiance = (Brdf(s)(to_light) * irradiance).size();
+        pixel.sun_irradiance = std::max(glm::dot(s.normal, to_light), 0.0) * luminance(irradiance);
+    }
+
+    // Likewise of the points and spots that cast, weighted by the luminance of their irradiance.
+    void takeLocalShadows(Pixel& pixel, const Surface& s, const Foot& foot) const {
+        pixel.local_visibility = 1;
+        double all = 0, seen = 0;
+        for (const Light* const light : locals_) {
+            const glm::dvec3 position = light->position - eye_;
+            const Incident here = incident(*light, position, foot.place);
+            const double weight = luminance(here.irradiance);
+            if (!(weight > 0)) continue;
+            const auto sees = [&](const glm::dvec3& place) {
+                Foot there = foot;
+                there.place = place;
+                const glm::dvec3 path = position - place;
+                const double distance = glm::length(path);
+                return visibilityFrom(there)(path / distance, distance);
+            };
+            all += weight;
+            if (sees(foot.place)) seen += weight;
+            if (!(glm::dot(foot.geometric_normal, here.to_light) > 0)) continue;
+            const double edge =
+                edgeDistance(sees, foot.place, foot.geometric_normal, here.to_light, here.distance);
+            pixel.local_edge = std::min(pixel.local_edge, edge / here.distance);
+            pixel.local_radiance += (Brdf(s)(here.to_light) * here.irradiance).size();
+        }
+        if (all > 0) pixel.local_visibility = seen / all;
     }
 
     Ray cameraRay(const PixelRay& pixel, double from) const {
@@ -197,13 +299,16 @@ private:
         Surface s = captured.surface(seed, rays_);
         pixel.depth = captured.depth(seed);
         Visibility visible;
-        if (request_.shadows) {
+        pixel.sun_visibility = pixel.local_visibility = 1;
+        if (request_.shadows()) {
             // Finds the exact position again, if the camera ray meets a surface at the captured depth.
             const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5), 0);
+            Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
             if (hit && std::abs(hit->t - pixel.depth) <= 1e-4 * pixel.depth)
-                visible = visibilityFrom(hit->position, s.geometric_normal, hit->id, exactOffset);
-            else
-                visible = visibilityFrom(s.position, s.geometric_normal, {}, capturedOffset);
+                foot = {hit->position, s.geometric_normal, hit->id, exactOffset};
+            visible = visibilityFrom(foot);
+            takeShadow(pixel, s, foot, seed);
+            takeLocalShadows(pixel, s, foot);
         }
         pixel.shading = lighting_(s, visible, seed);
         pixel.lit = pixel.shading.all() + s.emission;
@@ -216,8 +321,10 @@ private:
         Surface s = materials_.surface(hit, ray);
         s.to_viewer = rays_.toViewer(s.position);
         pixel.depth = hit.t;
-        pixel.shading =
-            lighting_(s, visibilityFrom(s.position, s.geometric_normal, hit.id, exactOffset), seed);
+        const Foot foot{s.position, s.geometric_normal, hit.id, exactOffset};
+        pixel.shading = lighting_(s, visibilityFrom(foot), seed);
+        takeShadow(pixel, s, foot, seed);
+        takeLocalShadows(pixel, s, foot);
         pixel.lit = pixel.shading.all() + s.emission;
         pixel.surface = s;
         return pixel;
@@ -237,6 +344,13 @@ private:
             if (!pixel.surface) {
                 pixel.surface = here.surface;
                 pixel.depth = here.depth;
+                pixel.sun_visibility = here.sun_visibility;
+                pixel.edge_distance = here.edge_distance;
+                pixel.sun_radiance = here.sun_radiance;
+                pixel.sun_irradiance = here.sun_irradiance;
+                pixel.local_visibility = here.local_visibility;
+                pixel.local_edge = here.local_edge;
+                pixel.local_radiance = here.local_radiance;
             }
             pixel.lit += here.lit * share;
             pixel.shading += here.shading * share;
@@ -271,6 +385,9 @@ private:
     const Geometry geometry_;
     const Materials materials_;
     const Lighting lighting_;
+    const Light* sun_ = nullptr;        // that casts
+    std::vector<const Light*> locals_;  // points and spots that cast
+    const double scene_radius_;         // m, of a sphere around all that is drawn
 };
 
 // ---- the picture -------------------------------------------------------------------------------------
@@ -286,7 +403,7 @@ public:
           down_((request.view.height + tileSide - 1) / tileSide) {
         for (const DebugMode& mode : debugModes()) {
             if (mode.maker == MadeBy::paths_only) continue;
-            const bool copied = request.mode == ReferenceMode::surface && !isLit(mode.number);
+            const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.number);
             Image& image = picture_.channels[mode.number];
             if (copied) {
                 image = request.surfaces->at(mode.number);
@@ -298,6 +415,14 @@ public:
         }
         picture_.uncertainty = Image(request.view.width, request.view.height, 1);
         ++floats_;
+        const auto cast = [&](const auto& which) {
+            return std::ranges::any_of(request.casters,
+                                       [&](std::size_t i) { return which(request.lights[i]); });
+        };
+        if (cast([](const Light& light) { return light.kind == LightKind::directional; }))
+            picture_.shadow_edge = Image(request.view.width, request.view.height, 3);
+        if (cast(isLocal)) picture_.local_shadow_edge = Image(request.view.width, request.view.height, 2);
+        floats_ += picture_.shadow_edge.components + picture_.local_shadow_edge.components;
     }
 
     Picture operator()() {
@@ -364,6 +489,12 @@ private:
                 for (int c = 0; c < mode->width; ++c) values.push_back(static_cast<float>(value[c]));
             }
             values.push_back(static_cast<float>(pixel.shading.uncertainty));
+            const auto take = [&](const Image& edges, std::initializer_list<double> numbers) {
+                if (edges.empty()) return;
+                for (const double number : numbers) values.push_back(static_cast<float>(number));
+            };
+            take(picture_.shadow_edge, {pixel.edge_distance, pixel.sun_radiance, pixel.sun_irradiance});
+            take(picture_.local_shadow_edge, {pixel.local_edge, pixel.local_radiance});
         });
         values.front() = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
         return values;
@@ -377,6 +508,8 @@ private:
                 for (int c = 0; c < mode->width; ++c) image.at(x, y, c) = *next++;
             }
             picture_.uncertainty.at(x, y) = *next++;
+            for (Image* const edges : {&picture_.shadow_edge, &picture_.local_shadow_edge})
+                for (int c = 0; c < edges->components; ++c) edges->at(x, y, c) = *next++;
         });
     }
 
@@ -392,7 +525,7 @@ private:
 std::vector<int> surfaceChannels() {
     std::vector<int> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isLit(mode.number) && mode.maker != MadeBy::paths_only) modes.push_back(mode.number);
+        if (!isShaded(mode.number) && mode.maker != MadeBy::paths_only) modes.push_back(mode.number);
     return modes;
 }
 

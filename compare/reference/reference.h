@@ -16,6 +16,13 @@ struct Picture {
     // Of lit, in its unit: half the 95 % confidence interval of what was sampled, plus the error that
     // quadrature left. Empty if it is 0 everywhere.
     Image uncertainty;
+    // Where a sun casts, W x H x 3: the distance from the edge of its shadow, m across the light
+    // (shadow_edge.h; infinite where the surface is turned from it), the largest component of what the
+    // surface would reflect of it unshadowed, W/(sr m^2), and the luminance of what would arrive, W/m^2.
+    Image shadow_edge;
+    // Where points or spots cast, W x H x 2: the same of the nearest edge of their shadows, as a share of the
+    // distance from the light, and of what all of them add.
+    Image local_shadow_edge;
     // What an earlier command had drawn and kept: its share of the tiles, and how long drawing it took on the
     // clock with all cores at work, s.
     double kept_share = 0, kept_seconds = 0;

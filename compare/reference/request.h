@@ -27,7 +27,9 @@ struct Request {
     std::span<const Light> lights;  // in world space; the environment is the scene's
     double environment_factor = 1;
     glm::dvec3 ambient{0};  // radiance from all directions, W/(sr m^2); attenuated by occlusion
-    bool shadows = false;
+    std::vector<std::size_t> casters = {};  // into `lights`: those that cast shadows
+    bool shadowed_environment = false;      // whether the environment is shadowed too
+    bool shadows() const { return !casters.empty() || shadowed_environment; }
     // In mode scene, skins and morph targets deform meshes; in mode surface, shadows are cast by undeformed
     // meshes, as the paths draw them.
     ReferenceMode mode = ReferenceMode::surface;

@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/left_out.h"
 
+#include "shared/scene/lights/casters.h"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 namespace diptych {
+
+namespace {
+
+std::string nameOf(const Light& light, std::size_t index) {
+    return light.name.empty() ? fmt::format("light {}", index) : light.name;
+}
+
+}  // namespace
 
 std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
     std::vector<std::string> notes;
@@ -26,6 +37,17 @@ std::vector<std::string> leftOutMotion(Path path, const Requirements& needs) {
     return {fmt::format("{}: drawn undeformed by {} yet: the reference poses {} in mode scene",
                         needs.deformedInWords(), nameOf(path),
                         needs.skinned + needs.morphed == 1 ? "it" : "them")};
+}
+
+std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings) {
+    const std::optional<std::size_t> sun = brightestSun(lights);
+    if (settings.shadows == Shadows::off || !sun) return {};
+    std::vector<std::string> others;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (i != *sun && lights[i].kind == LightKind::directional) others.push_back(nameOf(lights[i], i));
+    if (others.empty()) return {};
+    return {fmt::format("of {} directional lights the brightest, {}, casts a shadow; without one: {}",
+                        others.size() + 1, nameOf(lights[*sun], *sun), fmt::join(others, ", "))};
 }
 
 std::optional<std::string> undrawnSetting(std::span<const Settings> paths) {

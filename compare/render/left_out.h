@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/frame/settings.h"
+#include "shared/scene/model/scene.h"
 #include "shared/scene/requirements.h"
 
 #include <optional>
@@ -16,6 +17,9 @@ std::vector<std::string> leftOutLight(Path path, const Requirements& needs);
 
 // Likewise for objects that the path draws undeformed; the reference poses them in mode scene.
 std::vector<std::string> leftOutMotion(Path path, const Requirements& needs);
+
+// What of the lights casts no shadow where shadows are asked for.
+std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings);
 
 // Why it cannot be drawn what the Settings ask for, naming the option: where none of the paths under test
 // draws it, a picture without it would be taken for one with it. The reference, drawn beside them, is no such

@@ -5,6 +5,7 @@
 #include "compare/render/left_out.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/light/cutoff.h"
+#include "shared/scene/lights/casters.h"
 
 #include <fmt/format.h>
 
@@ -36,9 +37,25 @@ std::optional<std::uint32_t> objectPixelLights(const Settings& settings) {
     return static_cast<std::uint32_t>(settings.pixel_lights);
 }
 
+// Nothing where no sun casts or none is asked to.
+std::optional<CastingSun> castingSun(const std::vector<Light>& given, const GpuLights& lights,
+                                     const Settings& settings) {
+    if (settings.shadows == Shadows::off) return {};
+    const std::optional<std::size_t> sun = brightestSun(given);
+    for (gpu::uint i = 0; sun && i < lights.directional; ++i)
+        if (lights.sources[i] == *sun) return CastingSun{i, double{given[*sun].angle}};
+    return {};
+}
+
 GpuLights lightsOf(const std::vector<Light>& lights, const View& view, const Settings& settings) {
-    GpuLights result = gpuLights(withCutoff(lights, double{settings.light_cutoff}), view.eye());
+    const LocalCasting casting =
+        settings.shadows == Shadows::off ? LocalCasting{} : localCasting(lights, settings.shadow_lights);
+    GpuLights result =
+        gpuLights(withCutoff(lights, double{settings.light_cutoff}), view.eye(), casting.lights);
     result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
+    // What is not shaded per pixel cannot be shadowed.
+    if (const std::optional<CastingSun> sun = castingSun(lights, result, settings))
+        result.importance[sun->light] = Importance::important;
     return result;
 }
 
@@ -63,7 +80,8 @@ SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<
       materials(d, uploader, scene),
       set(shared ? std::move(shared) : std::make_shared<PipelineSet>(d)),
       layouts(set->layouts),
-      pipelines(set->pipelines) {
+      pipelines(set->pipelines),
+      clipmaps(d, layouts.frame) {
     uploader.flush();
 }
 
@@ -75,6 +93,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings)),
+      shadow(device, shared.uploader, scene.pose, shared.geometry, shared.materials, scene.view, draws,
+             lights, scene.lights, buffers.placeholders(), buffers.sets(), settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
       inputs{
           .device = device,
@@ -90,7 +110,11 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .lists = buffers.lists(),
           .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
           .gbuffer = gbuffer,
+          .shadow = shadow,
       } {
+    shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
+                   castingSun(scene.lights, lights, settings));
+    shadow.specialise(inputs.variant);
     buffers.lists().specialise(inputs.variant);
     if (device.profile().gathers_uniforms) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
     const LightLists& lists = buffers.lists();
@@ -100,6 +124,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
                           : objects.features() != 0 ? objects.longest()
                                                     : lights.local();
     notes = functionsOf(settings.path).prepare(inputs, settings);
+    shadow.choosePages(inputs);
+    std::ranges::move(shadow.notes(), std::back_inserter(notes));
 }
 
 PreparedFrame::PreparedFrame(Device& device, SharedResources& shared, const SceneView& scene,
@@ -124,15 +150,21 @@ Frame describedFrame(const PreparedFrame& prepared, const SharedResources& share
     for (const std::string& note : shared.materials.notes()) frame.notes.push_back(note);
     std::ranges::move(leftOutLight(settings.path, seen.needs), std::back_inserter(frame.notes));
     std::ranges::move(leftOutMotion(settings.path, seen.needs), std::back_inserter(frame.notes));
+    std::ranges::move(leftOutShadows(seen.lights, settings), std::back_inserter(frame.notes));
     for (const std::string& note : prepared.view.notes) frame.notes.push_back(note);
+    frame.shadow_reach = prepared.view.shadow.sun.reach();
+    frame.shadow_level_reach = prepared.view.shadow.sun.levelReach();
+    frame.counters.shadow_pages = prepared.view.shadow.sun.pages();
+    frame.local_shadow_reach = prepared.view.shadow.local.reach();
     frame.counters.lights = prepared.view.lights.count();
     frame.counters.energy_cut = energyCut(scene, seen.pose, seen.lights, double{settings.light_cutoff});
     return frame;
 }
 
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
-    return {prepared.passes.imageBytes() + shared.materials.imageBytes(),
-            shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes(),
+    return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes(),
+            shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
+                prepared.view.shadow.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};
 }
 

@@ -8,6 +8,7 @@
 #include "shared/draw/frame_inputs.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
+#include "shared/shadow/shadow_maps.h"
 
 #include <cstdint>
 #include <memory>
@@ -35,6 +36,7 @@ struct SharedResources {
     std::shared_ptr<PipelineSet> set;
     Layouts& layouts;
     Pipelines& pipelines;
+    ClipmapAtlases clipmaps;
 };
 
 // One view of the scene under one Settings, ready for passes. It refers to the arguments of its constructor,
@@ -50,6 +52,7 @@ public:
     GpuLights lights;
     DrawList draws;
     FrameBuffers buffers;
+    ShadowMaps shadow;
     GBufferLayout gbuffer;
     FrameInputs inputs;
 };

@@ -11,6 +11,7 @@
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/scene/lights/casters.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,7 +59,8 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .lights = view.lights,
         .environment_factor = double{settings.ibl_intensity},
         .ambient = {double{settings.ambient.r}, double{settings.ambient.g}, double{settings.ambient.b}},
-        .shadows = settings.shadows != Shadows::off,
+        .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}
+                                                    : castingLights(view.lights, settings.shadow_lights),
         .mode = settings.reference_mode,
         .samples = settings.spp,
         .surfaces = surfaces ? &surfaces->channels : nullptr,
@@ -79,6 +81,8 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
                           std::back_inserter(frame.notes));
     frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
     frame.channels = std::move(picture.channels);
+    frame.shadow_edge = std::move(picture.shadow_edge);
+    frame.local_shadow_edge = std::move(picture.local_shadow_edge);
     frame.requested = options.requested;
     if (!picture.uncertainty.empty()) {
         frame.relative_uncertainty =

@@ -10,6 +10,7 @@
 
 namespace diptych {
 
+using page::breakable;
 using page::bytes;
 using page::cameraTitle;
 using page::markup;
@@ -75,6 +76,10 @@ std::string costs(const Frame& a, const Frame& b) {
     row("G-buffer and depth per pixel", [](const Frame& f) { return bytes(f.bytes.gbuffer_per_pixel); });
     count("lights", &FrameCounters::lights);
     count("overflowed light lists", &FrameCounters::overflowed_lists);
+    if (a.counters.shadow_pages.requested + b.counters.shadow_pages.requested > 0)
+        row("shadow pages, of which a coarser level serves", [](const Frame& f) {
+            return fmt::format("{}, {}", f.counters.shadow_pages.requested, f.counters.shadow_pages.fallback);
+        });
     row("flux of lights without a range that the cutoff takes",
         [](const Frame& f) { return fmt::format("{:.3g} %", 100 * f.counters.energy_cut); });
     count("NaN or infinite lit pixels", &FrameCounters::nonfinite_pixels);
@@ -102,7 +107,7 @@ std::string settings(const Frame& a, const Frame& b) {
         };
         out += fmt::format(
             "<tr{}><td>{}</td><td class=\"mono wide\">{}</td><td class=\"mono wide\">{}</td></tr>",
-            value == other ? "" : " class=\"differs\"", key, text(value), text(other));
+            value == other ? "" : " class=\"differs\"", breakable(key), text(value), text(other));
     }
     return out + "</table></div></details>\n";
 }

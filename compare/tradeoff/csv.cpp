@@ -54,6 +54,7 @@ std::vector<std::string> head(const std::vector<std::string>& passes) {
     for (const ErrorFigure& figure : errorFigures)
         for (const char* which : {"", "_min", "_max"}) names.push_back(std::string(figure.name) + which);
     for (const ErrorFigure& figure : errorFigures) names.push_back("front_" + std::string(figure.name));
+    for (const ShadowFigure& figure : shadowFigures) names.push_back("shadow_" + std::string(figure.name));
     for (const char* name : {"image_bytes", "buffer_bytes", "gbuffer_bytes_per_pixel"})
         names.emplace_back(name);
     for (const std::string& pass : passes) names.push_back("ms: " + pass);
@@ -82,6 +83,9 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
             for (const double value : {error.value, error.low, error.high}) fields.push_back(digits(value));
         }
         for (const auto& front : fronts) fields.emplace_back(std::ranges::count(front, i) > 0 ? "1" : "0");
+        const std::optional<ShadowErrors> shadow = shadowOf(row);
+        for (std::size_t f = 0; f < shadowFigures.size(); ++f)
+            fields.push_back(shadow ? digits((*shadow)[f]) : "");
         const FrameBytes bytes = bytesOf(row);
         for (const std::uint64_t count : {bytes.images, bytes.buffers, bytes.gbuffer_per_pixel})
             fields.push_back(fmt::format("{}", count));

@@ -5,6 +5,7 @@
 #include "compare/page/text.h"
 #include "compare/tradeoff/page/page.h"
 #include "compare/tradeoff/plot.h"
+#include "compare/tradeoff/shadow_rows.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -121,11 +122,6 @@ std::string plots(const Tradeoff& tradeoff) {
     return out + "</div></div>\n";
 }
 
-std::string numberCell(double value, const std::string& text) {
-    return fmt::format("<td class=\"n\" data-value=\"{}\">{}</td>", std::isfinite(value) ? value : 1e300,
-                       markup(text));
-}
-
 std::string table(const Tradeoff& tradeoff) {
     std::string out =
         "<h2>Every row</h2>\n<div class=\"box scroll rows\" id=\"rows\"><table "
@@ -148,13 +144,13 @@ std::string table(const Tradeoff& tradeoff) {
             "<tr data-row=\"{0}\"><td>{0}</td><td class=\"whole\"><i class=\"swatch {1}\"></i>{2}</td>",
             i + 1, nameOf(row.settings.path), markup(inWords(choicesOf(row.settings, tradeoff.given))));
         for (const double ms : {time.value, time.low, time.high})
-            out += numberCell(ms, fmt::format("{:.4g}", ms));
+            out += page::numberCell(ms, fmt::format("{:.4g}", ms));
         std::vector<std::string> fronts;
         for (std::size_t f = 0; f < errorFigures.size(); ++f) {
-            out += numberCell(row.errors[f], number(row.errors[f]));
+            out += page::numberCell(row.errors[f], number(row.errors[f]));
             if (std::ranges::count(frontOf(tradeoff, f), i) > 0) fronts.emplace_back(errorFigures[f].title);
         }
-        out += numberCell(static_cast<double>(memoryOf(row)), bytes(memoryOf(row)));
+        out += page::numberCell(static_cast<double>(memoryOf(row)), bytes(memoryOf(row)));
         out += fmt::format(
             "<td>{}</td><td class=\"whole\"><span class=\"again\"><code>{}</code><button type=\"button\" "
             "data-do=\"copy\">copy</button></span></td></tr>\n",
@@ -210,9 +206,10 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, {}</title>\n"
         "<style>{}{}{}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
-        "table</a>{}{}{}{}{}{}<script>{}{}</script>\n</body></html>\n",
+        "table</a>{}{}{}{}{}{}{}<script>{}{}</script>\n</body></html>\n",
         markup(tradeoff.scene), page::style, plotStyle, tradeoffStyle, header(tradeoff), switches(),
-        plots(tradeoff), table(tradeoff), skips(tradeoff), how(tradeoff), page::tables, tradeoffScript);
+        plots(tradeoff), table(tradeoff), shadowTableHtml(tradeoff), skips(tradeoff), how(tradeoff),
+        page::tables, tradeoffScript);
 }
 
 }  // namespace diptych::tradeoff

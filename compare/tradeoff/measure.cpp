@@ -19,6 +19,10 @@ using page::cameraTitle;
 namespace {
 
 constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit), IDS = static_cast<int>(gpu::DEBUG_material_id);
+// By which shadows are judged.
+constexpr auto SEEN = static_cast<int>(gpu::DEBUG_shadow_visibility),
+               DEPTH = static_cast<int>(gpu::DEBUG_depth), LEVEL = static_cast<int>(gpu::DEBUG_cascade),
+               COARSER = static_cast<int>(gpu::DEBUG_page_residency);
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int widestThumbnail = 480;  // pixels: a card of the page
 
@@ -26,10 +30,12 @@ double knownOrInfinite(double value) {
     return std::isfinite(value) ? value : infinity;
 }
 
-// Draws lit, and material_id, by which background is recognised.
-RenderOptions drawingOptions(const RenderOptions& options) {
+// Draws lit, and material_id, by which background is recognised; `shadows`: and by what shadows are judged.
+RenderOptions drawingOptions(const RenderOptions& options, bool shadows) {
     RenderOptions drawing = options;
-    drawing.channels = drawing.requested = {LIT, IDS};
+    drawing.channels = {LIT, IDS};
+    if (shadows) drawing.channels.insert(drawing.channels.end(), {SEEN, DEPTH, LEVEL, COARSER});
+    drawing.requested = drawing.channels;
     drawing.twice = drawing.through_gbuffer = false;
     return drawing;
 }
@@ -45,6 +51,7 @@ void warn(TradeoffRow& row, const Frame& frame) {
     };
     add(frame.counters.nonfinite_pixels, "pixel(s) of lit are NaN or infinite");
     add(frame.counters.overflowed_lists, "light list(s) found no room: every light was evaluated there");
+    add(frame.counters.shadow_pages.fallback, "shadow page(s) found no room: a coarser level serves there");
     add(frame.counters.unreproduced_pixels, "pixel(s) of the capture are not the timed pipeline's");
 }
 
@@ -53,7 +60,7 @@ void warn(TradeoffRow& row, const Frame& frame) {
 ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
                                     const std::vector<std::string>& cameras, const PictureChoice& choice,
                                     const RenderOptions& options) {
-    RenderOptions drawing = drawingOptions(options);
+    RenderOptions drawing = drawingOptions(options, given.shadows != Shadows::off);
     drawing.runs = 0;
     ReferenceFrames references;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -104,7 +111,8 @@ Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
 
 MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const ReferenceFrames& references,
                        const RenderOptions& options) {
-    RenderOptions drawing = drawingOptions(options);
+    const bool shadows = !references.frames.front().shadow_edge.empty();
+    RenderOptions drawing = drawingOptions(options, shadows);
     MeasuredRow measured;
     TradeoffRow& row = measured.row;
     row.settings = settings;
@@ -120,7 +128,13 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
         Frame frame = renderer.draw(seen, drawing);
         row.drawing_ms += frame.made_in_ms;
         warn(row, frame);
-        CameraRow camera{cameraTitle(frame), {frame.time}, frame.passes, frame.bytes, {}, 0};
+        CameraRow camera{cameraTitle(frame),
+                         {frame.time},
+                         frame.passes,
+                         frame.bytes,
+                         {},
+                         0,
+                         shadowErrorsOf(reference, frame)};
         frame = upsampled(std::move(frame), reference.settings.size);
         const FrameErrors errors = errorsOf(reference, frame);
         camera.errors = errors.errors;

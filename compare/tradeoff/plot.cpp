@@ -206,7 +206,8 @@ std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::opti
 }
 
 std::string plotName(std::size_t figure, std::optional<Path> path) {
-    return fmt::format("{}{}.svg", errorFigures[figure].name, path ? "." + std::string(nameOf(*path)) : "");
+    const std::string_view name = errorFigures[figure].name;
+    return path ? fmt::format("{}.{}.svg", name, nameOf(*path)) : fmt::format("{}.svg", name);
 }
 
 }  // namespace diptych::tradeoff

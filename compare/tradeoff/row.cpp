@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace diptych::tradeoff {
 namespace {
@@ -17,20 +18,27 @@ double mean(const TradeoffRow& row, Value&& value) {
     return row.cameras.empty() ? 0 : sum / static_cast<double>(row.cameras.size());
 }
 
-Json jsonOf(const Errors& errors) {
+// `figures`: errorFigures or shadowFigures; what is infinite is null.
+template <class Figures, class Values>
+Json jsonOf(const Figures& figures, const Values& values) {
     Json json = Json::object();
-    for (std::size_t i = 0; i < errors.size(); ++i)
-        json[std::string(errorFigures[i].name)] = std::isfinite(errors[i]) ? Json(errors[i]) : Json(nullptr);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        json[std::string(figures[i].name)] = std::isfinite(values[i]) ? Json(values[i]) : Json(nullptr);
     return json;
 }
 
-Errors errorsFrom(const Json& json) {
-    Errors errors{};
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-        const Json& value = json.at(std::string(errorFigures[i].name));
-        errors[i] = value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+template <class Figures>
+std::array<double, std::tuple_size_v<Figures>> figuresFrom(const Figures& figures, const Json& json) {
+    std::array<double, std::tuple_size_v<Figures>> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Json& value = json.at(std::string(figures[i].name));
+        values[i] = value.is_null() ? std::numeric_limits<double>::infinity() : value.template get<double>();
     }
-    return errors;
+    return values;
+}
+
+Json jsonOf(const std::optional<ShadowErrors>& shadow) {
+    return shadow ? jsonOf(shadowFigures, *shadow) : Json(nullptr);
 }
 
 Json jsonOf(const std::vector<PassTime>& passes) {
@@ -54,7 +62,8 @@ Json jsonOf(const CameraRow& camera) {
              {{"images", camera.bytes.images},
               {"buffers", camera.bytes.buffers},
               {"gbuffer_per_pixel", camera.bytes.gbuffer_per_pixel}}},
-            {"errors", jsonOf(camera.errors)},
+            {"errors", jsonOf(errorFigures, camera.errors)},
+            {"shadow", jsonOf(camera.shadow)},
             {"pixels", camera.pixels}};
 }
 
@@ -66,7 +75,9 @@ CameraRow cameraFrom(const Json& json) {
         camera.visits.push_back({visit.at("median"), visit.at("min"), visit.at("max"), visit.at("runs")});
     for (const Json& pass : json.at("passes")) camera.passes.push_back({pass.at("name"), pass.at("ms")});
     camera.bytes = {bytes.at("images"), bytes.at("buffers"), bytes.at("gbuffer_per_pixel")};
-    camera.errors = errorsFrom(json.at("errors"));
+    camera.errors = figuresFrom(errorFigures, json.at("errors"));
+    if (const Json& shadow = json.at("shadow"); !shadow.is_null())
+        camera.shadow = figuresFrom(shadowFigures, shadow);
     camera.pixels = json.at("pixels");
     return camera;
 }
@@ -128,6 +139,15 @@ std::uint64_t memoryOf(const TradeoffRow& row) {
     return bytes.images + bytes.buffers;
 }
 
+std::optional<ShadowErrors> shadowOf(const TradeoffRow& row) {
+    const auto known = [](const CameraRow& camera) { return camera.shadow.has_value(); };
+    if (row.cameras.empty() || !std::ranges::all_of(row.cameras, known)) return {};
+    ShadowErrors errors{};
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        errors[i] = mean(row, [i](const CameraRow& camera) { return (*camera.shadow)[i]; });
+    return errors;
+}
+
 Json jsonOf(const TradeoffRow& row) {
     Json cameras = Json::array();
     for (const CameraRow& camera : row.cameras) cameras.push_back(jsonOf(camera));
@@ -140,7 +160,8 @@ Json jsonOf(const TradeoffRow& row) {
              {{"images", bytes.images},
               {"buffers", bytes.buffers},
               {"gbuffer_per_pixel", bytes.gbuffer_per_pixel}}},
-            {"errors", jsonOf(row.errors)},
+            {"errors", jsonOf(errorFigures, row.errors)},
+            {"shadow", jsonOf(shadowOf(row))},
             {"cameras", cameras},
             {"drawing_ms", row.drawing_ms},
             {"picture", row.picture},
@@ -152,7 +173,7 @@ TradeoffRow tradeoffRowFrom(const Json& json) {
     TradeoffRow row;
     row.settings = settingsFromJson(json.at("settings").dump());
     for (const Json& camera : json.at("cameras")) row.cameras.push_back(cameraFrom(camera));
-    row.errors = errorsFrom(json.at("errors"));
+    row.errors = figuresFrom(errorFigures, json.at("errors"));
     row.drawing_ms = json.at("drawing_ms");
     row.picture = json.at("picture");
     row.errors_map = json.at("error_picture");

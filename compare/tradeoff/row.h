@@ -2,12 +2,14 @@
 // The measurements of one row of a sweep: one Settings.
 #pragma once
 
+#include "compare/tradeoff/shadow_errors.h"
 #include "shared/frame/frame.h"
 
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,7 @@ struct CameraRow {
     FrameBytes bytes;
     Errors errors{};
     std::uint64_t pixels = 0;  // that the errors are over
+    std::optional<ShadowErrors> shadow{};
 };
 
 struct TradeoffRow {
@@ -59,6 +62,8 @@ std::vector<PassTime> passesOf(const TradeoffRow& row);
 // The bytes of the camera that takes most, and the sum of its images and buffers.
 FrameBytes bytesOf(const TradeoffRow& row);
 std::uint64_t memoryOf(const TradeoffRow& row);
+// The mean over the cameras; nothing where one of them has none.
+std::optional<ShadowErrors> shadowOf(const TradeoffRow& row);
 
 // Every number with all its digits; an error that is infinite is null.
 nlohmann::ordered_json jsonOf(const TradeoffRow& row);

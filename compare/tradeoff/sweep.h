@@ -36,6 +36,10 @@ std::vector<Grid> usualGrids(const Settings& given);
 SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
 inline constexpr std::size_t mostCombinations = 10'000;
 
+// What the reference of the rows follows: the given Settings, but with shadows where any row has them. A
+// sweep over shadows is held against the shadowed truth.
+Settings truthFor(const Settings& given, const std::vector<Settings>& rows);
+
 // Skips of one reason: which values of which Settings, or which combinations, in words.
 struct SkipGroup {
     std::string reason;

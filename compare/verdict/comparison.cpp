@@ -44,6 +44,11 @@ void readCounters(const Frame& frame, Comparison& comparison) {
         comparison.notes.push_back(fmt::format(
             "{}: {} light list(s) found no room, so every light was evaluated there: exact, but slow",
             frame.name, counters.overflowed_lists));
+    if (counters.shadow_pages.fallback > 0)
+        comparison.notes.push_back(fmt::format(
+            "{}: {} of {} shadow page(s) found no room in --clipmap-pages {}: a coarser level serves there",
+            frame.name, counters.shadow_pages.fallback, counters.shadow_pages.requested,
+            frame.settings.clipmap_pages));
     if (counters.energy_cut > 0)
         comparison.notes.push_back(
             fmt::format("{}: --light-cutoff {} takes away {:.3g} % of the flux that lights without a range "

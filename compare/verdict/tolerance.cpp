@@ -5,6 +5,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
+#include "compare/verdict/shadow_edges.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
@@ -145,6 +146,11 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
             return {0, "the same function of pixel and depth in both paths"};
         case gpu::DEBUG_geometric_normal:
             return {0, "both paths quantise it alike"};
+        case gpu::DEBUG_shadow_visibility:
+        case gpu::DEBUG_cascade:
+        case gpu::DEBUG_page_residency:
+        case gpu::DEBUG_local_visibility:
+            return {0, "the same maps, read at the same positions along the same normals"};
     }
     return {0, "nothing is known to lose precision here"};
 }
@@ -192,6 +198,10 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
                 "; beyond what the bits of the {} G-buffer allow at each pixel, by forward+ shading its own "
                 "surfaces moved by them",
                 nameOf(path.settings.gbuffer));
+        if (ShadowEdges(pair).any())
+            result.because +=
+                "; beyond what a light that casts adds, where its shadow's edge lies within the filter's "
+                "reach and a texel";
         if (!reference.uncertainty.empty())
             result.because +=
                 "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
@@ -199,6 +209,13 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
         // Surfaces that are forward+'s own capture.
         result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
                         : Tolerance{0, "float32, nothing is packed"};
+        if (mode.number == static_cast<int>(gpu::DEBUG_shadow_visibility))
+            result = {0,
+                      "beyond the filter's reach and a texel from a shadow's edge, all or nothing is seen"};
+        if (mode.number == static_cast<int>(gpu::DEBUG_local_visibility))
+            result = {shadingRounding,
+                      "float32 weights against double, 1e-4; beyond the filter's reach and a texel from a "
+                      "shadow's edge, all or nothing is seen of a light"};
         if (mode.number == gpu::DEBUG_geometric_normal && path.settings.gbuffer != GBufferEncoding::full)
             result = {geometricNormalBound(path), "both paths pack it alike, octahedral"};
     }
@@ -240,10 +257,11 @@ double encodingBound(const DebugMode& mode, const FramePair& pair) {
 }
 
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
-    if (!isLit(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
+    if (!isShaded(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Image* const bits = allowedByBits(mode, pair);
-    if (reference.uncertainty.empty() && !bits) return {};
+    const ShadowEdges edges(pair);
+    if (reference.uncertainty.empty() && !bits && !edges.any()) return {};
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const Image& test = pair.test.channels.at(mode.number);
     const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
@@ -252,8 +270,11 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
         double open = bits ? double{*bits->pixel(i)} : 0;
-        if (!reference.uncertainty.empty()) open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
-        open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
+        if (edges.any()) open += edges.allowed(mode, i);
+        if (isLit(mode.number) && !reference.uncertainty.empty())
+            open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
+        if (mode.metric == Metric::relative)
+            open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
         const double e = error(test.pixel(i), p);
         // What is infinite, as a NaN against a number is, stays so whatever the reference knows.
         errors.push_back(std::isinf(e) ? e : std::max(0.0, e - open));

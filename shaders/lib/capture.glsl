@@ -27,8 +27,10 @@ void capture(Surface s, float z) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z);
 #if SHADES
     Radiance radiance = shade(s, lights);
+    // Which an earlier batch has shaded with.
+    if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
 #else
-    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0);
 #endif
     for (uint i = 0; i < ATTACHMENTS; ++i)
         out_channels[i] = debugValue(captureMode(i), s, lights, radiance, z);

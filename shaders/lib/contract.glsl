@@ -9,6 +9,7 @@
 #include "shaders/lib/arithmetic.glsl"
 #include "shared/contract/area_light.h"
 #include "shared/contract/bindings.h"
+#include "shared/contract/clipmap.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/encoded_surface.h"
@@ -17,9 +18,11 @@
 #include "shared/contract/geometry.h"
 #include "shared/contract/light.h"
 #include "shared/contract/light_list.h"
+#include "shared/contract/local_shadow.h"
 #include "shared/contract/ltc.h"
 #include "shared/contract/material.h"
 #include "shared/contract/object_lights.h"
+#include "shared/contract/shadow.h"
 #include "shared/contract/view.h"
 
 #define FEATURE_CONSTANT(id, name, source, inputs, passes) \

@@ -5,6 +5,7 @@
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/radiance.glsl"
+#include "shaders/lib/shadow.glsl"
 
 // The numbers of a channel (shared/contract/debug_mode.h), never a colour map. z: the reversed depth.
 vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, float z) {
@@ -24,6 +25,10 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_geometric_normal: return vec4(s.geometric_normal, 1.0);
         case DEBUG_light_count: return vec4(float(lightCount(lights)));
         case DEBUG_list_overflow: return vec4(listOverflowed(lights) ? 1.0 : 0.0);
+        case DEBUG_shadow_visibility: return vec4(radiance.sun_visibility);
+        case DEBUG_cascade: return vec4(servingCascade(s.position));
+        case DEBUG_page_residency: return vec4(pageResidency(s.position));
+        case DEBUG_local_visibility: return vec4(localVisibility(radiance));
         case DEBUG_lit_diffuse: return vec4(radiance.diffuse, 1.0);
         case DEBUG_lit_specular: return vec4(radiance.specular, 1.0);
         case DEBUG_lit_ambient: return vec4(radiance.ambient, 1.0);

@@ -112,8 +112,12 @@ uvec2 directionalPackets() {
     ObjectLights object = object_lights[constants.draw];
     return uvec2(object.begin, object.local_begin);
 }
+// Its number among the directional lights.
+uint directionalOf(uint packet) {
+    return on(feature_object_lights) ? lightsOfPacket(packet).x : packet;
+}
 Light directionalAt(uint packet) {
-    return withShare(lightAt(on(feature_object_lights) ? lightsOfPacket(packet).x : packet));
+    return withShare(lightAt(directionalOf(packet)));
 }
 
 // The area lights of a list one by one: evaluating those that pad the last packet would be too expensive.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the light batches before this draw reflected at the pixel, W/(sr m^2).
+// What the light batches before this draw reflected at the pixel, W/(sr m^2); in the fourth component what is
+// seen of the points and spots that cast, and their light, of Radiance.
 #ifndef PARTIAL_SUMS_GLSL
 #define PARTIAL_SUMS_GLSL
 
@@ -8,7 +9,7 @@
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_DIFFUSE) uniform sampler2D partial_diffuse;
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform sampler2D partial_specular;
 
-vec3 partialDiffuse() { return texelFetch(partial_diffuse, ivec2(gl_FragCoord.xy), 0).rgb; }
-vec3 partialSpecular() { return texelFetch(partial_specular, ivec2(gl_FragCoord.xy), 0).rgb; }
+vec4 partialDiffuse() { return texelFetch(partial_diffuse, ivec2(gl_FragCoord.xy), 0); }
+vec4 partialSpecular() { return texelFetch(partial_specular, ivec2(gl_FragCoord.xy), 0); }
 
 #endif

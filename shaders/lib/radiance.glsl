@@ -8,11 +8,19 @@ struct Radiance {
     vec3 specular;
     vec3 ambient;
     vec3 emission;
+    float sun_visibility;  // 0 to 1; 1 where no sun casts
+    float local_light;     // luminance of the irradiance of points and spots that cast, W/m^2,
+    float local_seen;      // and what is seen of it
 };
 
 vec3 lit(Radiance radiance) {
     vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
     return sum;
+}
+
+// The mean over the points and spots that cast, weighted by their light; 1 where none does.
+float localVisibility(Radiance radiance) {
+    return radiance.local_light > 0.0 ? radiance.local_seen / radiance.local_light : 1.0;
 }
 
 #endif

@@ -18,10 +18,12 @@
 #include "shaders/lib/partial_sums.glsl"
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/lights.glsl"
+#include "shaders/lib/local_shadow.glsl"
 #include "shaders/lib/loop.glsl"
 #include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/position.glsl"
 #include "shaders/lib/radiance.glsl"
+#include "shaders/lib/shadow.glsl"
 #include "shaders/lib/surface.glsl"
 
 // What every light meets at a pixel.
@@ -45,12 +47,48 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
                 radiance);
 }
 
-// Adds the packets [x, y) of one kind of light.
-#define ADD_PACKETS(add, packets)                  \
+void addCasting(Shading shading, Incident light, uint place, vec3 position, inout Radiance radiance) {
+    float seen = visibilityOf(shading.surface, place, position);
+    float light_here = dot(light.irradiance, vec3(0.2126, 0.7152, 0.0722));
+    radiance.local_light += light_here;
+    radiance.local_seen += light_here * seen;
+    light.irradiance *= seen;
+    addIncident(shading, light, radiance);
+}
+
+void addCastingPoint(Shading shading, uint i, LocalCasters casters, inout Radiance radiance) {
+    Light light = withShare(lightAt(i));
+    Incident incident = fromPointLight(light, shading.surface.position);
+    addCasting(shading, incident, i - view.directional_light_count, light.position, radiance);
+}
+
+void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radiance radiance) {
+    Light light = withShare(lightAt(i));
+    Incident incident = fromSpotLight(light, spotConeAt(i), shading.surface.position);
+    addCasting(shading, incident, i - casters.spot_shift, light.position, radiance);
+}
+
+// Adds those of the packets [x, y) of one kind of light that cast, its first ones, with numbers below `end`;
+// leaves the packets that hold others.
+#define ADD_CASTERS(add, packets, end)                       \
+    {                                                       \
+        CasterWalk walk = casterWalk(packets, end);         \
+        while (walk.more) {                                 \
+            add(shading, walk.light, casters, radiance);    \
+            step(walk);                                     \
+            if (!walk.more) break;                          \
+        }                                                   \
+        packets.x = walk.place / feature_list_width;        \
+    }
+
+// Adds the packets [x, y) of one kind of light, without those that cast, with numbers below `end`, where this
+// kind does.
+#define ADD_PACKETS(add, packets, casting, end)    \
     {                                             \
         uvec2 range = packets;                    \
         EACH(range) {                             \
             uvec4 i = lightsOfPacket(range.x);     \
+            if (on(feature_local_shadows & casting)) i = withoutCasters(i, end, casters.null_light); \
             add(shading, i.x, radiance);          \
             if (feature_list_width == 4) {        \
                 add(shading, i.y, radiance);      \
@@ -74,10 +112,13 @@ void addSpot(Shading shading, uint i, inout Radiance radiance) {
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, shadedBrdf(s, v));
-    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission);
+    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission, 1.0, 0.0, 0.0);
     if (feature_light_batch == BATCH_LATER) {
-        radiance.diffuse = partialDiffuse();
-        radiance.specular = partialSpecular();
+        vec4 diffuse = partialDiffuse(), specular = partialSpecular();
+        radiance.diffuse = diffuse.rgb;
+        radiance.specular = specular.rgb;
+        radiance.local_seen = diffuse.a;
+        radiance.local_light = specular.a;
     }
     if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
         // The base's reflection of the draw's lights that are not shaded per pixel.
@@ -85,16 +126,30 @@ Radiance shade(Surface s, PixelLights lights) {
         radiance.diffuse = reflected;
     }
     if (on(feature_directional_lights) && feature_light_batch != BATCH_LATER) {
+        radiance.sun_visibility = sunVisibility(s);
         uvec2 range = directionalPackets();
         EACH(range) {
-            addIncident(shading, fromDirectionalLight(directionalAt(range.x)), radiance);
+            Incident light = fromDirectionalLight(directionalAt(range.x));
+            if (on(feature_shadows) && directionalOf(range.x) == castingLight())
+                light.irradiance *= radiance.sun_visibility;
+            addIncident(shading, light, radiance);
             NEXT(range);
         }
     }
-    if (on(feature_point_lights))
-        ADD_PACKETS(addPoint, walked(lights, lights.packets.begin, lights.packets.point_end))
-    if (on(feature_spot_lights))
-        ADD_PACKETS(addSpot, walked(lights, lights.packets.point_end, lights.packets.spot_end))
+    LocalCasters casters = LocalCasters(0u, 0u, 0u, 0u);
+    if (on(feature_local_shadows)) casters = localCasters();
+    if (on(feature_point_lights)) {
+        uvec2 packets = walked(lights, lights.packets.begin, lights.packets.point_end);
+        if (on(feature_local_shadows & LOCAL_SHADOWS_POINTS))
+            ADD_CASTERS(addCastingPoint, packets, casters.point_end)
+        ADD_PACKETS(addPoint, packets, LOCAL_SHADOWS_POINTS, casters.point_end)
+    }
+    if (on(feature_spot_lights)) {
+        uvec2 packets = walked(lights, lights.packets.point_end, lights.packets.spot_end);
+        if (on(feature_local_shadows & LOCAL_SHADOWS_SPOTS))
+            ADD_CASTERS(addCastingSpot, packets, casters.spot_end)
+        ADD_PACKETS(addSpot, packets, LOCAL_SHADOWS_SPOTS, casters.spot_end)
+    }
 #if AREA_LIGHTS
     if (on(feature_area_lights)) {
         AreaView area = areaView(shading.brdf, s, v);

@@ -28,9 +28,11 @@ struct Surface {
     vec3 object_irradiance; // forward+ with object_lights: of those that are not shaded per pixel, W/m^2
 };
 
-// Whether the triangle's own normal is needed as a channel. (Shading needs it where a shading normal may
-// vanish.)
-bool needsGeometricNormal() { return on(feature_captured); }
+// Whether the triangle's own normal is carried: as a channel, and where shadows begin. (Making a shading
+// normal that may vanish needs it too.)
+bool needsGeometricNormal() {
+    return on(feature_captured) || on(feature_shadows) || on(feature_local_shadows);
+}
 
 // Specular colour at normal incidence.
 vec3 specularF0(Surface s) { return blend(s.dielectric_f0, s.albedo, s.metallic); }

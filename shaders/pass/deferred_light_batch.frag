@@ -13,6 +13,6 @@ void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     float z = depthAt(p);
     Radiance radiance = shade(surfaceFromGBuffer(p, z), lightsAt(gl_FragCoord.xy, z));
-    out_diffuse = vec4(radiance.diffuse, 1.0);
-    out_specular = vec4(radiance.specular, 1.0);
+    out_diffuse = vec4(radiance.diffuse, radiance.local_seen);
+    out_specular = vec4(radiance.specular, radiance.local_light);
 }

@@ -11,6 +11,6 @@ layout(location = 1) out vec4 out_specular;
 
 void main() {
     Radiance radiance = shade(forwardSurface(), lightsAt(gl_FragCoord.xy, shadedDepth()));
-    out_diffuse = vec4(radiance.diffuse, 1.0);
-    out_specular = vec4(radiance.specular, 1.0);
+    out_diffuse = vec4(radiance.diffuse, radiance.local_seen);
+    out_specular = vec4(radiance.specular, radiance.local_light);
 }

@@ -32,7 +32,11 @@ CONTRACT_END
     X(9,  ALBEDO,       storage_buffer, "vec2[], see albedo.h")                               \
     X(10, OBJECT_LIST,  storage_buffer, "ObjectLight[]")                                      \
     X(11, OBJECTS,      storage_buffer, "ObjectLights[draws]")                                \
-    X(12, VIEW_TEXELS,  texel_buffer,   "PACKED_VIEW")
+    X(12, VIEW_TEXELS,  texel_buffer,   "PACKED_VIEW")                                        \
+    X(13, SHADOW_LIGHT, texel_buffer,   "ShadowLight, eight texels, then Cascade[], clipmap.h") \
+    X(14, SHADOW_MAP,   image,          "depth or moments of the cascades, a layer each; pages") \
+    X(15, LOCAL_SHADOW_LIGHTS, texel_buffer, "LocalCasters, then nine texels a light")        \
+    X(16, LOCAL_SHADOW_MAP, image,      "depth in the tiles of local lights, an array of one layer")
 
 #define PARTIAL_SUM_BINDINGS(X)                                                               \
     X(0, PARTIAL_DIFFUSE,  image, "RGBA32F, W/(sr m^2)")                                      \

@@ -32,6 +32,10 @@
     X(12, geometric_normal, 3, angular,  vector, unit,     both,         "normal of the triangle, world") \
     X(20, light_count,      1, absolute, scalar, positive, paths_only,   "lights evaluated at the pixel") \
     X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list found no room") \
+    X(30, shadow_visibility, 1, absolute, scalar, share,   both,         "share of the casting sun that is seen; 1 where none casts") \
+    X(31, cascade,          1, exact,    id,     any,      paths_only,   "cascade of the sun's shadow map, or the clipmap's level that is asked for, from 0; -1 where none serves") \
+    X(32, page_residency,   1, exact,    id,     any,      paths_only,   "levels by which that which serves is coarser; 0: the page is there; -1 without a clipmap") \
+    X(33, local_visibility, 1, absolute, scalar, share,    both,         "share that is seen of the points and spots that cast, weighted by irradiance; 1 where none does") \
     X(40, lit_diffuse,      3, relative, color,  any,      both,         "reflected by the diffuse lobe, W/(sr m^2)") \
     X(41, lit_specular,     3, relative, color,  any,      both,         "reflected by the specular lobe, W/(sr m^2)") \
     X(42, lit_ambient,      3, relative, color,  any,      both,         "reflected ambient light, W/(sr m^2)") \

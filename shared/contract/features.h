@@ -74,7 +74,14 @@
     /* for channels, which may need more than shading does */                                               \
     X(42, captured,                   pass,    3, PASSES_SURFACE)                                           \
     /* a depth pre-pass has stored the depth, which the draw reads */                                       \
-    X(43, stored_depth,               pass,    0, PASS_FORWARD)
+    X(43, stored_depth,               pass,    0, PASS_FORWARD)                                             \
+    /* SHADOWS_* of shadow.h; where a shadow begins depends on the triangle's normal */                     \
+    X(44, shadows,                    frame,   2, PASSES_SURFACE | PASS_LIGHTING | PASS_SHADOWS)            \
+    /* side of the filter, texels: odd */                                                                   \
+    X(45, shadow_kernel,              frame,   0, PASSES_SHADE | PASS_SHADOWS)                              \
+    X(46, shadow_cascades,            frame,   0, PASSES_SHADE)                                             \
+    /* a sum of LOCAL_SHADOWS_* of local_shadow.h; normals as for shadows */                                \
+    X(47, local_shadows,              frame,   2, PASSES_SURFACE | PASS_LIGHTING)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -91,6 +98,7 @@ CONTRACT_CONST(uint, PASS_FORWARD, 2);         // surface.vert, forward_*.frag
 CONTRACT_CONST(uint, PASS_GBUFFER, 4);         // surface.vert, gbuffer.frag
 CONTRACT_CONST(uint, PASS_LIGHTING, 8);        // deferred lighting and its captures: deferred_*
 CONTRACT_CONST(uint, PASS_LISTS, 16);          // light_*.comp
+CONTRACT_CONST(uint, PASS_SHADOWS, 32);        // moments of shadow maps: shadow_*.comp
 CONTRACT_CONST(uint, PASSES_DRAW, 1 | 2 | 4);  // those that draw the scene's triangles
 CONTRACT_CONST(uint, PASSES_SURFACE, 2 | 4);   // those that make a Surface from a material
 CONTRACT_CONST(uint, PASSES_SHADE, 2 | 8);     // those that evaluate lights

@@ -28,7 +28,7 @@ void CaptureGroup::specialise(Variant& variant) const {
 
 std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
     std::vector<int> ordered(modes.begin(), modes.end());
-    std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !isLit(mode); });
+    std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !isShaded(mode); });
     std::vector<CaptureGroup> groups;
     for (std::size_t i = 0; i < ordered.size(); ++i) {
         if (i % gpu::CAPTURE_ATTACHMENTS == 0) groups.emplace_back();

@@ -70,43 +70,56 @@ bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
            allBeyond([](const glm::dvec4& c) { return c.z; });
 }
 
-// View depth of the box's farthest corner in steps of 1/16 octave: draws at about the same depth still get
-// sorted by variant and material.
-int farthest(const glm::dmat4& cameraFromObject, const glm::dvec3& forward, const PrimitiveRange& range) {
-    double depth = 0;
-    for (const glm::dvec4& corner : corners(cameraFromObject, range))
-        depth = std::max(depth, glm::dot(forward, glm::dvec3(corner)));
+ViewDepths viewDepths(const glm::dmat4& cameraFromObject, const glm::dvec3& forward,
+                      const PrimitiveRange& range) {
+    ViewDepths depths{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const glm::dvec4& corner : corners(cameraFromObject, range)) {
+        const double depth = glm::dot(forward, glm::dvec3(corner));
+        depths = {std::min(depths.nearest, depth), std::max(depths.farthest, depth)};
+    }
+    return depths;
+}
+
+// In steps of 1/16 octave: draws at about the same depth still get sorted by variant and material.
+int distanceOf(double depth) {
     return depth > 0 ? static_cast<int>(std::floor(16 * std::log2(depth))) : std::numeric_limits<int>::min();
 }
 
-}  // namespace
+// What every draw of an instance has, whatever it is drawn to.
+DrawItem itemOf(const Instance& instance, const PrimitiveRange& range, const Materials& materials) {
+    DrawItem item;
+    item.range = range;
+    item.variant = materials.variant(range.material);
+    if (range.vertex_color) item.variant.set(gpu::FEATURE_vertex_color);
+    if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
+        flattens(instance.world_from_object))
+        item.variant.set(gpu::FEATURE_vanishing_normals);
+    item.masked = item.variant.get(gpu::FEATURE_alpha_mask) != 0;
+    return item;
+}
 
-DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                      const View& view) {
+// The instances that `draws` and that are not wholly outside of clip space. `depthsOf` gives the view depths
+// of one, of its transform relative to `eye`; they are ordered by the farthest.
+template <class Draws, class DepthsOf>
+DrawList listOf(const Pose& pose, const Geometry& geometry, const Materials& materials,
+                const glm::dmat4& clipFromWorld, const glm::dvec3& eye, const Draws& draws,
+                const DepthsOf& depthsOf) {
     DrawList list;
-    const glm::dvec3 eye = view.eye();
-    const glm::dmat4 clipFromWorld = view.clipFromWorld();
     for (const Instance& instance : pose.instances) {
         const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
-        if (range.index_count == 0) continue;
+        if (range.index_count == 0 || !draws(range)) continue;
         glm::dmat4 fromCamera = instance.world_from_object;
         fromCamera[3] -= glm::dvec4(eye, 0.0);
         if (outside(clipFromWorld * fromCamera, range)) {
             ++list.culled;
             continue;
         }
-        DrawItem item;
-        item.range = range;
+        DrawItem item = itemOf(instance, range, materials);
         item.draw = static_cast<std::uint32_t>(list.draws.size());
-        item.variant = materials.variant(range.material);
-        if (range.vertex_color) item.variant.set(gpu::FEATURE_vertex_color);
-        if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
-            flattens(instance.world_from_object))
-            item.variant.set(gpu::FEATURE_vanishing_normals);
         list.draws.push_back(gpuDraw(instance.world_from_object, eye, clipFromWorld));
         item.mirrored = list.draws.back().handedness < 0;
-        item.masked = item.variant.get(gpu::FEATURE_alpha_mask) != 0;
-        item.distance = farthest(fromCamera, -view.backward(), range);
+        item.depths = depthsOf(fromCamera, range);
+        item.distance = distanceOf(item.depths.farthest);
         list.items.push_back(item);
     }
     std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
@@ -116,6 +129,26 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         return key(a) < key(b);
     });
     return list;
+}
+
+}  // namespace
+
+DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
+                      const View& view) {
+    return listOf(
+        pose, geometry, materials, view.clipFromWorld(), view.eye(),
+        [](const PrimitiveRange&) { return true; },
+        [&](const glm::dmat4& fromCamera, const PrimitiveRange& range) {
+            return viewDepths(fromCamera, -view.backward(), range);
+        });
+}
+
+DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materials& materials,
+                        const glm::dmat4& clipFromWorld, const glm::dvec3& eye) {
+    return listOf(
+        pose, geometry, materials, clipFromWorld, eye,
+        [&](const PrimitiveRange& range) { return materials.castsShadow(range.material); },
+        [](const glm::dmat4&, const PrimitiveRange&) { return ViewDepths(); });
 }
 
 }  // namespace diptych

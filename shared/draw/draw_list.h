@@ -11,6 +11,11 @@
 
 namespace diptych {
 
+// Of the corners of a bounding box, m; negative behind the camera.
+struct ViewDepths {
+    double nearest = 0, farthest = 0;
+};
+
 struct DrawItem {
     PrimitiveRange range;
     std::uint32_t draw = 0;  // into DrawList::draws
@@ -18,6 +23,7 @@ struct DrawItem {
     bool mirrored = false;   // the transform turns front faces round
     bool masked = false;     // alpha mask
     int distance = 0;        // of the farthest corner: only its order counts
+    ViewDepths depths;
 };
 
 struct DrawList {
@@ -32,5 +38,10 @@ struct DrawList {
 // only where its bounding box lies wholly beyond one plane of the view.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view);
+
+// What may cast a shadow into a part of light space: `clipFromWorld`, of world axes with `eye` as the origin,
+// puts it into -1..1, whatever its depth. Ordered as above, for a light that is infinitely far.
+DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materials& materials,
+                        const glm::dmat4& clipFromWorld, const glm::dvec3& eye);
 
 }  // namespace diptych

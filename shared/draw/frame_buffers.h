@@ -20,6 +20,7 @@ public:
                  const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
                  std::optional<std::uint32_t> objectPixelLights = {});
     VkDescriptorSet set() const { return sets_[0]; }
+    DescriptorSets& sets() { return sets_; }
     VkBuffer draws() const { return draws_.handle(); }
     const Placeholders& placeholders() const { return placeholders_; }
     LightLists& lists() { return lists_; }

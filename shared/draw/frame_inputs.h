@@ -11,6 +11,8 @@
 
 namespace diptych {
 
+class ShadowMaps;  // shared/shadow: what follows is handed on to the paths
+
 // One view of a scene under one Settings. What is referred to outlives it.
 struct FrameInputs {
     Device& device;
@@ -26,6 +28,7 @@ struct FrameInputs {
     LightLists& lists;
     Variant variant;  // of the scene and the view: light kinds, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
+    ShadowMaps& shadow;
     gpu::uint longest_list = 0;  // packets of the longest light list that a pixel may walk
     bool prepass = true;         // forward+ draws depth first; prepareForwardPlus() decides
 };

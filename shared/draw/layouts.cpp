@@ -53,10 +53,15 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material)
 Placeholders::Placeholders(Device& device, Uploader& uploader, const Layouts& layouts)
     : image_(device, {"black texel", VK_FORMAT_R32G32B32A32_SFLOAT, 1, 1, 1,
                       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}),
+      array_(device, {.name = "black texel of an array",
+                      .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                      .array = true}),
       partial_sums_(device, layouts.partial_sums, partialSumTypes, 1),
       gbuffer_(device, layouts.gbuffer, gbufferTypes, 1) {
     constexpr std::array<float, 4> black{};
-    uploader.level(image_, 0, std::as_bytes(std::span(black)));
+    for (const GpuImage* const image : {&image_, &array_})
+        uploader.level(*image, 0, std::as_bytes(std::span(black)));
     uploader.flush();
     for (DescriptorSets* const sets : {&partial_sums_, &gbuffer_})
         for (gpu::uint i = 0; i < sets->bindings(); ++i)

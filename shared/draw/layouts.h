@@ -37,9 +37,10 @@ public:
     VkDescriptorSet partialSums() const { return partial_sums_[0]; }  // of draws that continue no sums
     VkDescriptorSet gbuffer() const { return gbuffer_[0]; }           // of draws that read no stored depth
     VkImageView texel() const { return image_.view(); }
+    VkImageView arrayTexel() const { return array_.view(); }
 
 private:
-    GpuImage image_;
+    GpuImage image_, array_;
     DescriptorSets partial_sums_, gbuffer_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/object_lights.h"
+#include "shared/contract/shadow.h"
 #include "shared/draw/pipeline_parts.h"
 
 namespace diptych {
@@ -41,6 +42,9 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
     // Items without a lightmap, in a scene that has some, reflect exactly nothing of one.
     key.variant.set(gpu::FEATURE_lightmap, item.variant.get(gpu::FEATURE_lightmap_texture));
     key.variant.set(gpu::FEATURE_light_batch, batch.kind);
+    // Shadows begin where the triangle's normal says, which both paths quantise alike.
+    if (key.variant.any(FeatureMask().with(gpu::FEATURE_shadows).with(gpu::FEATURE_local_shadows)))
+        key.variant.set(gpu::FEATURE_gbuffer_encoding, inputs.variant.get(gpu::FEATURE_gbuffer_encoding));
     return key;
 }
 

@@ -28,7 +28,7 @@ int inputsOf(const Variant& variant, int sets) {
 // capture has DEBUG_lit in all of them.
 bool needsLights(const Variant& variant) {
     for (gpu::uint i = 0; i < gpu::CAPTURE_ATTACHMENTS; ++i)
-        if (isLit(static_cast<int>(variant.get(gpu::FEATURE_capture_0 + i)))) return true;
+        if (isShaded(static_cast<int>(variant.get(gpu::FEATURE_capture_0 + i)))) return true;
     return false;
 }
 

@@ -3,6 +3,7 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/geometry.h"
+#include "shared/draw/pipeline_keys.h"
 
 #include <memory>
 #include <utility>
@@ -30,38 +31,68 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
     vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
 }
 
+std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, const DrawList& draws, const KeyOf& keyOf) {
+    std::vector<PipelineKey> keys;
+    for (const DrawItem& item : draws.items) keys.push_back(keyOf(item));
+    return inputs.pipelines.get(keys);
+}
+
+struct DrawSource {
+    const DrawList& draws;
+    VkBuffer buffer;   // Draw[draws.draws]
+    bool culls_backs;  // of materials that are not double-sided
+};
+
+template <class ConstantsOf>
+void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
+                 const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
+    inputs.geometry.bind(commands, source.buffer);
+    const DrawItem* last = nullptr;
+    VkPipeline lastPipeline = VK_NULL_HANDLE;
+    for (std::size_t i = 0; i < pipelines.size(); ++i) {
+        const DrawItem& item = source.draws.items[i];
+        if (pipelines[i] != lastPipeline)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
+        if (last == nullptr || item.range.material != last->range.material)
+            bind(commands, inputs, gpu::SET_MATERIAL, inputs.materials.set(item.range.material));
+        const bool twoSided = !source.culls_backs || item.variant.get(gpu::FEATURE_double_sided) != 0;
+        vkCmdSetCullMode(commands, twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+        // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
+        vkCmdSetFrontFace(commands,
+                          item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        push(commands, inputs, constantsOf(item));
+        vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
+                         item.range.vertex_offset, item.draw);
+        last = &item;
+        lastPipeline = pipelines[i];
+    }
+}
+
 }  // namespace
 
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightBatch& batch,
                                                  std::shared_ptr<const DescriptorSets> gbuffer,
                                                  gpu::uint surface) {
-    std::vector<PipelineKey> keys;
-    for (const DrawItem& item : inputs.draws.items) keys.push_back(keyOf(item));
-    std::vector<VkPipeline> pipelines = inputs.pipelines.get(keys);
     return [&inputs, batch, surface, gbuffer = std::move(gbuffer),
-            pipelines = std::move(pipelines)](VkCommandBuffer commands) {
+            pipelines = pipelinesOf(inputs, inputs.draws, keyOf)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, gbuffer.get());
-        inputs.geometry.bind(commands, inputs.draw_buffer);
-        const DrawItem* last = nullptr;
-        VkPipeline lastPipeline = VK_NULL_HANDLE;
-        for (std::size_t i = 0; i < pipelines.size(); ++i) {
-            const DrawItem& item = inputs.draws.items[i];
-            if (pipelines[i] != lastPipeline)
-                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
-            if (last == nullptr || item.range.material != last->range.material)
-                bind(commands, inputs, gpu::SET_MATERIAL, inputs.materials.set(item.range.material));
-            const bool twoSided = item.variant.get(gpu::FEATURE_double_sided) != 0;
-            vkCmdSetCullMode(commands, twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
-            // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
-            vkCmdSetFrontFace(commands,
-                              item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-            push(commands, inputs, {item.draw, item.range.material, batch.first, batch.end, surface});
-            vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
-                             item.range.vertex_offset, item.draw);
-            last = &item;
-            lastPipeline = pipelines[i];
-        }
+        recordItems(commands, inputs, {inputs.draws, inputs.draw_buffer, true}, pipelines,
+                    [&](const DrawItem& item) -> gpu::DrawConstants {
+                        return {item.draw, item.range.material, batch.first, batch.end, surface};
+                    });
+    };
+}
+
+std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, const DrawList& draws,
+                                                   VkBuffer draw_buffer) {
+    return [&inputs, &draws, draw_buffer,
+            pipelines = pipelinesOf(inputs, draws, depthKey)](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, {}, nullptr);
+        recordItems(commands, inputs, {draws, draw_buffer, false}, pipelines,
+                    [](const DrawItem& item) -> gpu::DrawConstants {
+                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED};
+                    });
     };
 }
 

@@ -18,6 +18,10 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
                                                  const LightBatch& batch = {},
                                                  std::shared_ptr<const DescriptorSets> gbuffer = {},
                                                  gpu::uint surface = gpu::SURFACE_DECODED);
+// The same of other draws than the picture's, depth alone: what casts shadows does with both of its sides.
+// `draw_buffer`: Draw[draws.draws]. `draws` must outlive what is returned.
+std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, const DrawList& draws,
+                                                   VkBuffer draw_buffer);
 
 // One triangle that covers the screen, with the descriptor sets that are bound.
 void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);

@@ -47,6 +47,12 @@ constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
 
+// Channels that shading finds: those, and what lights are seen.
+constexpr bool isShaded(int mode) {
+    return isLit(mode) || mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
+           mode == static_cast<int>(gpu::DEBUG_local_visibility);
+}
+
 // The one that is dark in a scene without ambient light and lightmaps.
 constexpr bool isAmbient(int mode) {
     return mode == static_cast<int>(gpu::DEBUG_lit_ambient);

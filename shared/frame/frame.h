@@ -33,10 +33,19 @@ struct FrameBytes {
     std::uint64_t gbuffer_per_pixel = 0;    // deferred: attachments and depth; forward+: depth
 };
 
+// Pages of --shadows clipmap: requested = resident + fallback.
+struct ShadowPages {
+    std::uint64_t requested = 0;  // by the picture
+    std::uint64_t resident = 0;   // of these, in the pool
+    std::uint64_t fallback = 0;   // of these, served by a coarser level
+    std::uint64_t drawn = 0;      // before the first frame; the others were there already
+};
+
 struct FrameCounters {
     std::uint64_t nonfinite_pixels = 0;  // in lit
     std::uint64_t overflowed_lists = 0;
     std::uint64_t lights = 0;  // every light, the sun too
+    ShadowPages shadow_pages;
     // Where the lit of the capture differs from that of the timed pipeline.
     std::uint64_t unreproduced_pixels = 0;
     double energy_cut =
@@ -73,6 +82,13 @@ struct FrameCamera {
     std::string choice{};  // of a default view: what was chosen and how much it shows, in words; else empty
 };
 
+// How far from the edge of a shadow, across the light, a path's filter may show anything between light and
+// shadow: from its middle to a corner and one texel, m, up to a view depth, m.
+struct ShadowReach {
+    double depth = 0, reach = 0;
+    double texel = 0;  // m
+};
+
 struct Frame {
     std::string name;   // "deferred"
     std::string scene;  // as the user wrote it
@@ -97,6 +113,20 @@ struct Frame {
     // m^2); and the same relative to lit (as lit's metric is), at 99.9 % of the covered pixels.
     Image uncertainty;
     double relative_uncertainty = 0;
+    // Of the reference where a sun casts, W x H x 3: the distance of each pixel from the edge of its shadow,
+    // across the light, m, 0 where a part of its disc is seen; what the surface would reflect of the sun
+    // unshadowed, the largest component, W/(sr m^2); and what would arrive, the luminance, W/m^2.
+    Image shadow_edge;
+    // Of the reference where points or spots cast, W x H x 2: the distance of each pixel from the nearest
+    // edge of their shadows, across their rays, a share of the distance from the light; and what the surface
+    // would reflect of them unshadowed, the largest component, W/(sr m^2).
+    Image local_shadow_edge;
+    // Of a path whose points or spots cast: how far its filter reaches, in the same measure; else 0.
+    double local_shadow_reach = 0;
+    // Of a path that filters shadow maps, by view depth in ascending order; empty where it has none.
+    std::vector<ShadowReach> shadow_reach;
+    // The same of --shadows clipmap by the level that serves, cascade + page_residency, at all depths.
+    std::vector<ShadowReach> shadow_level_reach;
     FrameTime time;
     std::vector<PassTime> passes;
     double made_in_ms = 0;  // wall clock of all drawing, timing, capturing and reading back for this Frame

@@ -70,15 +70,30 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
-enum class Shadows { off, pcf, evsm, clipmap };
+enum class Shadows { off, pcf, evsm, evsm4, msm4, pcss, clipmap };
 template <>
-inline constexpr auto enum_names<Shadows> = std::to_array<EnumName<Shadows>>(
-    {{Shadows::off, "off"}, {Shadows::pcf, "pcf"}, {Shadows::evsm, "evsm"}, {Shadows::clipmap, "clipmap"}});
+inline constexpr auto enum_names<Shadows> = std::to_array<EnumName<Shadows>>({{Shadows::off, "off"},
+                                                                              {Shadows::pcf, "pcf"},
+                                                                              {Shadows::evsm, "evsm"},
+                                                                              {Shadows::evsm4, "evsm4"},
+                                                                              {Shadows::msm4, "msm4"},
+                                                                              {Shadows::pcss, "pcss"},
+                                                                              {Shadows::clipmap, "clipmap"}});
+
+enum class ShadowFit { view, depth };
+template <>
+inline constexpr auto enum_names<ShadowFit> =
+    std::to_array<EnumName<ShadowFit>>({{ShadowFit::view, "view"}, {ShadowFit::depth, "depth"}});
 
 enum class EvsmPrecision { automatic, fp32, fp16 };
 template <>
 inline constexpr auto enum_names<EvsmPrecision> = std::to_array<EnumName<EvsmPrecision>>(
     {{EvsmPrecision::automatic, "auto"}, {EvsmPrecision::fp32, "fp32"}, {EvsmPrecision::fp16, "fp16"}});
+
+enum class EvsmDepth { from_zero, from_minus_one };
+template <>
+inline constexpr auto enum_names<EvsmDepth> = std::to_array<EnumName<EvsmDepth>>(
+    {{EvsmDepth::from_zero, "0..1"}, {EvsmDepth::from_minus_one, "-1..1"}});
 
 enum class ReferenceMode { surface, scene };
 template <>

@@ -33,12 +33,22 @@ struct Settings {
     float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
     AreaLights area_lights = AreaLights::ltc;
-    Shadows shadows = Shadows::off;
+    Shadows shadows = Shadows::pcf;
     int shadow_lights = 0;
+    int shadow_size = 2048;  // texels
+    int shadow_cascades = 4;
+    int shadow_kernel = 3;  // texels
+    ShadowFit shadow_fit = ShadowFit::view;
+    float shadow_distance = 0.0f;  // m; 0: as far as the scene reaches
+    float shadow_bias = 0.5f;      // texels
+    int clipmap_pages = 512;
+    int clipmap_page_size = 128;  // texels
     EvsmPrecision evsm_precision = EvsmPrecision::automatic;
-    float evsm_exponent = 40.0f;
+    float evsm_exponent = 0.0f;           // 0: by precision
+    float evsm_negative_exponent = 0.0f;  // 0: 5
+    EvsmDepth evsm_depth = EvsmDepth::from_minus_one;
     float evsm_bleed = 0.0f;
-    float evsm_min_variance = 0.0f;
+    float evsm_min_variance = 1e-8f;
     int msaa = 1;
     bool sort = true;
     bool haze = false;
@@ -106,6 +116,8 @@ struct Field {
     ValidValues valid = {};
     DefaultOnly default_only = {};
     IgnoredBecause ignored = {};
+    // What the reference takes every value for but what calls it off; empty: it tells them apart.
+    std::string_view one_for_reference = {};
 
     // What a sweep of speed against accuracy tries: nothing (a scene's content, on which the reference
     // depends, is no such choice), "all" values of an enumeration or switch, or these, separated by commas;
@@ -124,7 +136,14 @@ struct Field {
 namespace row {
 
 inline constexpr std::string_view not_built = "is not built yet";
-inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm";
+inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm or evsm4";
+inline constexpr std::string_view needs_evsm4 = "has no meaning without --shadows evsm4";
+inline constexpr std::string_view needs_clipmap = "has no meaning without --shadows clipmap";
+inline constexpr std::string_view exponents =
+    "is 0 to 44.36, in 16 bits to 5.54: the largest whose square the format holds";
+inline constexpr std::string_view needs_shadows = "has no meaning without --shadows";
+inline constexpr std::string_view needs_cascades =
+    "has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4";
 inline constexpr std::string_view needs_reference = "has no meaning without --path reference";
 inline constexpr std::string_view every_light = "the reference evaluates every light";
 inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
@@ -132,6 +151,7 @@ inline constexpr std::string_view only_reference = "the reference alone takes sa
 inline constexpr std::string_view not_blended = "no path blends yet";
 
 inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulkan 1.3 device in use, or less
+inline constexpr int most_pages = 16384;
 inline constexpr int most_samples = 65536;  // more take a day for a small picture
 
 constexpr bool isSide(int pixels) {
@@ -143,8 +163,23 @@ inline bool isFiniteFrom0(double value) {
 inline bool isReference(const Settings& s) {
     return s.path == Path::reference;
 }
+inline bool hasShadows(const Settings& s) {
+    return s.shadows != Shadows::off;
+}
+inline bool hasClipmap(const Settings& s) {
+    return s.shadows == Shadows::clipmap;
+}
+inline bool hasCascades(const Settings& s) {
+    return hasShadows(s) && !hasClipmap(s);
+}
+inline bool hasEvsm4(const Settings& s) {
+    return s.shadows == Shadows::evsm4;
+}
 inline bool hasEvsm(const Settings& s) {
-    return s.shadows == Shadows::evsm;
+    return s.shadows == Shadows::evsm || hasEvsm4(s);
+}
+inline bool isExponent(const Settings& s, float exponent) {
+    return exponent >= 0 && exponent <= (s.evsm_precision == EvsmPrecision::fp16 ? 5.54f : 44.36f);
 }
 
 }  // namespace row
@@ -258,18 +293,93 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "shadows",
                 .help = "shadow technique",
                 .off = "off",
-                .default_only = {row::not_built, row::isReference},
+                .one_for_reference = "pcf",  // it traces them, whatever the technique
                 .sweep = "all",
                 .for_surfaces = "off"},
           &Settings::shadows);
     visit(Field{.option = "shadow-lights",
-                .help = "local lights that cast shadows",
+                .help = "points and spots that cast shadows, the brightest, beside those that ask",
                 .off = "0",
-                .default_only = {row::not_built},
-                .ignored = {.reference = row::traces_shadows},
+                .valid = {"is at least 0", [](const Settings& s) { return s.shadow_lights >= 0; }},
+                .default_only = {row::needs_shadows, row::hasShadows},
                 .sweep = "0,1,4",
-                .sweep_with = "shadows"},
+                .sweep_with = "shadows",
+                .for_surfaces = "0"},
           &Settings::shadow_lights);
+    visit(
+        Field{.option = "shadow-size",
+              .help = "side of a shadow map, or of a level of the clipmap, texels",
+              .valid = {"is 16 to 16384",
+                        [](const Settings& s) { return s.shadow_size >= 16 && row::isSide(s.shadow_size); }},
+              .default_only = {row::needs_shadows, row::hasShadows},
+              .ignored = {.reference = row::traces_shadows},
+              .sweep = "512,1024,2048,4096",
+              .sweep_with = "shadows"},
+        &Settings::shadow_size);
+    visit(Field{.option = "shadow-cascades",
+                .help = "shadow maps of the sun, from near to far",
+                .valid = {"is 1 to 4",
+                          [](const Settings& s) { return s.shadow_cascades >= 1 && s.shadow_cascades <= 4; }},
+                .default_only = {row::needs_cascades, row::hasCascades},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "1,2,3,4"},
+          &Settings::shadow_cascades);
+    visit(Field{.option = "shadow-kernel",
+                .help = "side of the shadow filter, texels",
+                .valid = {"is 1, 3, 5 or 7",
+                          [](const Settings& s) {
+                              return s.shadow_kernel >= 1 && s.shadow_kernel <= 7 && s.shadow_kernel % 2 == 1;
+                          }},
+                .default_only = {row::needs_shadows, row::hasShadows},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "1,3,5,7"},
+          &Settings::shadow_kernel);
+    visit(Field{.option = "shadow-fit",
+                .help = "what shadow maps of the sun cover: the view, or the depths that the picture shows",
+                .default_only = {row::needs_cascades, row::hasCascades},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "all",
+                .sweep_with = "shadow-size"},
+          &Settings::shadow_fit);
+    visit(Field{.option = "shadow-distance",
+                .help = "view depth that gets shadows, m; 0: as far as the scene reaches",
+                .valid = {"is finite and at least 0 m",
+                          [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_distance}); }},
+                .default_only = {row::needs_cascades, row::hasCascades},
+                .ignored = {.reference = row::traces_shadows}},
+          &Settings::shadow_distance);
+    visit(Field{.option = "shadow-bias",
+                .help = "how far a surface is moved towards the sun, along its triangle's normal, in texels",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_bias}); }},
+                .default_only = {row::needs_shadows, row::hasShadows},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "0.25,0.5,1"},
+          &Settings::shadow_bias);
+    visit(Field{.option = "clipmap-pages",
+                .help = "pages of the sun's clipmap that there is room for; where more are needed a coarser "
+                        "level serves",
+                .valid = {"is 1 to 16384",
+                          [](const Settings& s) {
+                              return s.clipmap_pages >= 1 && s.clipmap_pages <= row::most_pages;
+                          }},
+                .default_only = {row::needs_clipmap, row::hasClipmap},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "64,256,1024",
+                .sweep_with = "shadows"},
+          &Settings::clipmap_pages);
+    visit(Field{.option = "clipmap-page-size",
+                .help = "side of a page, texels",
+                .valid = {"is 32, 64, 128 or 256",
+                          [](const Settings& s) {
+                              return s.clipmap_page_size == 32 || s.clipmap_page_size == 64 ||
+                                     s.clipmap_page_size == 128 || s.clipmap_page_size == 256;
+                          }},
+                .default_only = {row::needs_clipmap, row::hasClipmap},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "64,128,256",
+                .sweep_with = "shadows"},
+          &Settings::clipmap_page_size);
     visit(Field{.option = "evsm-precision",
                 .help = "moments' format",
                 .default_only = {row::needs_evsm, row::hasEvsm},
@@ -278,22 +388,44 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_precision);
     visit(Field{.option = "evsm-exponent",
-                .help = "warp exponent",
+                .help = "warp exponent; 0: 40, or 5.5 in 16 bits",
+                .valid = {row::exponents,
+                          [](const Settings& s) { return row::isExponent(s, s.evsm_exponent); }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "5,10,20,40",
                 .sweep_with = "shadows"},
           &Settings::evsm_exponent);
+    visit(Field{.option = "evsm-negative-exponent",
+                .help = "exponent of the other warp of --shadows evsm4; 0: 5",
+                .valid = {row::exponents,
+                          [](const Settings& s) { return row::isExponent(s, s.evsm_negative_exponent); }},
+                .default_only = {row::needs_evsm4, row::hasEvsm4},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "5,20,40",
+                .sweep_with = "shadows"},
+          &Settings::evsm_negative_exponent);
+    visit(Field{.option = "evsm-depth",
+                .help = "depths that are warped: the second halves the leak at one exponent",
+                .default_only = {row::needs_evsm, row::hasEvsm},
+                .ignored = {.reference = row::traces_shadows},
+                .sweep = "all",
+                .sweep_with = "evsm-exponent"},
+          &Settings::evsm_depth);
     visit(Field{.option = "evsm-bleed",
-                .help = "light-bleeding reduction, 0 to 1",
+                .help = "light-bleeding reduction, 0 to below 1",
                 .off = "0",
+                .valid = {"is 0 to below 1",
+                          [](const Settings& s) { return s.evsm_bleed >= 0 && s.evsm_bleed < 1; }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "0,0.2,0.5",
                 .sweep_with = "shadows"},
           &Settings::evsm_bleed);
     visit(Field{.option = "evsm-min-variance",
-                .help = "smallest variance",
+                .help = "least variance of depth, a share of its range squared",
+                .valid = {"is finite and at least 0",
+                          [](const Settings& s) { return row::isFiniteFrom0(double{s.evsm_min_variance}); }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "0,1e-6,1e-4",

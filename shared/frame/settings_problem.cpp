@@ -28,7 +28,17 @@ std::optional<std::string> tilesNeedDepths(const Settings& s) {
            "use --prepass on";
 }
 
-constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths};
+std::optional<std::string> levelsHavePages(const Settings& s) {
+    if (s.path == Path::reference || s.shadows != Shadows::clipmap ||
+        s.shadow_size >= 4 * s.clipmap_page_size)
+        return {};
+    return fmt::format(
+        "--clipmap-page-size {}: four pages side by side are more than --shadow-size {}; use {}",
+        s.clipmap_page_size, s.shadow_size,
+        s.shadow_size < 128 ? "--shadow-size 128 or more" : "a smaller one");
+}
+
+constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths, levelsHavePages};
 
 // "''" of a value without any.
 std::string quotedValue(const Settings& settings, std::string_view option) {

@@ -68,20 +68,29 @@ float inverseSquaredRange(float range) {
     return std::isinf(squared) ? 0 : inverse;
 }
 
-GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye) {
+GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye,
+                    std::span<const std::size_t> casters) {
     GpuLights result;
-    const auto take = [&](LightKind kind, std::uint32_t& count) {
-        for (const Light& light : lights) {
-            if (light.kind != kind || !shines(light)) continue;
+    const auto takeThose = [&](LightKind kind, bool casting, std::uint32_t& count) {
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            const Light& light = lights[i];
+            if (light.kind != kind || !shines(light) || std::ranges::binary_search(casters, i) != casting)
+                continue;
             result.lights.push_back(gpuLight(light, eye));
-            result.importance.push_back(light.importance);
+            result.sources.push_back(i);
+            result.importance.push_back(casting ? Importance::important : light.importance);
             if (kind == LightKind::spot) result.spot_cones.push_back(spotCone(light));
             if (isArea(kind)) result.area_lights.push_back(areaLight(light));
             ++count;
         }
     };
+    const auto take = [&](LightKind kind, std::uint32_t& count) { takeThose(kind, false, count); };
     take(LightKind::directional, result.directional);
+    takeThose(LightKind::point, true, result.casting_points);
+    result.point = result.casting_points;
     take(LightKind::point, result.point);
+    takeThose(LightKind::spot, true, result.casting_spots);
+    result.spot = result.casting_spots;
     take(LightKind::spot, result.spot);
     take(LightKind::rect, result.rect);
     take(LightKind::disc, result.disc);

@@ -10,15 +10,17 @@
 
 namespace diptych {
 
-// Lights as the shaders read them, by kind and each kind in the order given: every sum over lights in every
-// path runs in this order.
+// Lights as the shaders read them, by kind and each kind in the order given, but points and spots that cast
+// before those that do not: every sum over lights in every path runs in this order.
 struct GpuLights {
     std::vector<gpu::Light> lights;         // directional, point, spot, rect, disc, tube, and the null light
     std::vector<gpu::SpotCone> spot_cones;  // and the null light's
     std::vector<gpu::AreaLight> area_lights;  // and the null light's
     std::vector<Importance> importance;       // of all but the null light
+    std::vector<std::size_t> sources;         // of the same: its place among the lights it was made of
     glm::vec3 ambient{0};                     // W/(sr m^2), from everywhere
     std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;
+    std::uint32_t casting_points = 0, casting_spots = 0;  // the first of their kind
     std::uint32_t area() const { return rect + disc + tube; }
     std::uint32_t local() const { return point + spot + area(); }
     std::uint32_t count() const { return directional + local(); }
@@ -29,7 +31,9 @@ struct GpuLights {
 float inverseSquaredRange(float range);
 
 // `eye`: the camera, world, m. World positions are made relative to it in double. A light that gives
-// nothing (black, or zero range) is left out.
-GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye);
+// nothing (black, or zero range) is left out. `casters`: places of the points and spots that cast shadows, in
+// ascending order; they are important, so that --assign per_object shades them per pixel.
+GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye,
+                    std::span<const std::size_t> casters = {});
 
 }  // namespace diptych

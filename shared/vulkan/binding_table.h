@@ -16,7 +16,8 @@ namespace binding_kind {
 inline constexpr VkDescriptorType uniform_buffer = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                                   storage_buffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                   texel_buffer = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-                                  image = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+                                  image = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                  storage_image = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }  // namespace binding_kind
 
 // One row of a binding table.

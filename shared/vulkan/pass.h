@@ -34,6 +34,7 @@ struct ImageDeclaration {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;  // beside attachment, sampled and, of kept images, copied from
     Life life = Life::kept;
+    bool array = false;  // shaders read it as an array, even of one layer
 };
 
 // One level of one layer, to draw to.

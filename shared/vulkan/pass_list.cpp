@@ -47,11 +47,12 @@ ImageRef PassList::image(const ImageDeclaration& declared) {
     auto resource = std::make_unique<Resource>();
     const bool own = declared.extent.width == 0;
     resource->life = declared.life;
-    resource->image.emplace(device_,
-                            GpuImageInfo{declared.name, declared.format, own ? width_ : declared.extent.width,
-                                         own ? height_ : declared.extent.height, declared.levels,
-                                         usageOf(declared), declared.layers, declared.samples},
-                            declared.life == Life::kept ? GpuImage::Memory::own : GpuImage::Memory::none);
+    resource->image.emplace(
+        device_,
+        GpuImageInfo{declared.name, declared.format, own ? width_ : declared.extent.width,
+                     own ? height_ : declared.extent.height, declared.levels, usageOf(declared),
+                     declared.layers, declared.samples, declared.array},
+        declared.life == Life::kept ? GpuImage::Memory::own : GpuImage::Memory::none);
     tracker_.add(declared.name, declared.levels, declared.layers);
     resources_.push_back(std::move(resource));
     return {resources_.size() - 1};

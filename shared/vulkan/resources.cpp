@@ -22,12 +22,14 @@ std::uint32_t bytesPerTexel(VkFormat format) {
         case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
         case VK_FORMAT_R16G16_SNORM:
+        case VK_FORMAT_R16G16_SFLOAT:
         case VK_FORMAT_R16G16_UNORM:
         case VK_FORMAT_R32_UINT:
         case VK_FORMAT_R32_SFLOAT:
         case VK_FORMAT_D32_SFLOAT:
             return 4;
         case VK_FORMAT_R16G16B16A16_SFLOAT:
+        case VK_FORMAT_R16G16B16A16_UNORM:
         case VK_FORMAT_R32G32_UINT:
         case VK_FORMAT_R32G32_SFLOAT:
             return 8;
@@ -43,6 +45,18 @@ OwnedSampler makeNearestSampler(Device& device) {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     info.addressModeU = info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSampler sampler = VK_NULL_HANDLE;
+    checkResult(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
+    return {device.handle(), sampler};
+}
+
+OwnedSampler makeLinearSampler(Device& device) {
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    info.addressModeU = info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.maxLod = VK_LOD_CLAMP_NONE;
     VkSampler sampler = VK_NULL_HANDLE;
     checkResult(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
     return {device.handle(), sampler};
@@ -124,7 +138,7 @@ OwnedImageView GpuImage::makeView(std::uint32_t level, std::uint32_t levels, std
         .pNext = nullptr,
         .flags = 0,
         .image = image_,
-        .viewType = layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
+        .viewType = layers > 1 || info_.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
         .format = info_.format,
         .components = {},
         .subresourceRange = {aspect(), level, levels, layer, layers}};

@@ -14,6 +14,9 @@ namespace diptych {
 // For texelFetch and textureGather, which filter nothing; gathers clamp to the edge.
 OwnedSampler makeNearestSampler(Device& device);
 
+// Between texels and levels of detail; clamps to the edge.
+OwnedSampler makeLinearSampler(Device& device);
+
 class GpuBuffer {
 public:
     GpuBuffer() = default;
@@ -43,6 +46,7 @@ struct GpuImageInfo {
     VkImageUsageFlags usage = 0;
     std::uint32_t layers = 1;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool array = false;  // views are of an array, even of one layer
 };
 
 // A two-dimensional image, an array where it has several layers.

@@ -14,7 +14,7 @@ using namespace bench;
 namespace {
 
 Settings mode(Path path, Assignment assign) {
-    Settings settings;
+    Settings settings = unshadowed();
     settings.path = path;
     settings.assign = assign;
     settings.size = {64, 48};

@@ -60,7 +60,7 @@ struct DrawnLights {
     Image lit, count;
 };
 DrawnLights drawnWith(Renderer& renderer, Path path, Assignment assign, LightKernel kernel) {
-    Settings settings;
+    Settings settings = unshadowed();
     settings.path = path;
     settings.size = cutOff;
     settings.assign = assign;

@@ -60,7 +60,7 @@ Scene withLights(Scene scene, std::size_t count) {
 }
 
 Settings picture(Size size, Path path, Assignment assign, LightKernel kernel = LightKernel::automatic) {
-    Settings settings;
+    Settings settings = unshadowed();
     settings.path = path;
     settings.size = size;
     settings.assign = assign;

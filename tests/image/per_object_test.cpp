@@ -18,7 +18,7 @@ namespace diptych::tests {
 namespace {
 
 Settings picture(Assignment assign, int pixels, Size size = {160, 90}) {
-    Settings settings;
+    Settings settings = unshadowed();
     settings.path = Path::forward_plus;
     settings.size = size;
     settings.assign = assign;
@@ -161,7 +161,7 @@ TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
     }
     Scene unmapped = scene;
     for (Material& m : unmapped.materials) m.lightmap_texture = {};
-    const Settings settings;
+    const Settings settings = unshadowed();
     const auto diffuse = [](const Scene& s) {
         Settings objects;
         objects.size = {160, 90};

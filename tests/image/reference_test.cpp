@@ -55,7 +55,7 @@ void expectAgreement(const Scene& scene, Settings settings) {
 }
 
 TEST(Reference, BothPathsDrawTheGallery) {
-    Settings settings;
+    Settings settings = unshadowed();
     settings.size = {240, 135};
     expectAgreement(loadScene("builtin:gallery"), settings);
 }
@@ -64,7 +64,7 @@ TEST(Reference, BothPathsDrawSponza) {
     const std::filesystem::path file = assets() / "sponza/Sponza.gltf";
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the gallery proves it";
-    Settings settings;
+    Settings settings = unshadowed();
     settings.size = {240, 135};
     settings.lights = "point:12,spot:4";
     expectAgreement(loadScene(file.string()), settings);

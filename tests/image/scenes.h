@@ -169,9 +169,16 @@ inline UploadedScene& uploaded(const std::string& name) {
     return scenes.front().second;
 }
 
+// What tests draw, without shadows unless a test is about them: they would cost every other one a third more.
+inline Settings unshadowed() {
+    Settings settings;
+    settings.shadows = Shadows::off;
+    return settings;
+}
+
 // What every test draws the asset scenes with, so that the suites share Frames.
 inline Settings assetPicture(GBufferEncoding gbuffer) {
-    Settings settings;
+    Settings settings = unshadowed();
     settings.gbuffer = gbuffer;
     settings.size = {320, 180};
     settings.lights = "point:12,spot:4";
@@ -179,7 +186,7 @@ inline Settings assetPicture(GBufferEncoding gbuffer) {
 }
 
 inline Settings smallPicture(GBufferEncoding gbuffer) {
-    Settings settings;
+    Settings settings = unshadowed();
     settings.gbuffer = gbuffer;
     settings.size = {160, 90};
     return settings;

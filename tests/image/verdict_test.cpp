@@ -79,6 +79,7 @@ struct NegativeControl {
     void (*change)(Scene&);
     Rgb ambient = {};
     const char* scene = "builtin:gallery";
+    int shadows = -1;  // that many points and spots cast, and the sun; below 0 nothing does
 };
 
 void PrintTo(const NegativeControl& control, std::ostream* out) {
@@ -93,6 +94,10 @@ TEST_P(VerdictNegativeControl, Fails) {
     GetParam().change(changed);
     Settings settings = smallPicture(GBufferEncoding::standard);
     settings.ambient = GetParam().ambient;
+    if (GetParam().shadows >= 0) {
+        settings.shadows = Shadows::pcf;
+        settings.shadow_lights = GetParam().shadows;
+    }
     std::vector<Frame> frames = scene.bothPaths(settings);
     Renderer renderer(device(), changed, pipelines());
     frames[1] = drawnBy(Path::forward_plus, renderer, settings);
@@ -174,6 +179,21 @@ const NegativeControl negativeControls[] = {
      },
      {},
      "builtin:lightmaps"},
+    {"shadow_visibility",
+     [](Scene& s) {
+         for (Light& light : s.lights)
+             light.direction = glm::normalize(light.direction + glm::dvec3(1e-3, 0, 0));
+     },
+     {},
+     "builtin:suns",
+     0},
+    {"local_visibility",
+     [](Scene& s) {
+         for (Light& light : s.lights) light.position.x += 1e-3;
+     },
+     {},
+     "builtin:points",
+     1},
 };
 
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),

@@ -219,13 +219,13 @@ private:
     std::vector<OwnedPipeline> pipelines_;
 };
 
-struct Bounds {
+struct TileBounds {
     gpu::uvec2 tiles;
     std::vector<gpu::vec2> depths;
 };
 
 // The kernel's result, for tiles of 1 << tileShift pixels.
-Bounds boundsOf(const View& view, const Picture& picture, gpu::uint tileShift) {
+TileBounds tileDepthBounds(const View& view, const Picture& picture, gpu::uint tileShift) {
     KernelFrame frame(probeDevice(), view);
     gpu::LightGrid grid{};
     grid.tile_shift = tileShift;
@@ -296,7 +296,7 @@ Picture randomPicture(const View& view, int samples, gpu::uint tileShift, unsign
 
 // Counts the tiles whose bounds differ from those of the picture's samples in double; a float32 division is
 // within 3 ULP of them (2.5 by Vulkan, and one of the sum).
-int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, const Bounds& bounds) {
+int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, const TileBounds& bounds) {
     const int side = 1 << tileShift;
     const auto same = [](float a, double b) { return std::abs(double{a} - b) <= 4e-7 * b; };
     int wrong = 0;
@@ -324,7 +324,7 @@ TEST(LightDepths, AreThoseOfAllSamples) {
     for (const int samples : {1, 4})
         for (const gpu::uint tileShift : {4u, 5u}) {
             const Picture picture = randomPicture(view, samples, tileShift, 41);
-            const Bounds bounds = boundsOf(view, picture, tileShift);
+            const TileBounds bounds = tileDepthBounds(view, picture, tileShift);
             EXPECT_EQ(wrongTiles(view, picture, tileShift, bounds), 0)
                 << samples << " samples, 2^" << tileShift;
         }
@@ -335,7 +335,7 @@ TEST(LightDepths, AreThoseOfAllSamples) {
 TEST(LightDepths, NoSampleIsPassedOver) {
     const View view = plainView(75, 53);
     const Picture picture = randomPicture(view, 4, 4, 42);
-    const Bounds bounds = boundsOf(view, picture, 4);
+    const TileBounds bounds = tileDepthBounds(view, picture, 4);
     EXPECT_EQ(wrongTiles(view, picture, 4, bounds), 0);
     for (int s = 0; s < 4; ++s) {
         Picture other = picture;
@@ -343,7 +343,7 @@ TEST(LightDepths, NoSampleIsPassedOver) {
             for (int x = 0; x < other.width; ++x)
                 if (float& z = other.at(x, y, s); z > 0) z *= 0.1f;
         EXPECT_GT(wrongTiles(view, other, 4, bounds), 10) << "sample " << s;
-        EXPECT_EQ(wrongTiles(view, other, 4, boundsOf(view, other, 4)), 0) << "sample " << s;
+        EXPECT_EQ(wrongTiles(view, other, 4, tileDepthBounds(view, other, 4)), 0) << "sample " << s;
     }
 }
 

@@ -77,10 +77,11 @@ TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
 
 TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
     const Folder folder;
-    for (const std::string option : {"--time 1", "--frames 2", "--shadows pcf", "--shadows evsm",
-                                     "--shadows clipmap", "--shadow-lights 1", "--msaa 4", "--haze on"})
+    for (const std::string option : {"--time 1", "--frames 2", "--haze on", "--msaa 4"})
         for (const std::string command : {"compare ", "render ", "plan "})
             EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
+    EXPECT_TRUE(runTool(folder, "plan --shadows off --shadow-lights 1")
+                    .failedOver("--shadow-lights 1 has no meaning without --shadows"));
     EXPECT_TRUE(
         runTool(folder, "render --heat --path reference").failedOver("--heat: light_count: the reference"));
     EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("a.png: no such file"));
@@ -117,7 +118,9 @@ TEST(Command, DiscsOfSunsAreNoted) {
     ASSERT_EQ(report["frames"].size(), 2u);
     for (const Json& frame : report["frames"]) {
         const std::string path = frame["path"];
-        EXPECT_EQ(frame["notes"].back(), "1 sun's disc: not drawn by " + path + " yet: the reference has it");
+        EXPECT_NE(
+            frame["notes"].dump().find("1 sun's disc: not drawn by " + path + " yet: the reference has it"),
+            std::string::npos);
         EXPECT_EQ(frame["counters"]["lights"], 2) << "those of the file, and no other";
     }
     // The default sun is not added to a scene with an area light.

@@ -123,7 +123,7 @@ TEST(PageTradeoff, TheAddressKeepsRowErrorAndOrder) {
     EXPECT_EQ(again.told["sorted"], nlohmann::json{"relative RMSE descending"});
     EXPECT_NE(chosen.told["first"], chosen.told["state"]);
     // Words that mean nothing here are no error.
-    const Visit other = visit(folder, page, state + "tell(state());", "?row=99&error=x&sort=y");
+    const Visit other = visit(folder, page, state + "tell(state());", "?row=999&error=x&sort=y");
     EXPECT_EQ(other.console, "");
     EXPECT_EQ(other.told, chosen.told["first"]);
 }

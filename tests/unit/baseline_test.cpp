@@ -133,8 +133,9 @@ TEST(BaselineMismatches, EverySettingIsNamed) {
     for (const Field& field : settingFields()) {
         if (field.option == "path" || field.option == "size") continue;
         Frame now = then;
-        for (const char* value : {"1", "2", "3", "0.5", "on", "off", "compact", "tiled", "scatter", "pcf",
-                                  "fp32", "representative", "scene", "point:2", "0.5,0.5,0.5", "b.exr"})
+        for (const char* value :
+             {"1", "2", "3", "0.5", "on", "off", "compact", "tiled", "scatter", "pcf", "fp32", "0..1",
+              "representative", "scene", "depth", "point:2", "0.5,0.5,0.5", "b.exr"})
             try {
                 now.settings.set(field.option, value);
                 if (now.settings != then.settings) break;

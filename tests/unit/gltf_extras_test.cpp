@@ -197,6 +197,25 @@ TEST(GltfExtras, LightsHaveImportance) {
     }
 }
 
+TEST(GltfExtras, PointsAndSpotsAskForAShadow) {
+    for (const char* type : {"point", "spot", "directional"}) {
+        Json light{{"type", type}, {"extras", {{"diptych", {{"shadow", true}}}}}};
+        if (light["type"] == "spot") light["spot"] = Json::object();
+        const Scene scene = lit(light);
+        ASSERT_EQ(scene.lights.size(), 1u);
+        const bool asks = light["type"] != "directional";
+        EXPECT_EQ(scene.lights[0].shadow, asks) << type;
+        EXPECT_EQ(poseAt(scene, 0).lights.at(0).shadow, asks) << "as it is drawn";
+        EXPECT_EQ(mentions(scene.notes,
+                           "light 0: extras: diptych: shadow: belongs to point and spot lights: left out"),
+                  !asks)
+            << type;
+    }
+    const Scene odd = lit({{"type", "point"}, {"extras", {{"diptych", {{"shadow", "yes"}}}}}});
+    EXPECT_FALSE(odd.lights.at(0).shadow);
+    EXPECT_TRUE(mentions(odd.notes, "shadow: is not true or false")) << odd.notes.at(0);
+}
+
 TEST(GltfExtras, AnImportanceThatIsNoneIsLeftOutWithANote) {
     const std::pair<Json, const char*> faults[] = {
         {"high", "importance: \"high\" is none of auto, important, not_important: left out"},

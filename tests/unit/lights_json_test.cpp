@@ -118,6 +118,13 @@ TEST(LightsJson, ImportanceOfAnyType) {
     }
 }
 
+TEST(LightsJson, PointsAndSpotsAskForAShadow) {
+    const auto lights = read(R"({"type": "point", "shadow": true}, {"type": "spot", "shadow": true},
+                                {"type": "spot", "shadow": false}, {"type": "point"})");
+    EXPECT_TRUE(lights[0].shadow && lights[1].shadow);
+    EXPECT_FALSE(lights[2].shadow || lights[3].shadow);
+}
+
 TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
     const std::pair<const char*, glm::dvec3> cases[] = {
         {R"("axis": [1, 0, 5])", {1, 0, 0}},  // its part along the direction is removed
@@ -183,6 +190,9 @@ TEST(LightsJson, ErrorsNameFileLightAndField) {
         {R"({"type": "tube", "axis": [1, 0]})", "axis: is not three numbers"},
         {R"({"type": "directional", "angle": -0.1})", "angle: -0.1 is below 0"},
         {R"({"type": "directional", "angle": 3.15})", "angle: 3.15 is beyond pi"},
+        {R"({"type": "rect", "shadow": true})",
+         "shadow: belongs to point and spot lights, and this is a rect"},
+        {R"({"type": "point", "shadow": 1})", "shadow: is not true or false"},
         {R"({"type": "point", "importance": "high"})",
          "importance: \"high\" is none of auto, important, not_important"},
         {R"({"type": "rect", "importance": "not important"})", "importance: \"not important\" is none of"},

@@ -195,7 +195,7 @@ TEST(ReferenceEnvironment, NeighboursErrAlone) {
 
 TEST(ReferenceEnvironment, WhatIsHiddenOfASkyIsDark) {
     const Environment sky = constantSky(1);
-    const Lighting lighting({}, &sky, 1, {0, 0, 0});
+    const Lighting lighting({}, &sky, 1, {0, 0, 0}, {0, 0, 0}, {}, true);
     const Visibility half = [](const glm::dvec3&d, double) { return d.x > 0; },
                      none = [](const glm::dvec3&, double) { return false; };
     EXPECT_EQ(lighting(lambertian(), none, 1).reflected.size(), 0);

@@ -19,7 +19,8 @@ struct Asked {
     std::vector<Light> lights{lightOf(LightKind::point, {0, 0, 2})};
     double environment_factor = 1;
     glm::dvec3 ambient{0};
-    bool shadows = false;
+    std::vector<std::size_t> casters;
+    bool shadowed_environment = false;
     ReferenceMode mode = ReferenceMode::scene;
     int samples = 4;
     std::map<int, Image> surfaces{{0, Image(2, 1, 1)}};
@@ -53,7 +54,8 @@ struct Asked {
                       .lights = lights,
                       .environment_factor = environment_factor,
                       .ambient = ambient,
-                      .shadows = shadows,
+                      .casters = casters,
+                      .shadowed_environment = shadowed_environment,
                       .mode = mode,
                       .samples = samples,
                       .surfaces = &surfaces,
@@ -85,7 +87,8 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
         {"height", [](Asked& a) { a.view.height = 8; }},
         {"samples", [](Asked& a) { a.samples = 8; }},
         {"mode", [](Asked& a) { a.mode = ReferenceMode::surface; }},
-        {"shadows", [](Asked& a) { a.shadows = true; }},
+        {"casters", [](Asked& a) { a.casters = {0}; }},
+        {"shadowed environment", [](Asked& a) { a.shadowed_environment = true; }},
         {"program", [](Asked& a) { a.program = "1.1"; }},
         {"camera", [](Asked& a) { a.view.camera.world_from_camera[3].x += 1e-9; }},
         {"yfov", [](Asked& a) { a.view.camera.yfov += 1e-9; }},
@@ -201,7 +204,7 @@ TEST(ReferenceKey, OfSurfacesTheSceneCountsWhereItCastsShadows) {
     for (const bool shadows : {false, true}) {
         Asked one, other;
         one.mode = other.mode = ReferenceMode::surface;
-        one.shadows = other.shadows = shadows;
+        if (shadows) one.casters = other.casters = {0};
         other.primitive().positions[3].z = 0.1f;
         EXPECT_EQ(one.key() == other.key(), !shadows);
     }

@@ -49,9 +49,16 @@ inline Light lightOf(LightKind kind, const glm::dvec3& position, const glm::dvec
     return light;
 }
 
+// All lights, as what casts shadows.
+inline std::vector<std::size_t> everyLight(std::span<const Light> lights) {
+    std::vector<std::size_t> all(lights.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
 inline Shading shadedBy(std::span<const Light> lights, const Surface& surface, const Visibility& open = {},
                         std::uint64_t seed = 1) {
-    return Lighting(lights, nullptr, 1, {0, 0, 0})(surface, open, seed);
+    return Lighting(lights, nullptr, 1, {0, 0, 0}, {0, 0, 0}, everyLight(lights))(surface, open, seed);
 }
 inline double reflectedBy(const Light& light, const Surface& surface) {
     const Shading shading = shadedBy(std::span(&light, 1), surface);

@@ -77,6 +77,7 @@ struct Drawn {
     Picture picture;
     const Image& operator[](gpu::uint mode) const { return picture.channels.at(static_cast<int>(mode)); }
 };
+// `shadows`: of every light and of the environment.
 inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,
                    const std::filesystem::path& keep = {}, const std::function<void(double)>& progress = {}) {
     Drawn result{poseAt(scene, 0), {}};
@@ -85,7 +86,8 @@ inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, i
                            .pose = result.pose,
                            .view = view,
                            .lights = result.pose.lights,
-                           .shadows = shadows,
+                           .casters = shadows ? everyLight(result.pose.lights) : std::vector<std::size_t>{},
+                           .shadowed_environment = shadows,
                            .mode = ReferenceMode::scene,
                            .samples = samples,
                            .surfaces = nullptr,

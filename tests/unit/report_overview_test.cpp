@@ -55,7 +55,7 @@ TEST(ReportOverview, ColoursTheSettingsThatDiffer) {
     const std::filesystem::path out = folder() / "report";
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
-    for (const char* key : {"path", "light_cutoff"})
+    for (const char* key : {"path", "light_<wbr>cutoff"})
         EXPECT_NE(page.find(std::string("<tr class=\"differs\"><td>") + key + "</td>"), std::string::npos)
             << key;
     for (const char* key : {"size", "assign", "gbuffer"})

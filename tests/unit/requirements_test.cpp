@@ -39,6 +39,24 @@ const Requirements::Line& line(const std::vector<Requirements::Line>& lines, con
     throw std::out_of_range(what);
 }
 
+// Of several suns one casts in maps; the others are named.
+TEST(Requirements, SunsWithoutAShadowAreNamed) {
+    std::vector<Light> lights(4);
+    for (const std::size_t i : {0u, 1u, 3u}) lights[i].kind = LightKind::directional;
+    lights[1].name = "noon";
+    lights[1].intensity = 5;
+    lights[3].name = "dusk";
+    Settings settings;
+    settings.shadows = Shadows::evsm;
+    EXPECT_EQ(leftOutShadows(lights, settings),
+              std::vector<std::string>{
+                  "of 3 directional lights the brightest, noon, casts a shadow; without one: light 0, dusk"});
+    settings.shadows = Shadows::off;
+    EXPECT_TRUE(leftOutShadows(lights, settings).empty());
+    settings.shadows = Shadows::pcf;
+    EXPECT_TRUE(leftOutShadows({lights[1], lights[2]}, settings).empty());
+}
+
 }  // namespace
 
 TEST(Requirements, PlainSceneNeedsNothing) {

@@ -39,8 +39,18 @@ Settings everythingChanged() {
     s.area_lights = AreaLights::representative;
     s.shadows = Shadows::clipmap;
     s.shadow_lights = 7;
+    s.shadow_size = 512;
+    s.shadow_cascades = 2;
+    s.shadow_kernel = 5;
+    s.shadow_fit = ShadowFit::depth;
+    s.shadow_distance = 12.5f;
+    s.shadow_bias = 0.25f;
+    s.clipmap_pages = 99;
+    s.clipmap_page_size = 64;
     s.evsm_precision = EvsmPrecision::fp16;
     s.evsm_exponent = 5.5f;
+    s.evsm_negative_exponent = 4.5f;
+    s.evsm_depth = EvsmDepth::from_zero;
     s.evsm_bleed = 0.2f;
     s.evsm_min_variance = 1e-6f;
     s.msaa = 4;
@@ -165,6 +175,8 @@ TEST(Settings, EffectiveOnesAreWithoutWhatTheirPathIgnores) {
                 Settings changed = plain;
                 changed.set(field.option, value);
                 const bool ignored = !ignoredBecause(path, field.option).empty();
+                if (path == Path::reference && !field.one_for_reference.empty() && value != field.off)
+                    changed.set(field.option, std::string(field.one_for_reference));
                 EXPECT_EQ(effectiveSettings(changed), ignored ? plain : changed)
                     << name << " " << field.option << " " << value;
             }
@@ -179,7 +191,8 @@ TEST(Settings, TheReferenceFollowsWhatItsRowsSayAndNothingElse) {
             SCOPED_TRACE(std::string(field.option) + " " + value);
             Settings changed;
             changed.set(field.option, value);
-            const bool follows = field.option != "path" && field.ignored.reference.empty();
+            const bool follows = field.option != "path" && field.ignored.reference.empty() &&
+                                 (field.one_for_reference.empty() || value == field.off);
             EXPECT_EQ(referenceSettings(changed) == reference, !follows);
             EXPECT_EQ(referenceSettings(changed), effectiveSettings(referenceSettings(changed)));
             const bool alone = field.option == "spp" || field.option == "reference-mode";
@@ -201,6 +214,7 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.camera = asked.camera;
     expected.time = asked.time;
     expected.lights = asked.lights;
+    expected.shadows = Shadows::off;
     expected.seed = asked.seed;
     EXPECT_EQ(surfaceSettings(asked), expected);
     asked.time = 0;
@@ -297,6 +311,12 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"seed", "9"},
         {"env", "none"},
         {"shadows", "off"},
+        {"shadows", "pcf"},
+        {"shadows", "evsm"},
+        {"shadows", "clipmap"},
+        {"shadows", "evsm4"},
+        {"shadows", "msm4"},
+        {"shadows", "pcss"},
         {"haze", "off"},
         {"sort", "off"},
         {"msaa", "1"},
@@ -323,12 +343,26 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         {"ambient", "0,-0.1,0"},
         {"light-cutoff", "-0.01"},
         {"pixel-lights", "8"},
-        {"shadows", "pcf"},
-        {"shadows", "evsm"},
-        {"shadows", "clipmap"},
         {"shadow-lights", "1"},
+        {"shadow-lights", "-1"},
+        {"shadow-size", "512"},
+        {"shadow-size", "15"},
+        {"shadow-cascades", "2"},
+        {"shadow-cascades", "5"},
+        {"shadow-kernel", "5"},
+        {"shadow-kernel", "2"},
+        {"shadow-kernel", "9"},
+        {"shadow-fit", "depth"},
+        {"shadow-distance", "10"},
+        {"shadow-bias", "1"},
+        {"clipmap-pages", "64"},
+        {"clipmap-pages", "0"},
+        {"clipmap-page-size", "64"},
+        {"clipmap-page-size", "100"},
+        {"evsm-depth", "0..1"},
         {"evsm-precision", "fp16"},
         {"evsm-exponent", "5.5"},
+        {"evsm-negative-exponent", "5"},
         {"evsm-bleed", "0.2"},
         {"evsm-min-variance", "0.1"},
         {"msaa", "4"},
@@ -339,6 +373,7 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
     };
     for (const auto& [option, value] : rest) {
         Settings s;
+        s.shadows = Shadows::off;
         s.set(option, value);
         const std::string problem = s.problem().value_or("none");
         EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
@@ -390,15 +425,60 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
 TEST(Settings, TheReferenceIgnoresHowShadowsAndSamplesAreMade) {
     Settings plain;
     plain.path = Path::reference;
-    plain.shadows = Shadows::evsm;
-    for (const char* option :
-         {"shadow-lights", "evsm-precision", "evsm-exponent", "evsm-bleed", "evsm-min-variance", "msaa"}) {
+    plain.shadows = Shadows::pcf;
+    for (const Shadows technique : {Shadows::evsm, Shadows::clipmap}) {
+        Settings changed = plain;
+        changed.shadows = technique;
+        EXPECT_EQ(effectiveSettings(changed), plain);
+        EXPECT_EQ(referenceSettings(changed), plain);
+    }
+    for (const char* option : {"shadow-size", "shadow-cascades", "shadow-kernel", "shadow-distance",
+                               "shadow-bias", "clipmap-pages", "clipmap-page-size", "evsm-precision",
+                               "evsm-depth", "evsm-bleed", "evsm-min-variance", "msaa"}) {
         Settings changed = plain;
         changed.set(option, everythingChanged().valueOf(option));
         EXPECT_NE(changed, plain) << option;
         EXPECT_EQ(effectiveSettings(changed), plain) << option;
         EXPECT_EQ(referenceSettings(changed), plain) << option;
     }
+    // It decides what is lit.
+    plain.shadow_lights = 3;
+    EXPECT_EQ(referenceSettings(plain).shadow_lights, 3);
+    EXPECT_EQ(surfaceSettings(plain).shadow_lights, 0);
+}
+
+// Cascades and pages each belong to their technique, and a level of the clipmap has four pages or more.
+TEST(Settings, AClipmapHasPagesInPlaceOfCascades) {
+    Settings s;
+    s.shadows = Shadows::clipmap;
+    EXPECT_EQ(s.problem().value_or("none"), "none");
+    s.clipmap_pages = 1;
+    s.clipmap_page_size = 32;
+    s.shadow_size = 128;
+    s.shadow_kernel = 7;
+    EXPECT_EQ(s.problem().value_or("none"), "none");
+    s.shadow_size = 127;
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--clipmap-page-size 32: four pages side by side are more than --shadow-size 127; use "
+              "--shadow-size 128 or more");
+    s.path = Path::reference;
+    EXPECT_EQ(s.problem().value_or("none"), "none") << "which ignores both";
+    s.path = Path::deferred;
+    s.shadow_size = 200;
+    s.clipmap_page_size = 64;
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--clipmap-page-size 64: four pages side by side are more than --shadow-size 200; use a "
+              "smaller one");
+    s = {};
+    s.shadows = Shadows::clipmap;
+    s.shadow_cascades = 2;
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--shadow-cascades 2 has no meaning without --shadows pcf, pcss, evsm, evsm4 or msm4; use 4");
+    s = {};
+    s.shadows = Shadows::pcf;
+    s.clipmap_pages = 64;
+    EXPECT_EQ(s.problem().value_or("none"),
+              "--clipmap-pages 64 has no meaning without --shadows clipmap; use 512");
 }
 
 // The Settings of moments belong to one shadow technique only.
@@ -409,10 +489,28 @@ TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
     for (const Shadows shadows : {Shadows::off, Shadows::pcf, Shadows::clipmap}) {
         s.shadows = shadows;
         EXPECT_EQ(s.problem().value_or("none"),
-                  "--evsm-exponent 5 has no meaning without --shadows evsm; use 40");
+                  "--evsm-exponent 5 has no meaning without --shadows evsm or evsm4; use 0");
     }
     s.shadows = Shadows::evsm;
     EXPECT_EQ(s.problem().value_or("none"), "none");
+}
+
+// Neither format holds the second moment of a larger exponent.
+TEST(Settings, ExponentsThatTheFormatCannotHoldAreRefusedWithTheLargest) {
+    Settings s;
+    s.shadows = Shadows::evsm;
+    for (const float exponent : {0.0f, 40.0f, 44.36f}) {
+        s.evsm_exponent = exponent;
+        EXPECT_EQ(s.problem().value_or("none"), "none");
+    }
+    const std::string are = "is 0 to 44.36, in 16 bits to 5.54: the largest whose square the format holds";
+    s.evsm_exponent = 44.4f;
+    EXPECT_EQ(s.problem().value_or("none"), "--evsm-exponent 44.4: " + are);
+    s.evsm_precision = EvsmPrecision::fp16;
+    s.evsm_exponent = 5.54f;
+    EXPECT_EQ(s.problem().value_or("none"), "none");
+    s.evsm_exponent = 5.6f;
+    EXPECT_EQ(s.problem().value_or("none"), "--evsm-exponent 5.6: " + are);
 }
 
 // In mode surface it shades a path's capture, so the time is the path's.

@@ -83,7 +83,7 @@ LightExtras::OfScene ofScene(const Json& scene, std::size_t nodes, const std::st
 
 LightExtras::OfLight ofLight(const Json& light, const std::string& who) {
     LightExtras::OfLight result;
-    const Json* own = ourExtras(light, {"angle", "importance"}, who, result.notes);
+    const Json* own = ourExtras(light, {"angle", "importance", "shadow"}, who, result.notes);
     if (!own) return result;
     const auto left = [&](const auto& read) {
         try {
@@ -93,9 +93,15 @@ LightExtras::OfLight ofLight(const Json& light, const std::string& who) {
         }
     };
     left([&] { result.importance = importanceOf(JsonFields(*own, who)); });
+    const Json* type = memberOf(light, "type");
+    if (memberOf(*own, "shadow"))
+        left([&] {
+            if (!type || (*type != "point" && *type != "spot"))
+                throw std::runtime_error(who + ": shadow: belongs to point and spot lights");
+            result.shadow = JsonFields(*own, who).flag("shadow", false);
+        });
     if (!memberOf(*own, "angle")) return result;
     left([&] {
-        const Json* type = memberOf(light, "type");
         if (!type || *type != "directional")
             throw std::runtime_error(who + ": angle: belongs to directional lights");
         result.angle = sunAngle(JsonFields(*own, who));
@@ -147,7 +153,8 @@ LightExtras lightExtras(const Json& document) {
     }
     for (std::size_t i = 0; i < lights.size(); ++i) {
         LightExtras::OfLight found = ofLight(lights[i], fmt::format("light {}: extras: {}", i, ours));
-        if (found.angle > 0 || found.importance != Importance::automatic || !found.notes.empty())
+        if (found.angle > 0 || found.importance != Importance::automatic || found.shadow ||
+            !found.notes.empty())
             result.lights[i] = std::move(found);
     }
     return result;
@@ -170,6 +177,7 @@ void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteL
     if (found == extras.lights.end()) return;
     for (const std::string& note : found->second.notes) notes.add(note);
     light.importance = found->second.importance;
+    light.shadow = found->second.shadow;
     // A broken light is a point light.
     if (light.kind == LightKind::directional) light.angle = found->second.angle;
 }

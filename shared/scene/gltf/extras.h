@@ -19,6 +19,8 @@ namespace diptych::gltf {
 //                                              scale does not change sizes.
 //   extensions.KHR_lights_punctual.lights[i].extras.diptych.angle: rad    of a directional light
 //                                                       ...importance: "auto", "important", "not_important"
+//                                                       ...shadow: true    of a point or a spot: asks to cast
+//                                                       one
 //
 // A light with a fault is left out with a note.
 struct LightExtras {
@@ -34,6 +36,7 @@ struct LightExtras {
     struct OfLight {
         float angle = 0;
         Importance importance = Importance::automatic;
+        bool shadow = false;
         std::vector<std::string> notes;
     };
     std::map<std::size_t, OfScene> scenes;  // only scenes that have such lights

@@ -38,6 +38,7 @@ struct OwnKey {
 };
 const OwnKey ownKeys[] = {{"angle", {LightKind::directional}},
                           {"spot", {LightKind::spot}},
+                          {"shadow", {LightKind::point, LightKind::spot}},
                           {"innerConeAngle", {LightKind::spot}},
                           {"outerConeAngle", {LightKind::spot}},
                           {"size", {LightKind::rect}},
@@ -170,6 +171,7 @@ Light lightFromJson(const Json& object, const std::string& who) {
     }
     if (light.kind == LightKind::directional) light.angle = sunAngle(fields);
     light.importance = importanceOf(fields);
+    light.shadow = fields.flag("shadow", false);
     if (isArea(light.kind)) readShape(fields, light);
     if (light.kind == LightKind::spot) {
         readCone(fields, light);

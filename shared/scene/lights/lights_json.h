@@ -22,6 +22,7 @@ class JsonFields;
 //                 "extras" (not read). A directional light's position and range and a point light's direction
 //                 have no effect.
 //                 "importance": "auto", "important" or "not_important", for --assign per_object
+//   point, spot   "shadow": true, asks to cast one
 //   directional   "angle": rad, the diameter of its disc; it does not change the illuminance
 //   spot          "spot": { "innerConeAngle": rad, "outerConeAngle": rad }; both may also stand beside "type"
 //   rect          "size": [along the axis, across it] m, "axis", "twoSided"

@@ -140,6 +140,7 @@ struct Light {
     float length = 1;                // tube: along the axis; m
     bool two_sided = false;          // rect, disc
     Importance importance = Importance::automatic;
+    bool shadow = false;  // point, spot: asks to cast shadows
     int node = -1;
     glm::dvec3 position{0, 0, 0};    // area: of its centre
     glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; without effect for a tube

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/shadow_edges.h"
+
+#include "shared/contract/debug_mode.h"
+
+#include <algorithm>
+
+namespace diptych {
+
+ShadowEdges::ShadowEdges(const FramePair& pair) {
+    const bool first = isReferenceFrame(pair.baseline);
+    if (first == isReferenceFrame(pair.test)) return;
+    reference_ = first ? &pair.baseline : &pair.test;
+    path_ = first ? &pair.test : &pair.baseline;
+    const auto find = [&](gpu::uint mode) {
+        const auto found = path_->channels.find(static_cast<int>(mode));
+        return found == path_->channels.end() ? nullptr : &found->second;
+    };
+    depth_ = find(gpu::DEBUG_depth);
+    level_ = find(gpu::DEBUG_cascade);
+    coarser_ = find(gpu::DEBUG_page_residency);
+    const bool by_depth = !path_->shadow_reach.empty() && depth_ != nullptr,
+               by_level = !path_->shadow_level_reach.empty() && level_ != nullptr && coarser_ != nullptr;
+    sun_ = !reference_->shadow_edge.empty() && (by_depth || by_level);
+    if (!reference_->local_shadow_edge.empty() && path_->local_shadow_reach > 0)
+        local_ = &reference_->local_shadow_edge;
+}
+
+const ShadowReach& ShadowEdges::reach(std::size_t pixel) const {
+    if (!path_->shadow_level_reach.empty()) {
+        const float level = *level_->pixel(pixel) + *coarser_->pixel(pixel);
+        return path_->shadow_level_reach.at(static_cast<std::size_t>(std::max(level, 0.0f)));
+    }
+    const double depth{*depth_->pixel(pixel)};
+    const auto found = std::ranges::find_if(path_->shadow_reach,
+                                            [&](const ShadowReach& reach) { return depth <= reach.depth; });
+    return found == path_->shadow_reach.end() ? path_->shadow_reach.back() : *found;
+}
+
+bool ShadowEdges::isNearLocal(std::size_t pixel) const {
+    return local_ && double{local_->pixel(pixel)[0]} <= path_->local_shadow_reach;
+}
+
+double ShadowEdges::allowed(const DebugMode& mode, std::size_t pixel) const {
+    const bool sun = isNear(pixel), local = isNearLocal(pixel);
+    if (mode.number == static_cast<int>(gpu::DEBUG_shadow_visibility)) return sun ? 1 : 0;
+    if (mode.number == static_cast<int>(gpu::DEBUG_local_visibility)) return local ? 1 : 0;
+    if (!isLit(mode.number) || isAmbient(mode.number)) return 0;
+    return (sun ? double{reference_->shadow_edge.pixel(pixel)[1]} : 0) +
+           (local ? double{local_->pixel(pixel)[1]} : 0);
+}
+
+}  // namespace diptych

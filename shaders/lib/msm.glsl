@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Moment shadow maps (Peters and Klein 2015, "Moment Shadow Mapping"): a map's texel holds the means of d,
+// d^2, d^3 and d^4 over the filter, of the depth d that grows away from the light from 0 to 1. Of all
+// distributions of depth with these moments, the one that shadows least is found in closed form.
+#ifndef MSM_GLSL
+#define MSM_GLSL
+
+#include "shaders/lib/moments.glsl"
+
+// Their section 4.3: the affine map that makes the most of 16 bits, 0 to 1 each; and back.
+vec4 quantisedMoments(float depth) {
+    const mat4 quantise = mat4(-2.07224649, 13.7948857237, 0.105877704, 9.7924062118,       //
+                               32.23703778, -59.4683975703, -1.9077466311, -33.7652110555,  //
+                               -68.571074599, 82.0359750338, 9.3496555107, 47.9456096605,   //
+                               39.3703274134, -35.364903257, -6.6543490743, -23.9728048165);
+    float d = depthAway(depth, 0.0), d2 = d * d;
+    return quantise * vec4(d, d2, d * d2, d2 * d2) + vec4(0.035955884801, 0.0, 0.0, 0.0);
+}
+vec4 momentsOfQuantised(vec4 q) {
+    const mat4 back = mat4(0.2227744146, 0.1549679261, 0.1451988946, 0.163127443,    //
+                           0.0771972861, 0.1394629426, 0.2120202157, 0.2591432266,   //
+                           0.7926986636, 0.7963415838, 0.7258694464, 0.6539092497,   //
+                           0.0319417555, -0.1722823173, -0.2758014811, -0.3376131734);
+    return back * (q - vec4(0.035955884801, 0.0, 0.0, 0.0));
+}
+
+// The least share of the filter that lies before `depth` (Peters and Klein, algorithm 3, "Hamburger 4MSM"):
+// the distribution with these moments that has a place at `depth` and two others, z.x < z.y, has the least.
+// `bias` moves the moments towards those of a distribution whose Hankel matrix is far from singular, by more
+// than they are rounded by. Whatever the moments are, the result is 0 to 1.
+float least4MomentShadow(vec4 moments, float depth, float bias) {
+    const float LEAST = 1e-20;  // what is divided by
+    vec4 b = moments * (1.0 - bias) + vec4(0.5 * bias);
+    // The Hankel matrix of (1, b) is L D L^T.
+    float l32_d22 = b.z - b.x * b.y;
+    float d22 = max(b.y - b.x * b.x, 1e-9);
+    float d33_d22 = max((b.w - b.y * b.y) * d22 - l32_d22 * l32_d22, LEAST);
+    float l32 = l32_d22 / d22;
+    // Its inverse times (1, depth, depth^2): a polynomial whose roots are the two other places.
+    vec3 c = vec3(1.0, depth - b.x, 0.0);
+    c.z = (depth * depth - b.y - l32 * c.y) * (d22 / d33_d22);
+    c.y = c.y / d22 - l32 * c.z;
+    c.x = 1.0 - c.y * b.x - c.z * b.y;
+    float scale = abs(c.z) > LEAST ? c.z : LEAST, p = 0.5 * c.y / scale;
+    float root = sqrt(max(p * p - c.x / scale, 0.0));
+    vec2 z = vec2(-p - root, -p + root);
+    // Weights of the places before `depth`, by what a polynomial through the three places has to be.
+    float before = 0.0;
+    if (z.y < depth)
+        before = 1.0 - (z.x * z.y - b.x * (z.x + z.y) + b.y) / ((depth - z.x) * (depth - z.y));
+    else if (z.x < depth)
+        before = (depth * z.y - b.x * (depth + z.y) + b.y) / ((z.y - z.x) * (depth - z.x));
+    return shareOf(before);
+}
+
+// Of a receiver at `depth` as in the map, by what feature_shadows stores.
+float visibilityOfMoments(vec4 moments, float depth, ShadowLight light) {
+    if (feature_shadows != SHADOWS_MSM4) return momentVisibility(moments, depth, light);
+    return 1.0 - least4MomentShadow(momentsOfQuantised(moments), depthAway(depth, 0.0), light.moment_bias);
+}
+
+#endif

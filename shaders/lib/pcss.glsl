@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Percentage-closer soft shadows (Fernando 2005): the sun is a disc, so the farther what blocks it is, the
+// wider its shadow's edge. First the blockers that lie within the cone from the receiver to the disc are
+// sought; then comparisons are filtered over the cone's width at their mean distance. Both read blocks of two
+// by two texels in a square grid: every texel up to SOFT_BLOCKS blocks across, evenly spread blocks beyond.
+#ifndef PCSS_GLSL
+#define PCSS_GLSL
+
+#include "shaders/lib/loop.glsl"
+
+const float SOFT_BLOCKS = 8.0;
+
+// Blocks that cover all texels of which a part lies within width / 2 of `middle`.
+struct Blocks {
+    vec2 first;  // texel
+    float step;  // texels
+    uint side;   // blocks
+};
+Blocks blocksAround(vec2 middle, float width) {
+    float texels = ceil(width) + 1.0, side = min(ceil(0.5 * texels), SOFT_BLOCKS);
+    return Blocks(floor(middle - 0.5 * width), max(texels / side, 2.0), uint(side));
+}
+// The lower corner of a block, and its texels' depths in textureGather's order.
+vec2 cornerOf(Blocks b, uint x, uint y) { return floor(b.first + b.step * vec2(x, y)); }
+vec4 depthsOf(vec2 corner, uint layer) {
+    float size = float(textureSize(shadow_map, 0).x);
+    return textureGather(shadow_map, vec3((corner + 1.0) / size, float(layer)));
+}
+const vec2 GATHERED[4] = vec2[](vec2(0.5, 1.5), vec2(1.5, 1.5), vec2(1.5, 0.5), vec2(0.5, 0.5));
+
+// How much nearer to the light than the receiver what may block its disc is, in the map's depth: on average,
+// and at the least; 0 where nothing may. `cone`: texels of radius for a depth of 1. What the triangle's own
+// plane reaches up to is no blocker.
+vec2 blockerDistance(Receiver r, uint layer, float cone, float widest) {
+    Blocks blocks = blocksAround(r.texel, clamp(2.0 * cone * (1.0 - r.depth), 1.0, widest));
+    float sum = 0.0, count = 0.0, least = 1.0;
+    uvec2 rows = uvec2(0, blocks.side);
+    EACH(rows) {
+        uvec2 columns = uvec2(0, blocks.side);
+        EACH(columns) {
+            vec2 corner = cornerOf(blocks, columns.x, rows.x);
+            vec4 stored = depthsOf(corner, layer);
+            for (int i = 0; i < 4; ++i) {
+                vec2 offset = corner + GATHERED[i] - r.texel;
+                float nearer = stored[i] - r.depth;
+                bool blocks_disc = nearer > max(dot(r.slope, offset), 0.0) &&
+                                   lengthOf(offset) < cone * nearer + 0.5;
+                sum += blocks_disc ? nearer : 0.0;
+                count += blocks_disc ? 1.0 : 0.0;
+                least = blocks_disc ? min(least, nearer) : least;
+            }
+            NEXT(columns);
+        }
+        NEXT(rows);
+    }
+    return count > 0.0 ? vec2(sum / count, least) : vec2(0.0);
+}
+
+// A disc `width` texels wide around the receiver; texels at its rim count in part.
+float filteredDisc(Receiver r, uint layer, float width) {
+    Blocks blocks = blocksAround(r.texel, width);
+    float lit = 0.0, area = 0.0;
+    uvec2 rows = uvec2(0, blocks.side);
+    EACH(rows) {
+        uvec2 columns = uvec2(0, blocks.side);
+        EACH(columns) {
+            vec2 corner = cornerOf(blocks, columns.x, rows.x);
+            vec4 stored = depthsOf(corner, layer);
+            for (int i = 0; i < 4; ++i) {
+                vec2 texel = corner + GATHERED[i];
+                float weight = clamp(0.5 * width + 0.5 - lengthOf(texel - r.texel), 0.0, 1.0);
+                lit += weight * seesLight(r, stored[i], texel);
+                area += weight;
+            }
+            NEXT(columns);
+        }
+        NEXT(rows);
+    }
+    return lit / area;
+}
+
+// `r`: for the least width, that of feature_shadow_kernel. In a wide filter the plane may rise to half way to
+// the nearest blocker: where it is steeper the filter is narrower.
+float softlyFiltered(Surface s, ShadowLight light, Cascade cascade, Receiver r, uint layer) {
+    float texels = cascade.texels_per_metre / light.depth_scale, cone = light.disc * texels;
+    vec2 blocker = blockerDistance(r, layer, cone, light.widest);
+    float most = max(r.most, 0.5 * blocker.y), steepest = 2.0 * most / lengthOf(r.slope) - 1.0;
+    float width = max(min(min(2.0 * cone * blocker.x, light.widest), steepest), float(feature_shadow_kernel));
+    Receiver soft = receiverOf(s, light, cascade, width, most * texels);
+    return filteredDisc(soft, layer, width);
+}
+
+#endif

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// How much of the sun a surface sees, by shared/contract/shadow.h.
+#ifndef SHADOW_GLSL
+#define SHADOW_GLSL
+
+#include "shaders/lib/clipmap.glsl"
+#include "shaders/lib/loop.glsl"
+#include "shaders/lib/msm.glsl"
+#include "shaders/lib/shadow_light.glsl"
+#include "shaders/lib/surface.glsl"
+
+layout(set = SET_FRAME, binding = BINDING_SHADOW_MAP) uniform sampler2DArray shadow_map;
+
+Cascade cascadeAt(uint i) {
+    vec4 a = texelFetch(shadow_texels, int(SHADOW_LIGHT_TEXELS + i));
+    return CASCADE_OF_TEXEL(a);
+}
+
+// The first cascade that serves a view depth, in m; feature_shadow_cascades: none does.
+uint cascadeOf(ShadowLight light, float depth) {
+    uint i = 0;
+    for (uint k = 0; k < feature_shadow_cascades; ++k) i += depth > light.ends[k] ? 1 : 0;
+    return i;
+}
+
+// The number of that cascade, or of the clipmap's level that is asked for, as a channel; -1 where none
+// serves.
+float servingCascade(vec3 position) {
+    if (!on(feature_shadows)) return -1.0;
+    if (feature_shadows == SHADOWS_CLIPMAP) return float(levelAt(clipmap(), position));
+    ShadowLight light = shadowLight();
+    uint i = cascadeOf(light, dot(position, light.forward));
+    return i < feature_shadow_cascades ? float(i) : -1.0;
+}
+
+// By how many levels that which serves is coarser than the clipmap's level that is asked for, as a channel;
+// -1 where there is no clipmap.
+float pageResidency(vec3 position) {
+    if (feature_shadows != SHADOWS_CLIPMAP) return -1.0;
+    return servingPage(shadowLight(), position).level - servingCascade(position);
+}
+
+// The surface as the light sees it, in a cascade: the coordinates of its texel, its depth there, and the
+// plane of its triangle, so that a plane that faces the light at a grazing angle does not shadow itself
+// wherever a filter reads. Nothing is derived from neighbouring pixels.
+//
+// A texel towards which the plane rises is compared with the plane, but only up to MOST_LIFT texels above the
+// surface: farther up the triangle may have ended, and what stands there would be taken for it. A plane that
+// is steeper than that within the filter is moved aside by the rest, along its normal, until it is not.
+struct Receiver {
+    vec2 texel;
+    float depth;
+    vec2 slope;   // of depth, per texel
+    float aside;  // by how much the plane's depth falls from moving aside
+    float most;   // depth of MOST_LIFT texels
+};
+
+const float MOST_LIFT = 2.0;
+// Least cosine between geometric normal and light that slopes are made of: a plane that is steeper passes
+// through the whole scene within few texels.
+const float LEAST_SLOPE_COSINE = 1e-3;
+
+// `width`: of the filter, texels; `most`: of the plane above the surface, texels.
+Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float width, float most) {
+    vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
+    float cosine = max(dot(s.geometric_normal, light.to_light), LEAST_SLOPE_COSINE);
+    float sine = max(lengthOf(across), LEAST_SLOPE_COSINE);
+    float steepness = sine / cosine;
+    // From the surface to the filter's farthest texel, in the direction in which the plane rises.
+    float reach = (0.5 * width + 0.5) * (abs(across.x) + abs(across.y)) / sine;
+    bool compares = feature_shadows == SHADOWS_PCF || feature_shadows == SHADOWS_PCSS ||
+                    feature_shadows == SHADOWS_CLIPMAP;
+    float aside = compares ? max(reach - most / steepness, 0.0) : 0.0;
+    float texel = 1.0 / cascade.texels_per_metre;
+    float bias = (cascade.bias + aside) * texel + light.rounding * lengthOf(s.position);
+    vec3 position = s.position + s.geometric_normal * bias;
+    float depth_of_texel = texel * light.depth_scale;
+    Receiver r;
+    r.texel =
+        vec2(dot(position, light.x), dot(position, light.y)) * cascade.texels_per_metre + cascade.offset;
+    r.depth = dot(position, light.to_light) * light.depth_scale + light.depth_offset;
+    r.slope = across * (-depth_of_texel / cosine);
+    r.aside = aside * steepness * depth_of_texel;
+    r.most = most * depth_of_texel;
+    return r;
+}
+
+// 1 where nothing in the map's texel at `texel` (its centre) is nearer to the light than the receiver.
+float seesLight(Receiver r, float stored, vec2 texel) {
+    float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.most);
+    return stored > r.depth + lift ? 0.0 : 1.0;
+}
+
+// A box of feature_shadow_kernel texels around the receiver: every texel counts by how much of it lies in the
+// box (percentage-closer filtering, Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps").
+// `shift`: from the receiver's texels to the layer's, whole.
+float filtered(sampler2DArray map, Receiver r, vec2 shift, uint layer) {
+    vec2 size = vec2(textureSize(map, 0).xy);
+    vec2 low = r.texel - 0.5 * float(feature_shadow_kernel);
+    vec2 first = floor(low), part = low - first;
+    // The box's area is added up in the same order as its lit part, so that all is 1 and nothing 0, exactly.
+    float lit = 0.0, area = 0.0;
+    for (uint y = 0; y <= feature_shadow_kernel; y += 2) {
+        for (uint x = 0; x <= feature_shadow_kernel; x += 2) {
+            vec2 corner = first + vec2(x, y);  // of two by two texels
+            vec4 stored = textureGather(map, vec3((corner + shift + 1.0) / size, float(layer)));
+            vec2 wx = vec2(x == 0u ? 1.0 - part.x : 1.0, x + 1u == feature_shadow_kernel ? part.x : 1.0);
+            vec2 wy = vec2(y == 0u ? 1.0 - part.y : 1.0, y + 1u == feature_shadow_kernel ? part.y : 1.0);
+            vec4 weights =
+                vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);  // in textureGather's order
+            lit += weights.x * seesLight(r, stored.x, corner + vec2(0.5, 1.5));
+            lit += weights.y * seesLight(r, stored.y, corner + vec2(1.5, 1.5));
+            lit += weights.z * seesLight(r, stored.z, corner + vec2(1.5, 0.5));
+            lit += weights.w * seesLight(r, stored.w, corner + vec2(0.5, 0.5));
+            area += weights.x;
+            area += weights.y;
+            area += weights.z;
+            area += weights.w;
+        }
+    }
+    return lit / area;
+}
+
+// One sample of what a blur has filtered.
+float filteredMoments(Receiver r, uint layer, ShadowLight light) {
+    float size = float(textureSize(shadow_map, 0).x);
+    vec4 moments = textureLod(shadow_map, vec3(r.texel / size, float(layer)), 0.0);
+    return visibilityOfMoments(moments, r.depth, light);
+}
+
+#include "shaders/lib/pcss.glsl"
+
+float cascadeVisibility(Surface s, ShadowLight light, uint layer) {
+    Cascade cascade = cascadeAt(layer);
+    Receiver r = receiverOf(s, light, cascade, float(feature_shadow_kernel), MOST_LIFT);
+    if (feature_shadows == SHADOWS_PCF) return filtered(shadow_map, r, vec2(0.0), layer);
+    if (feature_shadows == SHADOWS_PCSS) return softlyFiltered(s, light, cascade, r, layer);
+    return filteredMoments(r, layer, light);
+}
+
+float clipmapVisibility(Surface s, ShadowLight light) {
+    ClipmapPage page = servingPage(light, s.position);
+    Cascade level = clipmapLevel(uint(page.level));
+    Receiver r = receiverOf(s, light, level, float(feature_shadow_kernel), MOST_LIFT);
+    return filtered(shadow_map, r, page.shift, 0);
+}
+
+float cascadedVisibility(Surface s, ShadowLight light) {
+    float depth = dot(s.position, light.forward);
+    uint first = cascadeOf(light, depth);
+    float fade = light.fades[min(first, MAX_CASCADES - 1u)], end = light.ends[min(first, MAX_CASCADES - 1u)];
+    bool blends = depth > fade && first + 1u < feature_shadow_cascades;
+    float next = blends ? (depth - fade) / (end - fade) : 0.0;
+    float visibility = first < feature_shadow_cascades ? 0.0 : 1.0;
+    uvec2 range = uvec2(first, min(first + (blends ? 2u : 1u), feature_shadow_cascades));
+    float weight = 1.0 - next;
+    EACH(range) {
+        visibility += weight * cascadeVisibility(s, light, range.x);
+        weight = next;
+        NEXT(range);
+    }
+    return visibility;
+}
+
+// 0 to 1, of the light that casts. 0 where the triangle is turned from it.
+float sunVisibility(Surface s) {
+    if (!on(feature_shadows)) return 1.0;
+    ShadowLight light = shadowLight();
+    float visibility = 0.0;
+    if (feature_shadows == SHADOWS_CLIPMAP)
+        visibility = clipmapVisibility(s, light);
+    else
+        visibility = cascadedVisibility(s, light);
+    return dot(s.geometric_normal, light.to_light) > 0.0 ? visibility : 0.0;
+}
+
+#endif

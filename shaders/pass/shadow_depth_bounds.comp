@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+
+// The least and the largest reversed depth that is drawn in a picture. One thread reads two columns of
+// DEPTH_BOUNDS_ROWS rows.
+#include "shaders/lib/contract.glsl"
+
+layout(local_size_x = MOMENT_THREADS) in;
+layout(set = SET_DEPTH_BOUNDS, binding = BINDING_BOUNDED_DEPTH) uniform sampler2D depth;
+layout(set = SET_DEPTH_BOUNDS, binding = BINDING_DEPTH_BOUNDS, scalar) buffer DepthBoundsBlock {
+    DepthBounds bounds;
+};
+
+void add(float z, inout uint nearest, inout uint deepest) {
+    uint bits = floatBitsToUint(z);
+    nearest = max(nearest, bits);
+    deepest = z > 0.0 ? min(deepest, bits) : deepest;  // 0: nothing was drawn there
+}
+
+void main() {
+    uint nearest = 0u, deepest = DEEPEST_OF_NOTHING;
+    ivec2 size = textureSize(depth, 0), first = ivec2(gl_GlobalInvocationID.xy) * ivec2(2, DEPTH_BOUNDS_ROWS);
+    for (int y = 0; y < int(DEPTH_BOUNDS_ROWS); y += 2) {
+        // Beyond the picture's edge its last pixels are repeated.
+        vec4 z = textureGather(depth, vec2(min(first + ivec2(0, y), size - 1) + 1) / vec2(size));
+        for (int i = 0; i < 4; ++i) add(z[i], nearest, deepest);
+    }
+    // One atomic operation for each subgroup, as those of single threads would wait for each other.
+    nearest = subgroupMax(nearest);
+    deepest = subgroupMin(deepest);
+    if (subgroupElect()) {
+        atomicMax(bounds.nearest, nearest);
+        atomicMin(bounds.deepest, deepest);
+    }
+}

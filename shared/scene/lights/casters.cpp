@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/lights/casters.h"
+
+#include "shared/contract/local_shadow.h"
+#include "shared/scene/model/luminance.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace diptych {
+
+std::optional<std::size_t> brightestSun(std::span<const Light> lights) {
+    std::optional<std::size_t> brightest;
+    double most = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (lights[i].kind != LightKind::directional) continue;
+        const double brightness = luminance(glm::dvec3(lights[i].color)) * double{lights[i].intensity};
+        if (brightness > most) {
+            most = brightness;
+            brightest = i;
+        }
+    }
+    return brightest;
+}
+
+int shadowTiles(const Light& light) {
+    constexpr float right = gpu::PI / 2;
+    if (light.kind == LightKind::point) return int{gpu::LOCAL_FACES};
+    // A quarter of a turn fits a face; more reaches the faces on its sides; none reaches the one behind.
+    return light.outer_cone <= right / 2 ? 1 : int{gpu::LOCAL_FACES} - 1;
+}
+
+LocalCasting localCasting(std::span<const Light> lights, int brightest) {
+    const auto intensity = [&](std::size_t i) {
+        return luminance(glm::dvec3(lights[i].color)) * double{lights[i].intensity};
+    };
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if ((lights[i].kind == LightKind::point || lights[i].kind == LightKind::spot) && intensity(i) > 0 &&
+            lights[i].range > 0)
+            all.push_back(i);
+    std::ranges::stable_sort(all, std::greater(), intensity);
+    LocalCasting result;
+    int tiles = 0;
+    for (const std::size_t i : all) {
+        if (!lights[i].shadow && brightest-- <= 0) continue;
+        if (tiles + shadowTiles(lights[i]) > int{gpu::MAX_LOCAL_TILES}) {
+            ++result.without_room;
+            continue;
+        }
+        tiles += shadowTiles(lights[i]);
+        result.lights.push_back(i);
+    }
+    std::ranges::sort(result.lights);
+    result.unshadowed = all.size() - result.lights.size();
+    return result;
+}
+
+std::vector<std::size_t> castingLights(std::span<const Light> lights, int brightest_locals) {
+    std::vector<std::size_t> casting = localCasting(lights, brightest_locals).lights;
+    if (const std::optional<std::size_t> sun = brightestSun(lights))
+        casting.insert(std::ranges::upper_bound(casting, *sun), *sun);
+    return casting;
+}
+
+}  // namespace diptych

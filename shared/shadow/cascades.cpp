@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "shared/shadow/cascades.h"
+
+#include "shared/scene/model/axes.h"
+#include "shared/shadow/scene_bounds.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+
+namespace {
+
+// How much the practical split is that of equal ratios.
+constexpr double logarithmicShare = 0.75;
+// The first cascade begins at the near plane, but no nearer than this share of the distance: a near plane of
+// a millimetre would else take all but the last cascade for a view's first metre.
+constexpr double nearestShare = 1.0 / 500;
+
+struct Sphere {
+    glm::dvec3 centre;
+    double radius;
+};
+
+// Around the part of the view between two view depths. It depends on the depths and the lens alone.
+Sphere sphereOf(const View& view, double begin, double end) {
+    const double aspect = static_cast<double>(view.width) / view.height;
+    double depth = (begin + end) / 2, radius = 0;
+    if (view.camera.orthographic) {
+        const double side = view.camera.ymag * std::hypot(aspect, 1);
+        radius = std::hypot(side, (end - begin) / 2);
+    } else {
+        // Half the diagonal of the picture at a view depth of 1; the centre is as far from the corners of
+        // both ends, or the far end's own where that alone is the larger.
+        const double side = std::tan(view.camera.yfov / 2) * std::hypot(aspect, 1);
+        depth = std::min((begin + end) / 2 * (1 + side * side), end);
+        radius = std::max(std::hypot(end - depth, end * side), std::hypot(begin - depth, begin * side));
+    }
+    return {view.eye() - view.backward() * depth, radius};
+}
+
+// As far as the scene reaches, in steps: while the camera moves it mostly stays the same.
+double reachOf(const View& view, const Bounds& bounds) {
+    double reach = glm::length(bounds.max - bounds.min);
+    for (const glm::dvec3& corner : cornersOf(bounds))
+        reach = std::max(reach, glm::dot(corner - view.eye(), -view.backward()));
+    const double steps = std::ceil(2 * std::log2(std::max(reach, std::numeric_limits<double>::min())));
+    return std::exp2(steps / 2);
+}
+
+}  // namespace
+
+glm::dvec3 LightSpace::from(const glm::dvec3& world) const {
+    return {glm::dot(x, world), glm::dot(y, world), glm::dot(z, world)};
+}
+
+LightSpace lightSpace(const glm::dvec3& to_light) {
+    const glm::dvec3 x = perpendicularTo(to_light);
+    return {x, glm::cross(to_light, x), to_light};
+}
+
+glm::dmat4 Cascades::clipFromWorld(const CascadeArea& area, int size, const glm::dvec3& eye) const {
+    const glm::dvec3 origin = space.from(eye);
+    const double scale = 2 / (area.texel * size), depth = 1 / (near - far);
+    glm::dmat4 clip(0);
+    for (int i = 0; i < 3; ++i)
+        clip[i] = glm::dvec4(scale * space.x[i], scale * space.y[i], depth * space.z[i], 0);
+    clip[3] = glm::dvec4(scale * (origin.x - area.corner.x) - 1, scale * (origin.y - area.corner.y) - 1,
+                         depth * (origin.z - far), 1);
+    return clip;
+}
+
+std::vector<double> splitDepths(double near, double far, int count) {
+    std::vector<double> ends;
+    for (int i = 1; i <= count; ++i) {
+        const double share = static_cast<double>(i) / count;
+        const double ratios = near * std::pow(far / near, share), differences = near + (far - near) * share;
+        ends.push_back(i == count ? far : logarithmicShare * ratios + (1 - logarithmicShare) * differences);
+    }
+    return ends;
+}
+
+Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& to_light,
+                     const CascadeRequest& request) {
+    Cascades cascades{.space = lightSpace(to_light)};
+    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+    for (const glm::dvec3& corner : cornersOf(bounds)) {
+        least = glm::min(least, cascades.space.from(corner));
+        most = glm::max(most, cascades.space.from(corner));
+    }
+    // Room for what rounding may move, and a range that is not empty where the scene is flat.
+    const double room = 1e-4 * std::max({most.z - least.z, most.x - least.x, most.y - least.y, 1e-9});
+    cascades.near = most.z + room;
+    cascades.far = least.z - room;
+
+    const double distance = request.distance > 0 ? request.distance : reachOf(view, bounds);
+    double far = std::min(view.camera.far, distance), begin = 0, near = view.camera.near;
+    if (request.shown) {
+        // Room for how float32 rounds a view depth in another way.
+        constexpr double rounding = 1e-5;
+        far = std::min(far, request.shown->far * (1 + rounding));
+        begin = near = std::min(request.shown->near * (1 - rounding), far);
+    } else {
+        near = std::min(near, far / 2);
+    }
+    near = std::max(near, far * nearestShare);
+    // Texels on each side: what the filter reads, where a surface is moved to before it reads, and the step
+    // to whole texels.
+    const double reach = (request.kernel + 1) / 2.0;
+    const double margin = reach + std::sqrt(2.0) * reach + request.bias + 1;
+    const double inner = std::max(request.size - 2 * margin, 1.0);
+    const double sceneSide = std::max(most.x - least.x, most.y - least.y) + 2 * room;
+    for (const double end : splitDepths(near, far, request.count)) {
+        CascadeArea area{.begin = begin, .end = end};
+        const Sphere sphere = sphereOf(view, begin, end);
+        const bool whole = sceneSide <= 2 * sphere.radius;
+        const double side = whole ? sceneSide : 2 * sphere.radius;
+        area.texel = side / inner;
+        const glm::dvec2 centre =
+            whole ? glm::dvec2(least + most) / 2.0 : glm::dvec2(cascades.space.from(sphere.centre));
+        area.corner = (glm::floor(centre / area.texel) - request.size / 2.0) * area.texel;
+        cascades.areas.push_back(area);
+        begin = end - cascadeBlend * (end - begin);
+    }
+    return cascades;
+}
+
+gpu::ShadowLight gpuShadowLight(const Cascades& cascades, const View& view, gpu::uint light) {
+    const double scale = 1 / (cascades.near - cascades.far);
+    gpu::ShadowLight g{
+        .x = cascades.space.x,
+        .depth_scale = static_cast<float>(scale),
+        .y = cascades.space.y,
+        .depth_offset = static_cast<float>((cascades.space.from(view.eye()).z - cascades.far) * scale),
+        .to_light = cascades.space.z,
+        // Four units in the last place: of the depth that a position is made of, of the
+        // position, of the depth in the map and of the one that is compared with it.
+        .rounding = 4 * std::numeric_limits<float>::epsilon(),
+        .ends = glm::vec4(0),
+        .fades = glm::vec4(0),
+        .forward = -view.backward(),
+        .light = light,
+        .exponent = 0,
+        .nearest = 0,
+        .bleed = 0,
+        .min_variance = 0,
+        .negative = 0,
+        .moment_bias = 0,
+        .disc = 0,
+        .widest = 0};
+    for (std::size_t i = 0; i < cascades.areas.size(); ++i) {
+        const CascadeArea& area = cascades.areas[i];
+        const bool last = i + 1 == cascades.areas.size();
+        const auto at = static_cast<glm::length_t>(i);
+        g.ends[at] = static_cast<float>(area.end);
+        g.fades[at] = static_cast<float>(last ? area.end : cascades.areas[i + 1].begin);
+    }
+    return g;
+}
+
+std::vector<gpu::Cascade> gpuCascades(const Cascades& cascades, const glm::dvec3& eye, double bias) {
+    std::vector<gpu::Cascade> result;
+    const glm::dvec2 origin(cascades.space.from(eye));
+    for (const CascadeArea& area : cascades.areas)
+        result.push_back({.offset = (origin - area.corner) / area.texel,
+                          .texels_per_metre = static_cast<float>(1 / area.texel),
+                          .bias = static_cast<float>(bias)});
+    return result;
+}
+
+}  // namespace diptych

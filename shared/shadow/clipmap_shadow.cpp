@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "shared/shadow/clipmap_shadow.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/draw/pipeline_keys.h"
+#include "shared/draw/record.h"
+#include "shared/shadow/scene_bounds.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+
+namespace diptych {
+
+namespace {
+
+ClipmapRequest clipmapRequest(const Settings& settings) {
+    return {.size = settings.shadow_size,
+            .page = settings.clipmap_page_size,
+            .kernel = settings.shadow_kernel,
+            .bias = double{settings.shadow_bias}};
+}
+
+template <class T>
+void append(std::vector<glm::vec4>& texels, const T& value) {
+    static_assert(sizeof(T) % sizeof(glm::vec4) == 0);
+    const std::size_t at = texels.size();
+    texels.resize(at + sizeof(T) / sizeof(glm::vec4));
+    std::memcpy(&texels[at], &value, sizeof(T));
+}
+
+enum : std::size_t { OF_PREPARING, OF_FRAME, SETS };
+
+}  // namespace
+
+ClipmapShadow::ClipmapShadow(Device& device, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
+                             const Geometry& geometry, const View& view, const glm::dvec3& to_light,
+                             const Settings& settings)
+    : device_(device),
+      uploader_(uploader),
+      layouts_(atlases),
+      pose_(pose),
+      extent_{static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height)},
+      clipmap_(fitClipmap(view, boundsOf(pose, geometry), to_light, clipmapRequest(settings))),
+      atlas_(atlases.lend({static_cast<std::uint32_t>(settings.clipmap_pages),
+                           static_cast<std::uint32_t>(clipmap_.grid.slot())})),
+      sampler_(makeNearestSampler(device)),
+      sets_(device, atlases.marks(), clipmapBindings(), SETS) {
+    const std::uint64_t words = (clipmap_.pages() + 31) / 32;
+    marks_ = GpuBuffer(device, "shadow page marks", words * sizeof(gpu::uint),
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    marks_seen_ = GpuBuffer(device, "shadow page marks, read back", marks_.size(),
+                            VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    for (std::size_t set = 0; set < SETS; ++set)
+        sets_.buffer(set, gpu::BINDING_CLIPMAP_MARKS, marks_.handle());
+    atlas_->follow(pose, geometry, clipmap_.grid.space);
+}
+
+std::vector<glm::vec4> ClipmapShadow::texels(const View& view, double bias) const {
+    std::vector<glm::vec4> texels;
+    append(texels, gpuClipmap(clipmap_, view.eye()));
+    for (const gpu::Cascade& level : gpuCascades(cascadesOf(clipmap_), view.eye(), bias))
+        append(texels, level);
+    if (served_.table.empty()) {
+        texels.resize(texels.size() + clipmap_.pages());
+        return texels;
+    }
+    for (const ServedPages::Entry& entry : served_.table) {
+        const PageDraw& page = served_.resident[entry.resident];
+        const ClipmapLevel& level = clipmap_.levels[entry.level];
+        const bool whole = page.page.exponent == PageAddress::whole_scene;
+        const glm::i64vec2 place =
+            whole ? glm::i64vec2(0) : glm::i64vec2(page.page.x, page.page.y) - level.first;
+        const glm::i64vec2 shift = glm::i64vec2(atlas_->shape().cornerOf(page.slot)) +
+                                   glm::i64vec2(clipmap_.grid.gutter) -
+                                   place * static_cast<std::int64_t>(clipmap_.grid.page);
+        append(texels, gpu::ClipmapPage{
+                           .shift = glm::vec2(shift), .level = static_cast<float>(entry.level), .spare = 0});
+    }
+    return texels;
+}
+
+void ClipmapShadow::prepare(const FrameInputs& inputs) {
+    PassList passes(device_, extent_.width, extent_.height);
+    const ImageRef depth = passes.image("depth", depthFormat);
+    passes.draw("depth of shadow pages").depth(depth, Load::clear).record(recordDraws(inputs, depthKey));
+    addMarkPasses(passes, inputs, depth, OF_PREPARING);
+    passes.run();
+    served_ = atlas_->cache().serve(clipmap_, readMarks());
+    cold_ = atlas_->cache().stale(served_.resident).size();
+}
+
+void ClipmapShadow::addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
+    addMarkPasses(passes, inputs, depth, OF_FRAME);
+}
+
+void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+                                  std::size_t set) {
+    const BufferRef marks = passes.buffer("shadow page marks", marks_);
+    const char* const name = "mark shadow pages";
+    Variant variant;
+    variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic));
+    const VkPipeline pipeline =
+        inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline());
+    sets_.image(set, gpu::BINDING_CLIPMAP_DEPTH, passes.view(depth), sampler_,
+                VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    passes.copy(name).uses(marks, access::transferWrite).record([this](VkCommandBuffer commands) {
+        vkCmdFillBuffer(commands, marks_.handle(), 0, VK_WHOLE_SIZE, 0);
+    });
+    Pass& mark = passes.compute(name);
+    mark.samples(depth, inCompute)
+        .uses(marks, access::storageRead(inCompute))
+        .uses(marks, access::storageWrite(inCompute))
+        .record([this, pipeline, set, frame = inputs.frame_set,
+                 groups = glm::uvec2(passes.width(), passes.height())](VkCommandBuffer commands) {
+            const std::array sets{frame, sets_[set]};
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0,
+                                    sets.size(), sets.data(), 0, nullptr);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+            constexpr std::uint32_t side = gpu::CLIPMAP_MARK_SIDE;
+            vkCmdDispatch(commands, (groups.x + side - 1) / side, (groups.y + side - 1) / side, 1);
+        });
+    if (set == OF_FRAME)
+        mark.prepare(
+            [this, &inputs] { atlas_->draw(inputs, uploader_, pose_, clipmap_.grid, served_.resident); });
+}
+
+std::vector<gpu::uint> ClipmapShadow::readMarks() const {
+    device_.submit([&](VkCommandBuffer commands) {
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+        const VkBufferCopy copy{0, 0, marks_.size()};
+        vkCmdCopyBuffer(commands, marks_.handle(), marks_seen_.handle(), 1, &copy);
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    });
+    std::vector<gpu::uint> marks(marks_.size() / sizeof(gpu::uint));
+    std::memcpy(marks.data(), marks_seen_.mapped(), marks_.size());
+    return marks;
+}
+
+ShadowPages ClipmapShadow::counts() const {
+    return {.requested = served_.requested,
+            .resident = served_.requested - served_.fallback,
+            .fallback = served_.fallback,
+            .drawn = cold_};
+}
+
+std::vector<std::string> ClipmapShadow::notes() const {
+    const AtlasShape& shape = atlas_->shape();
+    std::vector<std::string> notes{fmt::format(
+        "--shadows clipmap: {} levels of {}x{} pages and one page of the whole scene; {} slots of {}x{} "
+        "texels "
+        "in {}x{}, {:.1f} MiB",
+        clipmap_.levels.size() - 1, clipmap_.width, clipmap_.width, shape.pages, shape.slot, shape.slot,
+        shape.size().x, shape.size().y, static_cast<double>(atlas_->bytes()) / (1 << 20))};
+    notes.push_back(fmt::format(
+        "shadow pages: the picture asks for {}, {} are there, {} are served by a coarser level; {} of {} are "
+        "drawn before the first frame and no more, which only marks what it needs",
+        served_.requested, served_.requested - served_.fallback, served_.fallback, cold_,
+        served_.resident.size()));
+    return notes;
+}
+
+}  // namespace diptych

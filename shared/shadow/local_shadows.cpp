@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "shared/shadow/local_shadows.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/draw/record.h"
+#include "shared/scene/lights/casters.h"
+#include "shared/shadow/scene_bounds.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+std::string counted(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+// Leaves out what lies beyond a tile's light, which the clip planes keep: there all depths are nearly 0.
+void cullBeyond(DrawList& casters, const LocalAtlas& atlas, const AtlasTile& tile, const glm::dvec3& eye) {
+    const AtlasLight& light = atlas.lights[tile.light];
+    const glm::dvec3 along = faceAxes(light, tile.face)[2];
+    casters.culled += static_cast<std::uint32_t>(std::erase_if(casters.items, [&](const DrawItem& item) {
+        const auto corners =
+            cornersOf(item.range, glm::dmat4(glm::mat4(casters.draws[item.draw].world_from_object)));
+        return std::ranges::all_of(corners, [&](const glm::dvec3& corner) {
+            return glm::dot(along, corner + eye - light.position) > light.far;
+        });
+    }));
+}
+
+std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std::span<const Light> sources,
+                                 int brightest) {
+    const LocalCasting casting = localCasting(sources, brightest);
+    std::vector<std::string> notes;
+    if (!casting.lights.empty()) {
+        std::string drawn = "no tile is drawn";
+        if (!atlas.tiles.empty()) {
+            const auto [least, most] = std::ranges::minmax_element(atlas.tiles, {}, &AtlasTile::size);
+            drawn = fmt::format("{} of {}{} texels, {}, in an atlas of {}x{}, {:.1f} MiB",
+                                counted(atlas.tiles.size(), "tile"),
+                                least->size < most->size ? fmt::format("{} to ", least->size) : "",
+                                most->size, counted(draws, "draw"), atlas.side, atlas.side,
+                                static_cast<double>(atlas.side) * atlas.side * sizeof(float) / (1 << 20));
+        }
+        notes.push_back(
+            fmt::format("shadows of {}: {}", counted(casting.lights.size(), "local light"), drawn));
+        if (atlas.unseen > 0)
+            notes.back() += fmt::format("; {} without a tile: nothing that is seen lies there",
+                                        counted(atlas.unseen, "face"));
+        if (atlas.empty > 0)
+            notes.back() += fmt::format("; {} without a tile: nothing that casts lies there",
+                                        counted(atlas.empty, "face"));
+    }
+    if (casting.unshadowed > 0)
+        notes.push_back(fmt::format("{} without a shadow: --shadow-lights {}, and what asks for one itself",
+                                    counted(casting.unshadowed, "point or spot light"), brightest));
+    if (casting.without_room > 0)
+        notes.back() += fmt::format("; {} of them would cast one, but the atlas holds {} tiles",
+                                    casting.without_room, gpu::MAX_LOCAL_TILES);
+    return notes;
+}
+
+}  // namespace
+
+LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
+                           const Materials& materials, const View& view, const DrawList& seen,
+                           const GpuLights& lights, std::span<const Light> sources,
+                           const Placeholders& placeholders, DescriptorSets& frame, const Settings& settings)
+    : frame_(frame),
+      placeholders_(placeholders),
+      request_{settings.shadow_size, settings.shadow_kernel, double{settings.shadow_bias}},
+      nearest_(makeNearestSampler(device)) {
+    // In the order of the buffer: points, then spots.
+    std::vector<Light> casters;
+    for (gpu::uint i = 0; i < lights.casting_points; ++i)
+        casters.push_back(sources[lights.sources[lights.directional + i]]);
+    for (gpu::uint i = 0; i < lights.casting_spots; ++i)
+        casters.push_back(sources[lights.sources[lights.directional + lights.point + i]]);
+    std::vector<glm::vec4> texels(1);
+    if (!casters.empty() && !seen.items.empty()) {
+        std::vector<std::array<glm::dvec3, 8>> boxes, casting;
+        for (const DrawItem& item : seen.items)
+            boxes.push_back(
+                cornersOf(item.range, glm::dmat4(glm::mat4(seen.draws[item.draw].world_from_object))));
+        for (const Instance& instance : pose.instances) {
+            const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+            if (range.index_count == 0 || !materials.castsShadow(range.material)) continue;
+            casting.push_back(cornersOf(range, instance.world_from_object));
+            for (glm::dvec3& corner : casting.back()) corner -= view.eye();
+        }
+        atlas_ = layOutAtlas(casters, boundsOf(pose, geometry), boxes, casting, view, request_);
+    }
+    if (any()) {
+        const gpu::LocalCasters head{lights.directional + lights.casting_points,
+                                     lights.directional + lights.point + lights.casting_spots,
+                                     lights.directional + lights.point - lights.casting_points,
+                                     lights.count()};
+        std::memcpy(texels.data(), &head, sizeof head);
+        std::ranges::copy(gpuTexels(atlas_, request_), std::back_inserter(texels));
+        kinds_ = (lights.casting_points > 0 ? gpu::LOCAL_SHADOWS_POINTS : 0) |
+                 (lights.casting_spots > 0 ? gpu::LOCAL_SHADOWS_SPOTS : 0);
+    }
+    std::size_t draws = 0;
+    for (const AtlasTile& tile : atlas_.tiles) {
+        Map map{makeCasterList(pose, geometry, materials, atlas_.clipFromWorld(tile, view.eye()), view.eye()),
+                {}};
+        cullBeyond(map.casters, atlas_, tile, view.eye());
+        draws += map.casters.items.size();
+        map.draws = makeBuffer<gpu::Draw>(device, uploader, "casters", map.casters.draws,
+                                          VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+        maps_.push_back(std::move(map));
+    }
+    if (settings.shadows != Shadows::off) notes_ = notesOf(atlas_, draws, sources, settings.shadow_lights);
+    texels_ = makeBuffer<glm::vec4>(device, uploader, "local shadow lights", texels,
+                                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    uploader.flush();
+    texels_view_ = makeTexelView(device, "local shadow lights", texels_, VK_FORMAT_R32G32B32A32_SFLOAT);
+    bindNothing(frame_);
+}
+
+void LocalShadows::bindNothing(DescriptorSets& frame) const {
+    frame.texels(0, gpu::BINDING_LOCAL_SHADOW_LIGHTS, texels_view_);
+    frame.image(0, gpu::BINDING_LOCAL_SHADOW_MAP, placeholders_.arrayTexel(), nearest_,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+void LocalShadows::specialise(Variant& variant) const {
+    if (any())
+        variant.set(gpu::FEATURE_local_shadows, kinds_)
+            .set(gpu::FEATURE_shadow_kernel, static_cast<gpu::uint>(request_.kernel));
+}
+
+void LocalShadows::addPasses(PassList& passes, const FrameInputs& inputs) {
+    if (!draws()) return;
+    const auto side = static_cast<std::uint32_t>(atlas_.side);
+    image_ = passes.image({.name = "local shadow maps",
+                           .format = depthFormat,
+                           .extent = {side, side},
+                           .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,  // by tests: what no tile owns
+                           .array = true});
+    std::vector<std::function<void(VkCommandBuffer)>> draws;
+    for (const Map& map : maps_) draws.push_back(recordCasters(inputs, map.casters, map.draws.handle()));
+    passes.draw("local shadow maps")
+        .depth(image_, Load::clear)
+        .record([this, draws = std::move(draws)](VkCommandBuffer commands) {
+            for (std::size_t i = 0; i < draws.size(); ++i) {
+                const AtlasTile& tile = atlas_.tiles[i];
+                const auto size = static_cast<float>(tile.size);
+                const VkViewport viewport{
+                    static_cast<float>(tile.corner.x), static_cast<float>(tile.corner.y), size, size, 0, 1};
+                const auto texels = static_cast<std::uint32_t>(tile.size);
+                const VkRect2D scissor{{tile.corner.x, tile.corner.y}, {texels, texels}};
+                vkCmdSetViewport(commands, 0, 1, &viewport);
+                vkCmdSetScissor(commands, 0, 1, &scissor);
+                draws[i](commands);
+            }
+        });
+    frame_.image(0, gpu::BINDING_LOCAL_SHADOW_MAP, passes.view(image_), nearest_,
+                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+}
+
+void LocalShadows::read(Pass& pass) const {
+    if (draws()) pass.samples(image_, inFragment);
+}
+
+std::uint64_t LocalShadows::bytes() const {
+    std::uint64_t sum = texels_.size();
+    for (const Map& map : maps_) sum += map.draws.size();
+    return sum;
+}
+
+double LocalShadows::reach() const {
+    double reach = 0;
+    for (const AtlasTile& tile : atlas_.tiles) reach = std::max(reach, marginOf(request_) / tile.texels);
+    return reach;
+}
+
+}  // namespace diptych

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "shared/shadow/moments.h"
+
+#include "shared/vulkan/check.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+
+namespace {
+
+constexpr auto momentTypes = bindingTypes({MOMENT_BINDINGS(DIPTYCH_BINDING_ROW)});
+
+enum : std::uint32_t { TO_MOMENTS, ACROSS, DOWN, SETS_OF_LAYER };
+
+}  // namespace
+
+bool hasMoments(Shadows shadows) {
+    return shadows == Shadows::evsm || shadows == Shadows::evsm4 || shadows == Shadows::msm4;
+}
+
+MomentSupport momentSupport(const Device& device) {
+    const auto can = [&](VkFormat format, VkFormatFeatureFlags features) {
+        VkFormatProperties properties;
+        vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
+        return (properties.optimalTilingFeatures & features) == features;
+    };
+    constexpr VkFormatFeatureFlags filter = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    return {.filters32 = can(VK_FORMAT_R32G32_SFLOAT, filter) && can(VK_FORMAT_R32G32B32A32_SFLOAT, filter),
+            .shares16 = can(VK_FORMAT_R16G16B16A16_UNORM, filter | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT)};
+}
+
+namespace {
+
+// Peters and Klein 2015 take 3e-5 for what rounds less than 16 bits do; floats of 16 bits round the moments'
+// shares 64 times as much as integers do.
+MomentFormat fourMomentFormat(const MomentSupport& device) {
+    constexpr double least = 3e-5, of16Bits = 6e-5;
+    if (device.shares16) return {VK_FORMAT_R16G16B16A16_UNORM, false, of16Bits, {}};
+    const std::string because =
+        "the device does not both store and filter 16-bit integers that stand for 0 to 1";
+    if (device.filters32)
+        return {VK_FORMAT_R32G32B32A32_SFLOAT, false, least, "moments in 32-bit floats: " + because};
+    return {VK_FORMAT_R16G16B16A16_SFLOAT, true, 64 * of16Bits,
+            "moments in 16-bit floats, with 64 times the bias: " + because + ", nor filter 32-bit floats"};
+}
+
+}  // namespace
+
+MomentFormat momentFormat(Shadows shadows, EvsmPrecision asked, const MomentSupport& device) {
+    if (shadows == Shadows::msm4) return fourMomentFormat(device);
+    const bool four = shadows == Shadows::evsm4;
+    const MomentFormat single{four ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_SFLOAT, false, 0, {}},
+        half{four ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R16G16_SFLOAT, true, 0, {}};
+    MomentFormat chosen = asked == EvsmPrecision::fp16 || !device.filters32 ? half : single;
+    if (asked != EvsmPrecision::fp16 && !device.filters32)
+        chosen.because = "moments in 16 bits: the device does not filter 32-bit floats";
+    else if (asked == EvsmPrecision::automatic)
+        chosen.because = "moments in 32 bits: the device filters 32-bit floats";
+    return chosen;
+}
+
+double largestExponent(bool half) {
+    constexpr double largestHalf = 65504;
+    return std::log(half ? largestHalf : double{std::numeric_limits<float>::max()}) / 2;
+}
+
+MomentMaps::MomentMaps(Device& device)
+    : device_(device),
+      layout_(makeSetLayout(device, momentTypes)),
+      sampler_(makeNearestSampler(device)),
+      sets_(device, layout_, momentTypes, SETS_OF_LAYER * gpu::MAX_CASCADES) {
+    const VkDescriptorSetLayout layout = layout_;
+    const VkPushConstantRange constants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::MomentConstants)};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &layout;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &constants;
+    VkPipelineLayout made = VK_NULL_HANDLE;
+    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &made), "vkCreatePipelineLayout");
+    pipeline_layout_ = OwnedPipelineLayout(device.handle(), made);
+}
+
+ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef depth, std::uint32_t size,
+                               std::uint32_t layers, const Request& request) {
+    const auto image = [&](const char* name, std::uint32_t count) {
+        return passes.image({.name = name,
+                             .format = request.format.format,
+                             .extent = {size, size},
+                             .layers = count,
+                             .usage = VK_IMAGE_USAGE_STORAGE_BIT,
+                             .array = true});
+    };
+    const ImageRef moments = image("shadow moments", layers);
+    const bool blurs = request.variant.get(gpu::FEATURE_shadow_kernel) > 1;
+    const ImageRef scratch = blurs ? image("shadow blur", 1) : moments;
+    // Views of one layer: others may be in another layout.
+    const auto bind = [&](std::uint32_t set, ImageRef source, const Part& from, VkImageLayout layout,
+                          ImageRef target, const Part& to) {
+        sets_.image(set, gpu::BINDING_MOMENT_SOURCE, passes.view(source, from), sampler_, layout);
+        sets_.image(set, gpu::BINDING_MOMENT_TARGET, passes.view(target, to), VK_NULL_HANDLE,
+                    VK_IMAGE_LAYOUT_GENERAL);
+    };
+    constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkPipeline warp = pipelines.compute(Shader::shadow_moments_comp, request.variant, pipeline_layout_);
+    const VkPipeline blur =
+        blurs ? pipelines.compute(Shader::shadow_blur_comp, request.variant, pipeline_layout_) : warp;
+    const auto dispatch = [&](Pass& pass, VkPipeline pipeline, std::uint32_t set,
+                              const gpu::MomentConstants& constants, VkExtent2D threads) {
+        pass.record([this, pipeline, set, constants, threads](VkCommandBuffer commands) {
+            const VkDescriptorSet sets = sets_[set];
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_, 0, 1, &sets,
+                                    0, nullptr);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+            vkCmdPushConstants(commands, pipeline_layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                               &constants);
+            vkCmdDispatch(commands, (threads.width + gpu::MOMENT_THREADS - 1) / gpu::MOMENT_THREADS,
+                          threads.height, 1);
+        });
+    };
+    const std::uint32_t runs = (size + gpu::BLUR_RUN - 1) / gpu::BLUR_RUN;
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const Part part{0, 1, layer, 1}, only{0, 1, 0, 1};
+        const std::uint32_t sets = SETS_OF_LAYER * layer;
+        gpu::MomentConstants constants{.size = size,
+                                       .down = 0,
+                                       .exponent = request.exponent,
+                                       .negative = request.negative,
+                                       .nearest = request.nearest};
+        bind(sets + TO_MOMENTS, depth, part, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, moments, part);
+        dispatch(passes.compute("shadow moments")
+                     .samples(depth, inCompute, part)
+                     .uses(moments, access::storageImageWrite(inCompute), part, true),
+                 warp, sets + TO_MOMENTS, constants, {size, size});
+        if (!blurs) continue;
+        bind(sets + ACROSS, moments, part, sampled, scratch, only);
+        dispatch(passes.compute("shadow blur")
+                     .samples(moments, inCompute, part)
+                     .uses(scratch, access::storageImageWrite(inCompute), only, true),
+                 blur, sets + ACROSS, constants, {runs, size});
+        bind(sets + DOWN, scratch, only, sampled, moments, part);
+        constants.down = 1;
+        dispatch(passes.compute("shadow blur")
+                     .samples(scratch, inCompute, only)
+                     .uses(moments, access::storageImageWrite(inCompute), part, true),
+                 blur, sets + DOWN, constants, {size, runs});
+    }
+    return moments;
+}
+
+}  // namespace diptych

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// All shadows of one view, as the paths read them.
+#pragma once
+
+#include "shared/shadow/local_shadows.h"
+#include "shared/shadow/sun_shadow.h"
+
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+class ShadowMaps {
+public:
+    // As of SunShadow and LocalShadows.
+    ShadowMaps(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
+               const Materials& materials, const View& view, const DrawList& seen, const GpuLights& lights,
+               std::span<const Light> sources, const Placeholders& placeholders, DescriptorSets& frame,
+               const Settings& settings)
+        : sun(device, uploader, placeholders, frame, settings),
+          local(device, uploader, pose, geometry, materials, view, seen, lights, sources, placeholders, frame,
+                settings) {}
+
+    void specialise(Variant& variant) const {
+        sun.specialise(variant);
+        local.specialise(variant);
+    }
+    // As of SunShadow: before all that follows, and once `inputs` are complete.
+    void prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
+                 const View& view, const std::optional<CastingSun>& casting) {
+        sun.prepare(inputs, uploader, atlases, pose, view, casting,
+                    [this](DescriptorSets& sets) { local.bindNothing(sets); });
+    }
+    void choosePages(const FrameInputs& inputs) { sun.choosePages(inputs); }
+    // Passes before the first that reads what they draw.
+    void addPasses(PassList& passes, const FrameInputs& inputs) {
+        sun.addPasses(passes, inputs);
+        local.addPasses(passes, inputs);
+    }
+    // Declares that the pass's fragment shaders read it.
+    void read(Pass& pass) const {
+        sun.read(pass);
+        local.read(pass);
+    }
+    // Passes that follow the one that draws `depth`.
+    void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
+        sun.addMarks(passes, inputs, depth);
+    }
+    std::uint64_t bytes() const { return sun.bytes() + local.bytes(); }  // of buffers; maps are the list's
+    std::uint64_t imageBytes() const { return sun.imageBytes(); }        // that are not the pass list's
+    std::vector<std::string> notes() const {
+        std::vector<std::string> all = sun.notes();
+        all.insert(all.end(), local.notes().begin(), local.notes().end());
+        return all;
+    }
+
+    SunShadow sun;
+    LocalShadows local;
+};
+
+}  // namespace diptych

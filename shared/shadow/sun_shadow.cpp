@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+#include "shared/shadow/sun_shadow.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/draw/record.h"
+#include "shared/shadow/scene_bounds.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+CascadeRequest requestOf(const Settings& settings) {
+    return {.size = settings.shadow_size,
+            .count = settings.shadow_cascades,
+            .kernel = settings.shadow_kernel,
+            .distance = double{settings.shadow_distance},
+            .bias = double{settings.shadow_bias}};
+}
+
+// Exponents where none is asked for: below the largest that the formats hold, by a little.
+constexpr float exponent32 = 40.0f, exponent16 = 5.5f, negativeExponent = 5.0f;
+
+// Penumbras of --shadows pcss are at most this part of a map wide.
+constexpr int mapOfWidest = 32;
+
+gpu::uint featureOf(Shadows shadows) {
+    switch (shadows) {
+        case Shadows::pcf:
+            return gpu::SHADOWS_PCF;
+        case Shadows::evsm:
+            return gpu::SHADOWS_EVSM;
+        case Shadows::evsm4:
+            return gpu::SHADOWS_EVSM4;
+        case Shadows::msm4:
+            return gpu::SHADOWS_MSM4;
+        case Shadows::pcss:
+            return gpu::SHADOWS_PCSS;
+        case Shadows::clipmap:
+            return gpu::SHADOWS_CLIPMAP;
+        case Shadows::off:
+            break;
+    }
+    return gpu::SHADOWS_NONE;
+}
+
+// Throws std::runtime_error naming the exponent that the format which the device leaves cannot hold.
+MomentMaps::Request momentsOf(const Settings& settings, const Device& device) {
+    MomentMaps::Request request{
+        .format = momentFormat(settings.shadows, settings.evsm_precision, momentSupport(device)),
+        .exponent = settings.evsm_exponent,
+        .negative = settings.evsm_negative_exponent,
+        .nearest = settings.evsm_depth == EvsmDepth::from_minus_one ? -1.0f : 0.0f};
+    request.variant.set(gpu::FEATURE_shadows, featureOf(settings.shadows))
+        .set(gpu::FEATURE_shadow_kernel, static_cast<gpu::uint>(settings.shadow_kernel));
+    const double largest = largestExponent(request.format.half);
+    if (request.exponent == 0) request.exponent = request.format.half ? exponent16 : exponent32;
+    if (request.negative == 0) request.negative = negativeExponent;
+    for (const auto& [option, exponent] : {std::pair{"--evsm-exponent", request.exponent},
+                                           std::pair{"--evsm-negative-exponent", request.negative}})
+        if (double{exponent} > largest)
+            throw std::runtime_error(fmt::format("{} {}: {} bits hold up to {:.2f}", option, exponent,
+                                                 request.format.half ? 16 : 32,
+                                                 std::floor(100 * largest) / 100));
+    return request;
+}
+
+// From the filter's middle to a corner, and one texel.
+double reachOf(double width) {
+    return width * std::numbers::sqrt2 / 2 + 1;
+}
+
+// Whether some of what is drawn may lie in the view depths that the cascade serves: by its bounding boxes,
+// with room for what float32 rounds.
+bool servesSome(const CascadeArea& area, const DrawList& seen) {
+    constexpr double room = 1e-5;
+    return std::ranges::any_of(seen.items, [&](const DrawItem& item) {
+        return item.depths.nearest * (1 - room) <= area.end &&
+               item.depths.farthest * (1 + room) >= area.begin;
+    });
+}
+
+// Leaves out the first and the last cascades of which nothing that is seen reads; says so.
+void leaveOutUnseen(Cascades& cascades, const DrawList& seen, std::vector<std::string>& notes) {
+    const auto serves = [&](const CascadeArea& area) { return servesSome(area, seen); };
+    const auto first = std::ranges::find_if(cascades.areas, serves);
+    const auto end = std::find_if(cascades.areas.rbegin(), cascades.areas.rend(), serves).base();
+    const auto count = static_cast<std::size_t>(std::max<std::ptrdiff_t>(end - first, 0));
+    if (count < cascades.areas.size())
+        notes.push_back(
+            fmt::format("shadow maps: {} of {} cascades are drawn: nothing that is seen lies in the others",
+                        count, cascades.areas.size()));
+    cascades.areas = count > 0 ? std::vector(first, end) : std::vector<CascadeArea>{};
+}
+
+// Where a cascade blends into the next, that one's filter reaches farther. `widest`: of the filter in each
+// cascade, texels.
+std::vector<ShadowReach> reachOf(const Cascades& cascades, const std::function<double(double)>& widest) {
+    std::vector<ShadowReach> reach;
+    for (std::size_t i = 0; i < cascades.areas.size(); ++i) {
+        const CascadeArea& area = cascades.areas[i];
+        const bool last = i + 1 == cascades.areas.size();
+        const double texels = reachOf(widest(area.texel));
+        reach.push_back({last ? area.end : cascades.areas[i + 1].begin, texels * area.texel, area.texel});
+    }
+    return reach;
+}
+
+}  // namespace
+
+SunShadow::SunShadow(Device& device, Uploader& uploader, const Placeholders& placeholders,
+                     DescriptorSets& frame, const Settings& settings)
+    : frame_(frame),
+      placeholders_(placeholders),
+      settings_(settings),
+      request_(requestOf(settings)),
+      filter_(featureOf(settings.shadows)),
+      nearest_(makeNearestSampler(device)),
+      linear_(makeLinearSampler(device)) {
+    setLight(device, uploader, std::vector<glm::vec4>(1));
+    bindNothing(frame_);
+}
+
+void SunShadow::setLight(Device& device, Uploader& uploader, const std::vector<glm::vec4>& texels) {
+    light_ = makeBuffer<glm::vec4>(device, uploader, "shadow light", texels,
+                                   VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    uploader.flush();
+    light_view_ = makeTexelView(device, "shadow light", light_, VK_FORMAT_R32G32B32A32_SFLOAT);
+}
+
+void SunShadow::bindNothing(DescriptorSets& frame) const {
+    frame.texels(0, gpu::BINDING_SHADOW_LIGHT, light_view_);
+    frame.image(0, gpu::BINDING_SHADOW_MAP, placeholders_.arrayTexel(), nearest_,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases,
+                        const Pose& pose, const View& view, const std::optional<CastingSun>& sun,
+                        const std::function<void(DescriptorSets&)>& bind) {
+    casts_ = sun && !inputs.draws.items.empty();
+    if (!casts_) return;
+    view_ = &view;
+    uploader_ = &uploader;
+    Device& device = inputs.device;
+    const glm::dvec3 to_light = glm::normalize(glm::dvec3(inputs.lights.lights[sun->light].position));
+    if (filter_ == gpu::SHADOWS_CLIPMAP) {
+        clipmap_.emplace(device, uploader, atlases, pose, inputs.geometry, view, to_light, settings_);
+        Cascades none = cascadesOf(clipmap_->clipmap());
+        for (const CascadeArea& level : none.areas)
+            level_reach_.push_back({std::numeric_limits<double>::infinity(),
+                                    reachOf(request_.kernel) * level.texel, level.texel});
+        none.areas.clear();
+        sun_ = gpuShadowLight(none, view, sun->light);
+        setLight(device, uploader, clipmapTexels());
+        bindNothing(frame_);
+        return;
+    }
+    const Bounds bounds = boundsOf(pose, inputs.geometry);
+    if (filter_ == gpu::SHADOWS_PCSS && sun->angle == 0) {
+        filter_ = gpu::SHADOWS_PCF;
+        notes_.emplace_back("--shadows pcss: the sun that casts has no angle, so its shadow is that of pcf");
+    }
+    if (filter_ == gpu::SHADOWS_PCSS)
+        request_.kernel = std::max(request_.kernel, request_.size / mapOfWidest);
+    if (settings_.shadow_fit == ShadowFit::depth)
+        fitToDepth(inputs, uploader, pose, view, bounds, to_light, bind);
+    Cascades cascades = fitCascades(view, bounds, to_light, request_);
+    leaveOutUnseen(cascades, inputs.draws, notes_);
+    addCascades(inputs, uploader, pose, view, cascades);
+    if (maps_.empty()) cascades.areas.clear();
+    gpu::ShadowLight light = gpuShadowLight(cascades, view, sun->light);
+    if (!maps_.empty()) setFilter(light, cascades, sun->angle, device);
+    const std::vector<gpu::Cascade> areas = gpuCascades(cascades, view.eye(), request_.bias);
+    std::vector<glm::vec4> texels(gpu::SHADOW_LIGHT_TEXELS + areas.size());
+    std::memcpy(texels.data(), &light, sizeof light);
+    std::memcpy(texels.data() + gpu::SHADOW_LIGHT_TEXELS, areas.data(), areas.size() * sizeof(gpu::Cascade));
+    setLight(device, uploader, texels);
+    bindNothing(frame_);
+}
+
+// None where nothing casts into any.
+void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
+                            const Cascades& cascades) {
+    for (const CascadeArea& area : cascades.areas) {
+        Map map{makeCasterList(pose, inputs.geometry, inputs.materials,
+                               cascades.clipFromWorld(area, request_.size, view.eye()), view.eye()),
+                {}};
+        map.draws = makeBuffer<gpu::Draw>(inputs.device, uploader, "casters", map.casters.draws,
+                                          VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+        maps_.push_back(std::move(map));
+    }
+    if (maps_.empty() ||
+        std::ranges::any_of(maps_, [](const Map& map) { return !map.casters.items.empty(); }))
+        return;
+    notes_.emplace_back("shadow maps: none is drawn: nothing casts");
+    maps_.clear();
+}
+
+void SunShadow::fitToDepth(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
+                           const Bounds& bounds, const glm::dvec3& to_light,
+                           const std::function<void(DescriptorSets&)>& bind) {
+    constexpr int steps = 8;
+    depth_bounds_.emplace(inputs.device);
+    request_.shown = shownDepths(inputs, view);
+    if (!request_.shown) {
+        notes_.emplace_back("--shadow-fit depth: the picture shows nothing, so cascades cover the view");
+        return;
+    }
+    const double texel = fitCascades(view, bounds, to_light, request_).areas.front().texel;
+    const DepthVariation varies =
+        depthVariation(inputs, uploader, pose, view, texel, steps, [&](DescriptorSets& frame) {
+            bindNothing(frame);
+            bind(frame);
+        });
+    notes_.push_back(fmt::format(
+        "--shadow-fit depth: cascades cover the shown view depths, {:.6g} to {:.6g} m; over {} "
+        "steps of a texel ({:.3g} m) to the right these vary by {:.2g} % and {:.2g} % (standard "
+        "deviation), and texels of shadows with them",
+        request_.shown->near, request_.shown->far, steps, texel, 100 * varies.near, 100 * varies.far));
+}
+
+// What shading needs beside the cascades.
+void SunShadow::setFilter(gpu::ShadowLight& light, const Cascades& cascades, double angle, Device& device) {
+    double penumbra = 0;  // the widest that may be, m
+    if (hasMoments(settings_.shadows)) {
+        moments_ = momentsOf(settings_, device);
+        moment_maps_.emplace(device);
+        light.exponent = moments_->exponent;
+        light.nearest = moments_->nearest;
+        light.bleed = settings_.evsm_bleed;
+        light.min_variance = settings_.evsm_min_variance;
+        light.negative = moments_->negative;
+        light.moment_bias = static_cast<float>(moments_->format.bias);
+        if (!moments_->format.because.empty()) notes_.push_back(moments_->format.because);
+    }
+    if (filter_ == gpu::SHADOWS_PCSS) {
+        const double disc = std::tan(std::min(angle, 3.14) / 2);  // at pi it would be infinite
+        penumbra = 2 * disc * (cascades.near - cascades.far);
+        light.disc = static_cast<float>(disc);
+        light.widest = static_cast<float>(request_.kernel);
+        const double drawn = request_.kernel * cascades.areas.front().texel;
+        if (drawn < penumbra)
+            notes_.push_back(
+                fmt::format("--shadows pcss: penumbras are drawn up to {} texels wide, in the first cascade "
+                            "{:.3g} m; the "
+                            "sun's disc may make some of {:.3g} m here",
+                            request_.kernel, drawn, penumbra));
+    }
+    const double least = settings_.shadow_kernel, most = request_.kernel;
+    reach_ = reachOf(cascades, [=](double texel) { return std::clamp(penumbra / texel, least, most); });
+}
+
+std::vector<glm::vec4> SunShadow::clipmapTexels() const {
+    std::vector<glm::vec4> texels(gpu::SHADOW_LIGHT_TEXELS);
+    std::memcpy(texels.data(), &sun_, sizeof sun_);
+    const std::vector<glm::vec4> pages = clipmap_->texels(*view_, request_.bias);
+    texels.insert(texels.end(), pages.begin(), pages.end());
+    return texels;
+}
+
+void SunShadow::choosePages(const FrameInputs& inputs) {
+    if (!clipmap_) return;
+    clipmap_->prepare(inputs);
+    const std::vector<glm::vec4> texels = clipmapTexels();
+    uploader_->buffer(light_, std::as_bytes(std::span(texels)));
+    uploader_->flush();
+    frame_.image(0, gpu::BINDING_SHADOW_MAP, clipmap_->atlas(), nearest_,
+                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    for (std::string& note : clipmap_->notes()) notes_.push_back(std::move(note));
+}
+
+void SunShadow::specialise(Variant& variant) const {
+    if (!casts_) return;
+    // Without a map it is only known what is turned from the sun.
+    variant.set(gpu::FEATURE_shadows, any() ? filter_ : gpu::SHADOWS_PCF)
+        .set(gpu::FEATURE_shadow_kernel, static_cast<gpu::uint>(settings_.shadow_kernel))
+        .set(gpu::FEATURE_shadow_cascades, static_cast<gpu::uint>(maps_.size()));
+}
+
+void SunShadow::addPasses(PassList& passes, const FrameInputs& inputs) {
+    if (maps_.empty()) return;
+    if (depth_bounds_) depth_bounds_->addPasses(passes, inputs);
+    const auto side = static_cast<std::uint32_t>(request_.size);
+    image_ = passes.image({.name = "shadow map",
+                           .format = depthFormat,
+                           .extent = {side, side},
+                           .layers = static_cast<std::uint32_t>(maps_.size()),
+                           .array = true});
+    for (std::uint32_t layer = 0; layer < maps_.size(); ++layer)
+        passes.draw("shadow maps")
+            .depth(image_, Load::clear, 0.0f, {.layer = layer})
+            .record(recordCasters(inputs, maps_[layer].casters, maps_[layer].draws.handle()));
+    if (moments_)
+        image_ = moment_maps_->addPasses(passes, inputs.pipelines, image_, side,
+                                         static_cast<std::uint32_t>(maps_.size()), *moments_);
+    frame_.image(
+        0, gpu::BINDING_SHADOW_MAP, passes.view(image_), moments_ ? linear_ : nearest_,
+        moments_ ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+}
+
+void SunShadow::read(Pass& pass) const {
+    if (image_.valid()) pass.samples(image_, inFragment);
+}
+
+void SunShadow::addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
+    if (clipmap_) clipmap_->addMarks(passes, inputs, depth);
+}
+
+std::uint64_t SunShadow::bytes() const {
+    std::uint64_t sum =
+        light_.size() + (clipmap_ ? clipmap_->bytes() : 0) + (depth_bounds_ ? depth_bounds_->bytes() : 0);
+    for (const Map& map : maps_) sum += map.draws.size();
+    return sum;
+}
+
+}  // namespace diptych

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// Cascades of the sun's shadow map: where shadows begin, what a moving camera changes, and the seams.
+#include "shared/contract/debug_mode.h"
+#include "shared/shadow/cascades.h"
+#include "tests/image/shadow_scenes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int seenMode = static_cast<int>(gpu::DEBUG_shadow_visibility),
+              cascadeMode = static_cast<int>(gpu::DEBUG_cascade),
+              depthMode = static_cast<int>(gpu::DEBUG_depth),
+              idMode = static_cast<int>(gpu::DEBUG_material_id),
+              placeMode = static_cast<int>(gpu::DEBUG_position);
+
+Settings cascaded(const Size& size, int texels, int cascades) {
+    Settings settings = smallPicture(GBufferEncoding::standard);
+    settings.size = size;
+    settings.shadows = Shadows::pcf;
+    settings.shadow_size = texels;
+    settings.shadow_cascades = cascades;
+    return settings;
+}
+
+Frame drawnCascades(Renderer& renderer, const Settings& settings) {
+    return drawnBy(Path::forward_plus, renderer, settings,
+                   {seenMode, cascadeMode, depthMode, idMode, placeMode});
+}
+Frame drawnCascades(const Scene& scene, const Settings& settings) {
+    Renderer renderer(device(), scene, pipelines());
+    return drawnCascades(renderer, settings);
+}
+
+// A board leans over the ground at 45 degrees, away from the sun, and touches it along x = 0: it casts, but
+// shows the camera above it its back, which is not drawn. So the whole picture is ground, dark from the line
+// of contact on.
+struct Contact {
+    double degrees = 45;  // of the sun above the ground
+    int kernel = 3, texels = 1024;
+    int cascades = 4, serving = 0;  // which of them the ground in the picture is in
+    double padding = 0;             // m of depth behind the ground
+};
+
+struct Gap {
+    double texels = 0;  // between the line of contact and the shadow, across the light: the mean of all rows
+    double least = 1;   // visibility on the sun's side, more than the filter's radius and 1.5 texels away
+    double farthest = 0;  // from the line, of what is more than half lit behind it; texels
+};
+
+Gap gapOf(const Contact& contact) {
+    constexpr double scale = 100, distance = 200;  // m
+    constexpr Size size{320, 40};
+    const Light sun = sunAt(contact.degrees);
+    // The front faces the ground.
+    Scene scene = groundUnder(sun, {rectangle({0, 0, -4}, {0, 0, 8}, {-4, 4, 0}, 1)}, scale);
+    scene.materials[1].double_sided = false;
+    if (contact.padding > 0) {
+        Primitive speck = rectangle({0, 0, 0}, {1e-3f, 0, 0}, {0, 0, -1e-3f}, 2);
+        for (glm::vec3& p : speck.positions) p += glm::vec3(sun.direction * contact.padding);
+        scene.meshes.front().primitives.push_back(std::move(speck));
+    }
+    // Straight down, over the line.
+    Camera& camera = scene.cameras.front();
+    camera.orthographic = true;
+    camera.near = 0.1;
+    camera.far = 1e4;
+    const std::vector<double> ends = splitDepths(distance / 500, distance, contact.cascades);
+    const auto serving = static_cast<std::size_t>(contact.serving);
+    const double begin = serving == 0 ? 0 : ends[serving - 1], end = ends[serving];
+    const double height = (begin + end) / 2;
+    camera.world_from_camera =
+        glm::inverse(glm::lookAt(glm::dvec3(0, height, 0), glm::dvec3(0), glm::dvec3(0, 0, -1)));
+    // The picture is wide enough for the filter's radius and 1.75 texels on both sides of the line, across
+    // the light; a cascade is about as wide as the sphere around the picture and its depths.
+    const glm::dvec3 to_light = -sun.direction;
+    const double across = to_light.y / std::sqrt(1 - to_light.z * to_light.z);        // light space by ground
+    const double part = 2 * (contact.kernel / 2.0 + 1.75) / across / contact.texels;  // of a cascade's side
+    camera.ymag =
+        part * (end - begin) / 2 / std::sqrt(std::max(1 - part * part, 0.05)) * size.height / size.width;
+    Settings settings = cascaded(size, contact.texels, contact.cascades);
+    settings.shadow_kernel = contact.kernel;
+    settings.shadow_distance = static_cast<float>(distance);
+    const Frame frame = drawnCascades(scene, settings);
+    const Image &seen = frame.channels.at(seenMode), &place = frame.channels.at(placeMode);
+    Gap gap;
+    int rows = 0;
+    for (int y = 0; y < size.height; ++y) {
+        std::optional<double> begins;  // where the visibility falls to a half, going away from the line
+        for (int x = size.width - 1; x >= 0; --x) {
+            EXPECT_EQ(frame.channels.at(idMode).at(x, y), 0);
+            const auto serves = static_cast<std::size_t>(frame.channels.at(cascadeMode).at(x, y));
+            const double texel = frame.shadow_reach.at(serves).texel;
+            const double behind = -double{place.at(x, y, 0)} * across / texel;
+            const double v{seen.at(x, y)};
+            if (behind < -(contact.kernel / 2.0 + 1.5)) gap.least = std::min(gap.least, v);
+            if (behind < 0) continue;
+            if (v > 0.5) gap.farthest = std::max(gap.farthest, behind);
+            if (v <= 0.5 && !begins) begins = behind;
+        }
+        EXPECT_TRUE(begins) << y;
+        gap.texels += begins.value_or(1e9);
+        ++rows;
+    }
+    gap.texels /= rows;
+    return gap;
+}
+
+// Neither acne nor a gap, however the sun grazes the ground.
+TEST(ShadowContactGap, IsAtMostOneAndAHalfTexelsAndTheFiltersRadius) {
+    for (const double degrees : {0.1, 1.0, 10.0, 45.0, 80.0, 89.9})
+        for (const int kernel : {1, 3, 7}) {
+            Contact contact{.degrees = degrees, .kernel = kernel};
+            if (degrees < 1) {
+                contact.cascades = 1;  // one large map: a texel is 573 times as long on the ground
+                contact.texels = kernel == 7 ? 8192 : 4096;
+            }
+            const Gap gap = gapOf(contact);
+            EXPECT_LE(gap.farthest, 1.5 + kernel / 2.0) << degrees << " " << kernel;
+            EXPECT_EQ(gap.least, 1) << degrees << " " << kernel;
+            RecordProperty(fmt::format("gap_{}_{}", kernel, degrees), fmt::format("{:.3f}", gap.texels));
+        }
+}
+
+// In texels it is the same in every cascade, and whatever lies far behind.
+TEST(ShadowContactGap, IsTheSameInEveryCascadeAndAtEveryDepth) {
+    for (const double degrees : {1.0, 20.0, 60.0})
+        for (const int kernel : {3, 7}) {
+            double least = 1e9, most = 0;
+            const auto take = [&](int serving, double padding) {
+                const Gap gap =
+                    gapOf({.degrees = degrees, .kernel = kernel, .serving = serving, .padding = padding});
+                least = std::min(least, gap.texels);
+                most = std::max(most, gap.texels);
+            };
+            for (const int serving : {0, 1, 2, 3}) take(serving, 0);
+            for (const double padding : {10.0, 1000.0}) take(1, padding);
+            EXPECT_LE(most - least, 0.25) << degrees << " " << kernel << ": " << least << " to " << most;
+        }
+}
+
+// A camera that moves by whole pixels and along its view sees the same points of the ground at the same or at
+// neighbouring pixels; their shadow stays, but for what rounding moves: the camera is the origin.
+TEST(ShadowWalk, StaticPointsKeepTheirVisibility) {
+    constexpr Size size{160, 90};
+    constexpr int steps = 100;
+    constexpr double pixel = 0.02;  // m
+    Scene scene =
+        groundUnder(sunAt(40), {board(1), rectangle({-1, 0, 1.5f}, {0.5f, 0, 0.3f}, {0, 0.7f, 0}, 1)}, 3);
+    const Camera first = scene.cameras.front();
+    const glm::dmat4 from = glm::inverse(glm::lookAt(glm::dvec3(-6, 9, 5), glm::dvec3(-4, 0, 0), {0, 1, 0}));
+    std::vector<int> across(steps + 1, 0);
+    scene.cameras.clear();
+    for (int i = 0; i <= steps; ++i) {
+        if (i > 0) across[static_cast<std::size_t>(i)] = across[static_cast<std::size_t>(i) - 1] + i % 4;
+        Camera camera = first;
+        camera.orthographic = true;
+        camera.ymag = pixel * size.height / 2;
+        camera.far = 100;
+        camera.world_from_camera = from;
+        camera.world_from_camera[3] +=
+            from[0] * (pixel * across[static_cast<std::size_t>(i)]) - from[2] * (0.0137 * i);
+        scene.cameras.push_back(camera);
+    }
+    Renderer renderer(device(), scene, pipelines());
+    std::uint64_t same = 0, changed = 0;
+    std::optional<Frame> last;
+    for (int i = 0; i <= steps; ++i) {
+        Settings settings = cascaded(size, 512, 3);
+        settings.camera = std::to_string(i);
+        settings.shadow_distance = 16;
+        Frame frame = drawnCascades(renderer, settings);
+        const int moved = i % 4;
+        for (int y = 0; last && y < size.height; ++y)
+            for (int x = 0; x + moved < size.width; ++x) {
+                const auto at = [&](const Frame& f, int mode, int column) {
+                    return f.channels.at(mode).at(column, y);
+                };
+                const float now = at(frame, cascadeMode, x), before = at(*last, cascadeMode, x + moved);
+                if (now != before || now < 0 || at(frame, idMode, x) != at(*last, idMode, x + moved))
+                    continue;
+                // Not where a cascade blends into the next.
+                const auto number = static_cast<std::size_t>(now);
+                if (std::max(at(frame, depthMode, x), at(*last, depthMode, x + moved)) >
+                    frame.shadow_reach.at(number).depth)
+                    continue;
+                ++same;
+                changed += std::abs(at(frame, seenMode, x) - at(*last, seenMode, x + moved)) > 1.0f / 256;
+            }
+        last = std::move(frame);
+    }
+    EXPECT_GT(same, 500'000u);
+    EXPECT_LE(static_cast<double>(changed), 1e-4 * static_cast<double>(same)) << changed << " of " << same;
+    RecordProperty("changed", std::to_string(changed));
+}
+
+// A shadow's straight edge runs from cascade to cascade. Where it lies in a row of pixels moves from row to
+// row by what the maps' texels make of it; between cascades it does not by more than twice that.
+TEST(ShadowSeams, AreNoWiderThanTexels) {
+    constexpr Size size{320, 240};
+    Scene scene = groundUnder(sunAt(45), {}, 25);
+    scene.meshes.front().primitives.push_back(rectangle({0, 0, 100}, {0, 0, -200}, {0, 1, 0}, 1));
+    Camera& camera = scene.cameras.front();
+    camera.near = 0.1;
+    camera.world_from_camera =
+        glm::inverse(glm::lookAt(glm::dvec3(-1, 2, 50), glm::dvec3(-1, 0, 30), glm::dvec3(0, 1, 0)));
+    Settings settings = cascaded(size, 256, 4);
+    settings.shadow_distance = 60;
+    settings.shadow_bias = 0.5f;
+    const Frame frame = drawnCascades(scene, settings);
+    struct Row {
+        int cascade;
+        double edge, texel;  // where the visibility rises to a half, m; m
+    };
+    std::vector<Row> rows;
+    for (int y = size.height - 1; y >= 0; --y) {
+        std::optional<Row> row;
+        for (int x = 1; x < size.width; ++x) {
+            const auto value = [&](int mode, int column, int c = 0) {
+                return double{frame.channels.at(mode).at(column, y, c)};
+            };
+            if (value(idMode, x) != 0 || value(idMode, x - 1) != 0 || value(cascadeMode, x) < 0) continue;
+            const double left = value(seenMode, x - 1), right = value(seenMode, x);
+            if (left >= 0.5 && right < 0.5 && !row) {
+                const double part = (left - 0.5) / (left - right);
+                const auto number = static_cast<std::size_t>(value(cascadeMode, x));
+                row = {static_cast<int>(number),
+                       value(placeMode, x - 1) + part * (value(placeMode, x) - value(placeMode, x - 1)),
+                       frame.shadow_reach.at(number).texel};
+            }
+        }
+        if (row) rows.push_back(*row);
+    }
+    ASSERT_GT(rows.size(), 60u);
+    std::vector<double> inside(4, 0);  // the greatest step within each cascade
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        if (rows[i].cascade == rows[i - 1].cascade) {
+            double& most = inside[static_cast<std::size_t>(rows[i].cascade)];
+            most = std::max(most, std::abs(rows[i].edge - rows[i - 1].edge));
+        }
+    int seams = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        if (rows[i].cascade == rows[i - 1].cascade) continue;
+        ++seams;
+        const auto a = static_cast<std::size_t>(rows[i - 1].cascade),
+                   b = static_cast<std::size_t>(rows[i].cascade);
+        EXPECT_LE(std::abs(rows[i].edge - rows[i - 1].edge), 2 * std::max(inside[a], inside[b]))
+            << a << " to " << b;
+        RecordProperty(fmt::format("seam_{}", a),
+                       fmt::format("{:.4f} of {:.4f}", std::abs(rows[i].edge - rows[i - 1].edge),
+                                   std::max(inside[a], inside[b])));
+    }
+    EXPECT_GE(seams, 2);
+}
+
+}  // namespace
+}  // namespace diptych::tests

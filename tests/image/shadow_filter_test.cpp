@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// Filters of the sun's shadow beside percentage-closer filtering: the same bits in both paths, edges as wide
+// as they should be, and maps that cover what the picture shows.
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/image/scenes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int sunSeen = static_cast<int>(gpu::DEBUG_shadow_visibility),
+              served = static_cast<int>(gpu::DEBUG_cascade), viewDepths = static_cast<int>(gpu::DEBUG_depth),
+              materials = static_cast<int>(gpu::DEBUG_material_id),
+              places = static_cast<int>(gpu::DEBUG_position);
+
+Settings filteredBy(Shadows shadows, GBufferEncoding gbuffer, int size = 256, int kernel = 3) {
+    Settings settings = smallPicture(gbuffer);
+    settings.shadows = shadows;
+    settings.shadow_size = size;
+    settings.shadow_kernel = kernel;
+    return settings;
+}
+
+Frame drawnOnce(Renderer& renderer, const Settings& settings, const std::vector<int>& channels) {
+    RenderOptions options;
+    options.channels = channels;
+    options.runs = 0;
+    return renderer.draw(settings, options);
+}
+Frame drawnOnce(const Scene& scene, const Settings& settings, const std::vector<int>& channels) {
+    Renderer renderer(device(), scene, pipelines());
+    return drawnOnce(renderer, settings, channels);
+}
+
+// Every sun has a disc, which --shadows pcss alone minds.
+Scene withDiscs(Scene scene, float angle) {
+    for (Light& light : scene.lights)
+        if (light.kind == LightKind::directional) light.angle = angle;
+    return scene;
+}
+
+class ShadowFilters : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShadowFilters, SeeTheSameInBothPaths) {
+    const Scene scene = withDiscs(loadScene(GetParam()), 0.05f);
+    Renderer renderer(device(), scene, pipelines());
+    for (const Shadows shadows : {Shadows::evsm, Shadows::evsm4, Shadows::msm4, Shadows::pcss})
+        for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::full}) {
+            const std::vector<Frame> frames =
+                bothPaths(renderer, filteredBy(shadows, encoding), {lit, sunSeen});
+            const Image& seen = frames[0].channels.at(sunSeen);
+            EXPECT_EQ(differingPixels(seen, frames[1].channels.at(sunSeen)), 0u) << nameOf(shadows);
+            EXPECT_TRUE(std::ranges::all_of(seen.data, [](float v) { return v >= 0 && v <= 1; }));
+            if (encoding == GBufferEncoding::full) {
+                EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+                    << nameOf(shadows);
+            }
+        }
+}
+
+// Bounds are those of the channel depth, no pixel is without a cascade, and the last is no coarser.
+TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
+    const Scene scene = loadScene(GetParam());
+    SharedResources shared(device(), scene, pipelines());
+    SceneViews views(scene);
+    Settings settings = filteredBy(Shadows::pcf, GBufferEncoding::full);
+    Renderer renderer(device(), scene, pipelines());
+    const PreparedView usual(device(), shared, views.at(viewRequest(settings)), settings);
+    settings.shadow_fit = ShadowFit::depth;
+    const std::vector<Frame> frames = bothPaths(renderer, settings, {sunSeen, served, viewDepths, materials});
+    for (const int mode : {sunSeen, served})
+        EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u);
+    float near = std::numeric_limits<float>::infinity(), far = 0;
+    for (std::size_t i = 0; i < frames[0].channels.at(materials).pixels(); ++i) {
+        if (*frames[0].channels.at(materials).pixel(i) < 0) continue;
+        near = std::min(near, *frames[0].channels.at(viewDepths).pixel(i));
+        far = std::max(far, *frames[0].channels.at(viewDepths).pixel(i));
+        EXPECT_GE(*frames[0].channels.at(served).pixel(i), 0);
+    }
+    const PreparedView prepared(device(), shared, views.at(viewRequest(settings)), settings);
+    ASSERT_TRUE(prepared.shadow.sun.shown());
+    EXPECT_EQ(prepared.shadow.sun.shown()->near, double{near});
+    EXPECT_EQ(prepared.shadow.sun.shown()->far, double{far});
+    PassList passes(device(), 160, 90);
+    functionsOf(settings.path).add(passes, prepared.inputs);
+    EXPECT_EQ(passes.names().front(), "shadow depth bounds");
+    EXPECT_LE(prepared.shadow.sun.reach().back().reach, usual.shadow.sun.reach().back().reach);
+    const auto& notes = frames[0].notes;
+    EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
+        return note.find("over 8 steps of a texel") != std::string::npos;
+    }));
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ShadowFilters,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:suns",
+                                         "builtin:ortho", "builtin:cutout", "builtin:deep",
+                                         "builtin:far_away"),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+// Without an angle the sun is a point, and its soft shadow is pcf's.
+TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
+    Renderer& renderer = uploaded("builtin:gallery").renderer;
+    const auto by = [&](Shadows shadows) {
+        return drawnOnce(renderer, filteredBy(shadows, GBufferEncoding::full), {lit, sunSeen});
+    };
+    const Frame soft = by(Shadows::pcss), hard = by(Shadows::pcf);
+    for (const int mode : {lit, sunSeen})
+        EXPECT_EQ(differingPixels(soft.channels.at(mode), hard.channels.at(mode)), 0u);
+    EXPECT_TRUE(std::ranges::any_of(
+        soft.notes, [](const std::string& note) { return note.find("has no angle") != std::string::npos; }));
+}
+
+// Ground, 8 m x 8 m, and a roof `height` above its half with negative x, or z, under a sun at the zenith;
+// seen from below the roof's height.
+Scene underARoof(double height, float angle, bool along_z = false, double fov = 0.5) {
+    const auto square = [](const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y, int material) {
+        Primitive p;
+        p.positions = {corner, corner + x, corner + x + y, corner + y};
+        p.normals.assign(4, {0, 1, 0});
+        p.tangents.assign(4, {1, 0, 0, 1});
+        p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+        p.indices = {0, 1, 2, 0, 2, 3};
+        p.material = material;
+        return p;
+    };
+    Scene scene;
+    scene.name = "roof";
+    const float h = static_cast<float>(height);
+    scene.meshes.push_back({"roof",
+                            {square({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, 0),
+                             along_z ? square({-4, h, 0}, {8, 0, 0}, {0, 0, -4}, 1)
+                                     : square({-4, h, 4}, {4, 0, 0}, {0, 0, -8}, 1)}});
+    scene.nodes.push_back({"roof", -1, glm::dmat4(1.0), 0});
+    scene.materials.resize(2);
+    for (Material& material : scene.materials) material.double_sided = true;
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = 3;
+    sun.direction = {0, -1, 0};
+    sun.angle = angle;
+    scene.lights.push_back(sun);
+    Camera camera;
+    camera.near = 0.01;
+    camera.yfov = fov;
+    const glm::dvec3 eye = along_z ? glm::dvec3(0, 0.4, 1.2) : glm::dvec3(1.2, 0.4, 0);
+    camera.world_from_camera = glm::inverse(glm::lookAt(eye, glm::dvec3(0), {0, 1, 0}));
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+// The ground's visibility by its distance from the roof's edge, m: positive in the open.
+struct Crossed {
+    double at, visibility, edge_distance;
+};
+std::vector<Crossed> across(const Frame& frame, bool along_z = false) {
+    const double eye = 1.2;
+    std::vector<Crossed> all;
+    const Image& position = frame.channels.at(places);
+    for (std::size_t i = 0; i < position.pixels(); ++i)
+        if (*frame.channels.at(materials).pixel(i) == 0)
+            all.push_back({double{position.pixel(i)[along_z ? 2 : 0]} + eye,
+                           double{*frame.channels.at(sunSeen).pixel(i)},
+                           frame.shadow_edge.empty() ? 0 : double{frame.shadow_edge.pixel(i)[0]}});
+    return all;
+}
+
+// What is seen of a disc of angle `angle` `at` m beyond an edge that is `height` above: the part of a circle
+// beyond a chord.
+double seenOfDisc(double at, double height, double angle) {
+    const double t = std::clamp(at / (height * std::tan(angle / 2)), -1.0, 1.0);
+    return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
+}
+
+// A penumbra is 2 tan(angle / 2) times as wide as what casts it is high, and has the profile of a disc:
+// within a texel, everywhere. The reference traces the disc itself.
+TEST(ShadowPcss, APenumbraIsAsWideAsTheFormula) {
+    for (const bool along_z : {false, true})
+        for (const float angle : {0.03f, 0.09f})
+            for (const double height : {0.5, 1.0}) {
+                Settings settings = filteredBy(Shadows::pcss, GBufferEncoding::full, 1024);
+                settings.shadow_cascades = 1;
+                settings.size = {320, 180};
+                const Scene scene = underARoof(height, angle, along_z);
+                const Frame frame = drawnOnce(scene, settings, {sunSeen, materials, places});
+                constexpr double texel = 0.0095;  // 8 m, and margins for the widest filter
+                int penumbra = 0;
+                for (const Crossed& c : across(frame, along_z)) {
+                    EXPECT_GE(c.visibility, seenOfDisc(c.at - texel, height, double{angle}) - 0.02) << c.at;
+                    EXPECT_LE(c.visibility, seenOfDisc(c.at + texel, height, double{angle}) + 0.02) << c.at;
+                    penumbra += c.visibility > 0.01 && c.visibility < 0.99;
+                }
+                EXPECT_GT(penumbra, 500) << angle << " " << height;
+                if (along_z) continue;
+                settings.path = Path::reference;
+                settings.size = {160, 90};
+                for (const Crossed& c : across(drawnOnce(scene, settings, {sunSeen, materials, places}))) {
+                    EXPECT_NEAR(c.visibility, seenOfDisc(c.at, height, double{angle}), 0.07) << c.at;
+                    EXPECT_EQ(c.edge_distance == 0, c.visibility > 0 && c.visibility < 1);
+                }
+            }
+}
+
+// A blur makes an edge wider, along both axes of the map, and leaves it in its place.
+TEST(ShadowMoments, AreBlurredAcrossAndDown) {
+    for (const Shadows shadows : {Shadows::evsm, Shadows::evsm4, Shadows::msm4})
+        for (const bool along_z : {false, true}) {
+            std::map<int, double> width;
+            for (const int kernel : {1, 7}) {
+                Settings settings = filteredBy(shadows, GBufferEncoding::full, 512, kernel);
+                settings.shadow_cascades = 1;
+                settings.size = {320, 180};
+                settings.shadow_bias = 0;
+                constexpr double texel = 8.0 / 500;
+                double from = 1, to = -1, middle = 0;
+                int pixels = 0;
+                for (const Crossed& c :
+                     across(drawnOnce(underARoof(1, 0, along_z, 0.1), settings, {sunSeen, materials, places}),
+                            along_z)) {
+                    if (c.visibility < 0.05 || c.visibility > 0.95) continue;
+                    from = std::min(from, c.at);
+                    to = std::max(to, c.at);
+                    middle += c.visibility > 0.4 && c.visibility < 0.6 ? c.at : 0;
+                    pixels += c.visibility > 0.4 && c.visibility < 0.6;
+                }
+                width[kernel] = (to - from) / texel;
+                EXPECT_NEAR(middle / pixels, 0, texel) << nameOf(shadows) << " " << kernel;
+            }
+            // 0.05 to 0.95 of one texel between two; of a Gaussian of 1.4 texels.
+            EXPECT_NEAR(width[1], 0.9, 0.4) << nameOf(shadows) << along_z;
+            EXPECT_NEAR(width[7], 4.7, 0.8) << nameOf(shadows) << along_z;
+        }
+}
+
+// With either precision a plane under a grazing sun is lit.
+TEST(ShadowMoments, OfAPlaneLeaveItLit) {
+    for (const EvsmPrecision precision : {EvsmPrecision::fp32, EvsmPrecision::fp16})
+        for (const Shadows shadows : {Shadows::evsm, Shadows::evsm4, Shadows::msm4}) {
+            if (shadows == Shadows::msm4 && precision == EvsmPrecision::fp16) continue;
+            for (const double degrees : {3.0, 20.0, 60.0}) {
+                Scene scene = underARoof(1, 0);
+                scene.meshes[0].primitives.pop_back();
+                const double up = degrees * std::numbers::pi / 180;
+                scene.lights[0].direction = {-std::cos(up), -std::sin(up), 0.0};
+                Settings settings = filteredBy(shadows, GBufferEncoding::full, 512);
+                if (shadows != Shadows::msm4) settings.evsm_precision = precision;
+                double least = 1;
+                for (const Crossed& c : across(drawnOnce(scene, settings, {sunSeen, materials, places})))
+                    least = std::min(least, c.visibility);
+                EXPECT_GT(least, 0.98) << nameOf(shadows) << nameOf(precision) << " " << degrees;
+            }
+        }
+}
+
+}  // namespace
+}  // namespace diptych::tests

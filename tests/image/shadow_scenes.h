@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A sun, the ground and what stands on it, of whose shadow is known where it lies.
+#pragma once
+
+#include "tests/image/scenes.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace diptych::tests {
+
+// A rectangle from `corner` along x and y, seen from where cross(x, y) points.
+inline Primitive rectangle(const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y,
+                           int material = 0) {
+    Primitive p;
+    p.positions = {corner, corner + x, corner + x + y, corner + y};
+    p.normals.assign(4, glm::normalize(glm::cross(x, y)));
+    p.tangents.assign(4, {1, 0, 0, 1});
+    p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    p.indices = {0, 1, 2, 0, 2, 3};
+    p.material = material;
+    return p;
+}
+
+// A sun that stands `degrees` above the ground, towards +X and a little +Z.
+inline Light sunAt(double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = 3;
+    sun.direction =
+        -glm::dvec3(std::cos(angle) * std::cos(0.3), std::sin(angle), std::cos(angle) * std::sin(0.3));
+    return sun;
+}
+
+// The ground, 8 m x 8 m around the origin, and what stands on it, seen from above.
+inline Scene groundUnder(const Light& sun, std::vector<Primitive> standing = {}, double scale = 1) {
+    Scene scene;
+    scene.name = "ground";
+    std::vector<Primitive> all{rectangle({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})};
+    for (Primitive& p : standing) all.push_back(std::move(p));
+    for (Primitive& p : all)
+        for (glm::vec3& position : p.positions) position *= static_cast<float>(scale);
+    scene.meshes.push_back({"ground", std::move(all)});
+    scene.nodes.push_back({"ground", -1, glm::dmat4(1.0), 0});
+    scene.materials.resize(3);
+    scene.materials[0].double_sided = scene.materials[1].double_sided = scene.materials[2].double_sided =
+        true;
+    scene.lights.push_back(sun);
+    Camera camera;
+    camera.near = 0.1 * scale;
+    camera.world_from_camera =
+        glm::inverse(glm::lookAt(glm::dvec3(0.4, 6, 2.5) * scale, glm::dvec3(0), {0, 1, 0}));
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+// An upright board over the origin, as wide as the ground and 1 m high: its foot lies on the ground's middle.
+inline Primitive board(int material = 0) {
+    return rectangle({0, 0, 4}, {0, 0, -8}, {0, 1, 0}, material);
+}
+
+}  // namespace diptych::tests

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// The sun's shadow: the same bits in both paths, against the rays of the reference, and planes of which what
+// is right is known.
+#include "compare/render/prepared_view.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/image/shadow_scenes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int visibility = static_cast<int>(gpu::DEBUG_shadow_visibility),
+              cascade = static_cast<int>(gpu::DEBUG_cascade), depth = static_cast<int>(gpu::DEBUG_depth),
+              ids = static_cast<int>(gpu::DEBUG_material_id);
+
+Settings shadowed(const Settings& settings, int size = 2048, int kernel = 3) {
+    Settings result = settings;
+    result.shadows = Shadows::pcf;
+    result.shadow_size = size;
+    result.shadow_kernel = kernel;
+    return result;
+}
+
+Frame drawn(const Scene& scene, const Settings& settings,
+            const std::vector<int>& channels = {visibility, cascade, depth, ids}) {
+    RenderOptions options;
+    options.channels = channels;
+    options.runs = 0;
+    return drawAll(scene, {settings}, options).front();
+}
+
+// Over the pixels of the ground that a test's predicate of position accepts: the least and the most
+// visibility.
+struct Seen {
+    float least = 1, most = 0;
+    int pixels = 0;
+};
+template <class Where>
+Seen seenWhere(const Frame& frame, const Where& where) {
+    Seen seen;
+    const Image& image = frame.channels.at(visibility);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            if (frame.channels.at(ids).at(x, y) < 0 || !where(x, y)) continue;
+            seen.least = std::min(seen.least, image.at(x, y));
+            seen.most = std::max(seen.most, image.at(x, y));
+            ++seen.pixels;
+        }
+    return seen;
+}
+
+class ShadowPaths : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShadowPaths, SeeTheSame) {
+    for (const GBufferEncoding encoding :
+         {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full})
+        for (const int kernel : {1, 7}) {
+            const Settings settings = shadowed(smallPicture(encoding), 256, kernel);
+            const std::vector<Frame> frames =
+                bothPaths(uploaded(GetParam()).renderer, settings, {visibility, cascade, lit});
+            for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
+            for (const int mode : {visibility, cascade})
+                EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+                    << debugMode(mode).name << " " << kernel;
+        }
+}
+
+// A path's picture against rays: beyond the filter's reach and a texel from an edge, what is shown lit is
+// lit, and what is shown dark is dark, but for one pixel in 2,000.
+TEST_P(ShadowPaths, AreTheReferencesAwayFromEdges) {
+    Settings settings = shadowed(smallPicture(GBufferEncoding::full));
+    settings.size = {320, 180};
+    Settings truth = settings;
+    truth.path = Path::reference;
+    Renderer& renderer = uploaded(GetParam()).renderer;
+    RenderOptions options;
+    options.channels = {visibility, depth, ids};
+    options.runs = 0;
+    const Frame path = renderer.draw(settings, options), reference = renderer.draw(truth, options);
+    ASSERT_FALSE(reference.shadow_edge.empty());
+    std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
+    for (std::size_t i = 0; i < path.channels.at(visibility).pixels(); ++i) {
+        if (*path.channels.at(ids).pixel(i) < 0) continue;
+        ++covered;
+        const double z{*path.channels.at(depth).pixel(i)};
+        const auto reach =
+            std::ranges::find_if(path.shadow_reach, [&](const ShadowReach& r) { return z <= r.depth; });
+        ASSERT_NE(reach, path.shadow_reach.end());
+        const float* const edge = reference.shadow_edge.pixel(i);
+        const float seen = *path.channels.at(visibility).pixel(i),
+                    is = *reference.channels.at(visibility).pixel(i);
+        if (double{edge[0]} <= reach->reach) {
+            ++near;
+            continue;
+        }
+        falseLit += seen > is;
+        falseDark += seen < is;
+    }
+    EXPECT_LE(static_cast<double>(falseLit), 5e-4 * static_cast<double>(covered))
+        << covered << ", near " << near;
+    EXPECT_LE(static_cast<double>(falseDark), 5e-4 * static_cast<double>(covered))
+        << covered << ", near " << near;
+    RecordProperty("false_lit", static_cast<int>(falseLit));
+    RecordProperty("false_dark", static_cast<int>(falseDark));
+    RecordProperty("near_edges", static_cast<int>(near));
+    RecordProperty("covered", static_cast<int>(covered));
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ShadowPaths,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:suns",
+                                         "builtin:ortho", "builtin:cutout", "builtin:deep",
+                                         "builtin:far_away"),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+// A plane never shadows itself, however the sun grazes it, with any filter.
+TEST(ShadowPlane, IsFullyLitAtEveryAngle) {
+    for (const double degrees : {0.1, 0.3, 1.0, 3.0, 10.0, 20.0, 35.0, 50.0, 70.0, 89.0, 89.9})
+        for (const int kernel : {1, 3, 5, 7}) {
+            Settings settings = shadowed(smallPicture(GBufferEncoding::standard), 512, kernel);
+            settings.shadow_cascades = 2;
+            const Seen seen =
+                seenWhere(drawn(groundUnder(sunAt(degrees)), settings), [](int, int) { return true; });
+            EXPECT_EQ(seen.least, 1) << degrees << " " << kernel;
+            EXPECT_GT(seen.pixels, 5000);
+        }
+}
+
+TEST(ShadowPlane, IsDarkWhereTheSunIsBelowIt) {
+    const Frame frame = drawn(groundUnder(sunAt(-20)), shadowed(smallPicture(GBufferEncoding::standard)));
+    EXPECT_EQ(seenWhere(frame, [](int, int) { return true; }).most, 0);
+}
+
+// Scenes of any size, and a sun straight above or below.
+TEST(ShadowPlane, IsFullyLitAtEveryScale) {
+    for (const double scale : {1e-3, 1.0, 1e4})
+        for (const double degrees : {5.0, 45.0, 90.0}) {
+            const Seen seen = seenWhere(drawn(groundUnder(sunAt(degrees), {}, scale),
+                                              shadowed(smallPicture(GBufferEncoding::standard))),
+                                        [](int, int) { return true; });
+            EXPECT_EQ(seen.least, 1) << scale << " " << degrees;
+        }
+}
+
+// The board's shadow lies on the side away from the sun, without a gap at its foot, and does not reach the
+// other. It covers 1 / tan(degrees) of ground.
+TEST(ShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
+    for (const double degrees : {20.0, 45.0, 70.0}) {
+        Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
+        settings.size = {320, 180};
+        const Scene scene = groundUnder(sunAt(degrees), {board(1)});
+        const Frame frame = drawn(scene, settings, {visibility, depth, ids, int{gpu::DEBUG_position}});
+        const Image& position = frame.channels.at(int{gpu::DEBUG_position});
+        const double length = std::cos(0.3) / std::tan(degrees * std::numbers::pi / 180);
+        // A texel is about 6 mm of ground across; the filter reaches three.
+        const double gap = 0.03;
+        const auto onGround = [&](double from, double to) {
+            return [&, from, to](int x, int y) {
+                const double at = double{position.at(x, y, 0)} + 0.4, z = double{position.at(x, y, 2)} + 2.5;
+                return frame.channels.at(ids).at(x, y) == 0 && at > from && at < to && std::abs(z) < 1.5;
+            };
+        };
+        const Seen shadow =
+            seenWhere(frame, onGround(-length + gap / std::sin(degrees * std::numbers::pi / 180), -gap));
+        EXPECT_EQ(shadow.most, 0) << degrees;
+        EXPECT_GT(shadow.pixels, 50) << degrees;
+        const Seen open = seenWhere(frame, onGround(gap, 3));
+        EXPECT_EQ(open.least, 1) << degrees;
+        EXPECT_GT(open.pixels, 50) << degrees;
+        const Seen beyond =
+            seenWhere(frame, onGround(-3.5, -length - gap / std::sin(degrees * std::numbers::pi / 180)));
+        EXPECT_EQ(beyond.least, 1) << degrees;
+    }
+}
+
+// Holes of an alpha mask let the sun through; what is blended casts nothing.
+TEST(ShadowCasters, FollowTheirAlphaMode) {
+    const auto darkest = [](AlphaMode mode, float alpha) {
+        Scene scene = groundUnder(sunAt(45), {board(1)});
+        scene.materials[1].alpha_mode = mode;
+        scene.materials[1].base_color.a = alpha;
+        Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
+        const Frame frame = drawn(scene, settings);
+        return seenWhere(frame, [&](int x, int y) { return frame.channels.at(ids).at(x, y) == 0; }).least;
+    };
+    EXPECT_EQ(darkest(AlphaMode::opaque, 0.3f), 0);
+    EXPECT_EQ(darkest(AlphaMode::mask, 1.0f), 0);
+    EXPECT_EQ(darkest(AlphaMode::mask, 0.3f), 1);
+    EXPECT_EQ(darkest(AlphaMode::blend, 1.0f), 1);
+}
+
+// With lights by object, where none of them need be shaded per pixel, the sun that casts is, and is shadowed.
+TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
+    const Scene scene = groundUnder(sunAt(45), {board(1)});
+    Settings settings = shadowed(smallPicture(GBufferEncoding::full));
+    settings.assign = Assignment::every;
+    const Frame every = drawn(scene, settings, {lit, ids});
+    settings.assign = Assignment::per_object;
+    settings.pixel_lights = 0;
+    const Frame objects = drawn(scene, settings, {lit, ids});
+    EXPECT_EQ(differingPixels(every.channels.at(lit), objects.channels.at(lit)), 0u);
+    const Image& image = every.channels.at(lit);
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+        dark += *every.channels.at(ids).pixel(i) == 0 && *image.pixel(i) == 0;
+    EXPECT_GT(dark, 500u) << "of the ground";
+}
+
+// Of several suns the brightest casts; without any nothing does, and no pass is drawn.
+TEST(ShadowCasters, AreOfTheBrightestSun) {
+    Scene scene = groundUnder(sunAt(45), {board(1)});
+    const Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
+    const Frame alone = drawn(scene, settings);
+    Light weak = sunAt(-90);
+    weak.direction = {0, -1, 0};
+    weak.intensity = 2;
+    scene.lights.insert(scene.lights.begin(), weak);
+    const Frame both = drawn(scene, settings);
+    EXPECT_EQ(differingPixels(alone.channels.at(visibility), both.channels.at(visibility)), 0u);
+    scene.lights.clear();
+    Light lamp;
+    lamp.position = {0, 2, 0};
+    scene.lights.push_back(lamp);
+    const Frame none = drawn(scene, settings);
+    EXPECT_EQ(seenWhere(none, [](int, int) { return true; }).least, 1);
+    EXPECT_TRUE(none.shadow_reach.empty());
+}
+
+// Of a camera that sees the ground between 1.5 and 4 m the cascades for less and for more are not drawn;
+// where nothing casts, none is, and what is turned from the sun is dark all the same.
+TEST(ShadowMapsOfNothing, AreNotDrawn) {
+    const auto says = [](const Frame& frame, const std::string& words) {
+        return std::ranges::any_of(frame.notes,
+                                   [&](const std::string& note) { return note.find(words) != note.npos; });
+    };
+    const auto passes = [](const Scene& scene, const Settings& settings) {
+        Renderer renderer(device(), scene, pipelines());
+        SceneViews views(scene);
+        SharedResources shared(device(), scene, pipelines());
+        const PreparedFrame frame(device(), shared, views.at(viewRequest(settings)), settings);
+        const std::vector<std::string> names = frame.passes.names();
+        return std::ranges::count(names, "shadow maps");
+    };
+    Scene scene = groundUnder(sunAt(45), {board(1)});
+    Settings settings = shadowed(smallPicture(GBufferEncoding::full));
+    settings.shadow_distance = 400;
+    EXPECT_TRUE(says(drawn(scene, settings), "shadow maps: 1 of 4 cascades"));
+    EXPECT_EQ(passes(scene, settings), 1);
+    for (Material& material : scene.materials) material.alpha_mode = AlphaMode::blend;
+    const auto ground = [](const Frame& frame) {
+        return seenWhere(frame, [&](int x, int y) { return frame.channels.at(ids).at(x, y) == 0; });
+    };
+    const Frame open = drawn(scene, settings);
+    EXPECT_TRUE(says(open, "nothing casts"));
+    EXPECT_EQ(passes(scene, settings), 0);
+    EXPECT_EQ(ground(open).least, 1);
+    scene.lights[0] = sunAt(-20);
+    EXPECT_EQ(ground(drawn(scene, settings)).most, 0);
+}
+
+}  // namespace
+}  // namespace diptych::tests

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/lib/msm.glsl"
+#include "tests/probe/shaders/probe.glsl"
+
+// depths of two parts of a filter and of the receiver (1 towards the light), the first part's share;
+// exponent, the other warp's, nearest depth, bleed, least variance, bias of moments -> visibility, the four
+// moments as they are stored; for feature_shadows
+const uint WIDTH = 10;
+
+vec4 stored(float depth, ShadowLight light) {
+    if (feature_shadows == SHADOWS_MSM4) return quantisedMoments(depth);
+    return warpedMoments(depth, light.exponent, light.negative, light.nearest);
+}
+
+void main() {
+    if (PROBE_ROW >= probe_rows) return;
+    ShadowLight light;
+    float share = IN(WIDTH, 3), receiver = IN(WIDTH, 2);
+    light.exponent = IN(WIDTH, 4);
+    light.negative = IN(WIDTH, 5);
+    light.nearest = IN(WIDTH, 6);
+    light.bleed = IN(WIDTH, 7);
+    light.min_variance = IN(WIDTH, 8);
+    light.moment_bias = IN(WIDTH, 9);
+    // Weighted before they are added, as a blur does: the largest moments' sum is infinite.
+    vec4 moments = stored(IN(WIDTH, 0), light) * share + stored(IN(WIDTH, 1), light) * (1.0 - share);
+    OUT(5, 0) = visibilityOfMoments(moments, receiver, light);
+    OUT(5, 1) = moments.x;
+    OUT(5, 2) = moments.y;
+    OUT(5, 3) = moments.z;
+    OUT(5, 4) = moments.w;
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The distance from the edge of a shadow, for edges whose distance is known.
+#include "compare/reference/shadow_edge.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace diptych::reference {
+namespace {
+
+const glm::dvec3 place(3, 0, -4), up(0, 1, 0);
+
+// A half plane of shadow on the ground, `away` m from the place in the direction `angle`.
+SeesLight straightEdge(double away, double angle) {
+    const glm::dvec3 outwards(std::cos(angle), 0, std::sin(angle));
+    return [=](const glm::dvec3& p) { return glm::dot(p - place, outwards) < away; };
+}
+
+TEST(ShadowEdge, AStraightEdgeIsNoFartherThanItIs) {
+    for (const double away : {1e-5, 1e-3, 0.02, 0.3, 4.0, 60.0})
+        for (int i = 0; i < 40; ++i) {
+            const double angle = i * std::numbers::pi / 20 + 0.01;
+            const double found = edgeDistance(straightEdge(away, angle), place, up, up, 100);
+            EXPECT_LE(found, away) << away << " " << angle;
+            // The directions' angle, twice, and a sixteenth of the ring; nearer than the first ring is 0 or
+            // more.
+            if (away > 5 * 0x1p-13) {
+                EXPECT_GE(found, 0.8 * away) << away << " " << angle;
+            }
+        }
+}
+
+// Across the light, not along the ground: the shadow of an edge that is 1 m away under a sun 30 degrees high.
+TEST(ShadowEdge, IsMeasuredAcrossTheLight) {
+    const glm::dvec3 to_light(std::sqrt(0.75), 0.5, 0);
+    const double along = edgeDistance(straightEdge(1, 0), place, up, to_light, 100),
+                 across = edgeDistance(straightEdge(1, std::numbers::pi / 2), place, up, to_light, 100);
+    EXPECT_LE(along, 0.5);
+    EXPECT_GE(along, 0.8 * 0.5);
+    EXPECT_LE(across, 1);
+    EXPECT_GE(across, 0.8);
+}
+
+TEST(ShadowEdge, WhereThereIsNoneItIsInfinite) {
+    EXPECT_TRUE(std::isinf(edgeDistance([](const glm::dvec3&) { return true; }, place, up, up, 100)));
+    EXPECT_TRUE(std::isinf(edgeDistance(straightEdge(300, 0), place, up, up, 100)))
+        << "beyond what is sought";
+    EXPECT_TRUE(std::isinf(edgeDistance([](const glm::dvec3&) { return false; }, {0, 0, 0}, up, up, 100)))
+        << "at the camera itself";
+}
+
+// A hole of light around the place, as wide as a leaf's gap.
+TEST(ShadowEdge, ASpotEndsWhereItEnds) {
+    const auto spot = [](const glm::dvec3& p) { return glm::distance(p, place) < 0.05; };
+    const double found = edgeDistance(spot, place, up, up, 100);
+    EXPECT_LE(found, 0.05);
+    EXPECT_GE(found, 0.8 * 0.05);
+}
+
+}  // namespace
+}  // namespace diptych::reference

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// How far from the edge of a shadow a path may show anything: by view depth, or by the clipmap's level that
+// serves.
+#include "compare/verdict/shadow_edges.h"
+
+#include "shared/contract/debug_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+Image rowOf(const std::vector<float>& values, int components = 1) {
+    Image image(static_cast<int>(values.size()) / components, 1, components);
+    std::ranges::copy(values, image.pixel(0));
+    return image;
+}
+
+// Of each pixel, whether an edge is near; empty where nothing is known of edges.
+std::vector<bool> nearOf(const Frame& path, const std::vector<float>& edges) {
+    Frame reference;
+    reference.settings.path = Path::reference;
+    std::vector<float> both;
+    for (const float edge : edges) both.insert(both.end(), {edge, 1});
+    reference.shadow_edge = rowOf(both, 2);
+    const Requirements needs;
+    const Coverage coverage = everyPixel(edges.size());
+    const ShadowEdges shadow_edges({reference, path, needs, coverage});
+    std::vector<bool> near;
+    for (std::size_t i = 0; shadow_edges.any() && i < edges.size(); ++i)
+        near.push_back(shadow_edges.isNear(i));
+    return near;
+}
+
+TEST(ShadowEdges, CascadesReachByViewDepth) {
+    Frame path;
+    path.settings.path = Path::deferred;
+    path.shadow_reach = {{2, 0.1}, {8, 0.4}};
+    EXPECT_TRUE(nearOf(path, {0, 0, 0, 0}).empty()) << "without depths";
+    path.channels[static_cast<int>(gpu::DEBUG_depth)] = rowOf({1, 1, 5, 50});
+    EXPECT_EQ(nearOf(path, {0.05f, 0.2f, 0.2f, 0.3f}), (std::vector{true, false, true, true}));
+}
+
+// What a coarser page serves is as wide as that page's filter, not as that which is missing.
+TEST(ShadowEdges, AClipmapReachesByTheLevelThatServes) {
+    Frame path;
+    path.settings.path = Path::deferred;
+    path.shadow_level_reach = {{9, 0.1}, {9, 0.2}, {9, 0.4}, {9, 3}};
+    path.channels[static_cast<int>(gpu::DEBUG_cascade)] = rowOf({0, 0, 1, 1});
+    EXPECT_TRUE(nearOf(path, {0, 0, 0, 0}).empty()) << "without what serves";
+    path.channels[static_cast<int>(gpu::DEBUG_page_residency)] = rowOf({0, 2, 0, 2});
+    EXPECT_EQ(nearOf(path, {0.3f, 0.3f, 0.3f, 2.9f}), (std::vector{false, true, false, true}));
+}
+
+}  // namespace
+}  // namespace diptych

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// How wrong a shadow of the sun is, and which rows of a sweep others beat.
+#include "compare/tradeoff/shadow_rows.h"
+#include "compare/tradeoff/sweep.h"
+#include "shared/contract/debug_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace diptych::tradeoff {
+namespace {
+
+// A row of pixels of one channel.
+Image pixelRow(const std::vector<float>& values, int components = 1) {
+    Image image(static_cast<int>(values.size()) / components, 1, components);
+    image.data.assign(values.begin(), values.end());
+    return image;
+}
+
+// Four pixels that show a surface: two that the sun reaches, with 1 and 3 W/m^2, and two that it does not,
+// with 2 and 4; the second and the third are 0.01 m from an edge, the others 1 m.
+Frame tracedRow() {
+    Frame reference;
+    reference.settings.path = Path::reference;
+    reference.settings.size = {4, 1};
+    reference.channels[static_cast<int>(gpu::DEBUG_material_id)] = pixelRow({0, 0, 0, 0});
+    reference.channels[static_cast<int>(gpu::DEBUG_shadow_visibility)] = pixelRow({1, 1, 0, 0});
+    reference.shadow_edge = pixelRow({1, 9, 1, 0.01f, 9, 3, 0.01f, 9, 2, 1, 9, 4}, 3);
+    return reference;
+}
+
+// What a path shows of it, with texels of 5 mm and a filter that reaches 2 cm.
+Frame filteredRow(const std::vector<float>& visibility) {
+    Frame path;
+    path.settings.path = Path::deferred;
+    path.settings.size = {4, 1};
+    path.channels[static_cast<int>(gpu::DEBUG_shadow_visibility)] = pixelRow(visibility);
+    path.channels[static_cast<int>(gpu::DEBUG_depth)] = pixelRow({1, 1, 1, 1});
+    path.shadow_reach = {{10, 0.02, 0.005}};
+    return path;
+}
+
+TEST(TradeoffShadow, ErrorsAreOfLightThatIsWrong) {
+    const Frame traced = tracedRow();
+    const auto errors = shadowErrorsOf(traced, filteredRow({1, 1, 0, 0}));
+    ASSERT_TRUE(errors);
+    EXPECT_EQ(*errors, ShadowErrors{}) << "what is right has none";
+    // error, false lit, false dark, leak, gap
+    EXPECT_EQ(*shadowErrorsOf(traced, filteredRow({1, 0.5f, 0.5f, 0})),
+              (ShadowErrors{(1.5 + 1.0) / 4, 0, 0, 1.0 / 4, 0}))
+        << "near an edge";
+    const ShadowErrors wrong = *shadowErrorsOf(traced, filteredRow({0.25f, 1, 0, 0.75f}));
+    EXPECT_EQ(wrong[0], (0.75 + 3.0) / 4);
+    EXPECT_EQ(wrong[1], 0.5) << "of the two that are away from edges";
+    EXPECT_EQ(wrong[2], 0.5);
+    EXPECT_EQ(wrong[3], 3.0 / 4);
+    EXPECT_NEAR(wrong[4], 200, 1e-9) << "a metre in texels of 5 mm";
+    EXPECT_NEAR((*shadowErrorsOf(traced, filteredRow({1, 1, 1, 0})))[4], 2, 1e-6);
+}
+
+TEST(TradeoffShadow, AFrameWithoutMapsShowsTheSunEverywhere) {
+    Frame open = filteredRow({1, 1, 1, 1});
+    open.shadow_reach.clear();
+    const auto errors = shadowErrorsOf(tracedRow(), open);
+    ASSERT_TRUE(errors);
+    EXPECT_EQ((*errors)[1], 0.5) << "every pixel counts";
+    EXPECT_EQ((*errors)[3], 6.0 / 4);
+    EXPECT_TRUE(std::isinf((*errors)[4])) << "it has no texels";
+    Frame unlit = tracedRow();
+    unlit.channels[static_cast<int>(gpu::DEBUG_shadow_visibility)] = pixelRow({0, 0, 0, 0});
+    EXPECT_TRUE(std::isinf((*shadowErrorsOf(unlit, open))[3])) << "nothing should be lit";
+}
+
+TEST(TradeoffShadow, WhatCannotBeJudgedIsNot) {
+    Frame other = filteredRow({1, 1});
+    EXPECT_FALSE(shadowErrorsOf(tracedRow(), other)) << "of another size";
+    other.channels.clear();
+    EXPECT_FALSE(shadowErrorsOf(tracedRow(), other)) << "without the channel";
+    Frame sunless = tracedRow();
+    sunless.shadow_edge = {};
+    EXPECT_FALSE(shadowErrorsOf(sunless, filteredRow({1, 1, 0, 0})));
+}
+
+// Rows with an error, a time and a size each.
+Tradeoff sweptRows(const std::vector<std::array<double, 3>>& rows) {
+    Tradeoff sweep;
+    for (const auto& [error, ms, bytes] : rows) {
+        CameraRow camera{"view", {FrameTime{ms, ms, ms, 1}}, {}, {}, {}, 1, ShadowErrors{error, 0, 0, 0, 0}};
+        camera.bytes.images = static_cast<std::uint64_t>(bytes);
+        TradeoffRow row;
+        row.cameras.push_back(std::move(camera));
+        sweep.rows.push_back(std::move(row));
+    }
+    return sweep;
+}
+
+TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) {
+    //                                   best but slow, small and fast, beaten in both, in memory alone
+    const Tradeoff sweep = sweptRows({{0.1, 50, 400}, {0.3, 10, 100}, {0.4, 20, 200}, {0.2, 5, 500}});
+    const std::vector<ShadowRow> rows = shadowRowsOf(sweep);
+    ASSERT_EQ(rows.size(), 4u);
+    std::vector<std::size_t> order;
+    std::vector<bool> time, memory;
+    for (const ShadowRow& row : rows) {
+        order.push_back(row.row);
+        time.push_back(row.beaten_in_time);
+        memory.push_back(row.beaten_in_memory);
+    }
+    EXPECT_EQ(order, (std::vector<std::size_t>{0, 3, 1, 2}));
+    EXPECT_EQ(time, (std::vector{false, false, true, true}));
+    EXPECT_EQ(memory, (std::vector{false, true, false, true}));
+    const std::string text = shadowTable(sweep), page = shadowTableHtml(sweep);
+    EXPECT_NE(text.find("time, memory"), std::string::npos) << text;
+    EXPECT_NE(page.find("time, memory"), std::string::npos) << page;
+    for (const ShadowFigure& figure : shadowFigures)
+        EXPECT_NE(page.find(figure.title), std::string::npos) << figure.title;
+}
+
+TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {
+    const Tradeoff alike = sweptRows({{0.1, 50, 400}, {0.1, 10, 100}});
+    EXPECT_TRUE(shadowRowsOf(alike).empty());
+    EXPECT_EQ(shadowTable(alike), "");
+    EXPECT_EQ(shadowTableHtml(Tradeoff()), "");
+}
+
+// A sweep over shadows is held against the shadowed truth, whatever is given.
+TEST(TradeoffShadow, TheTruthHasShadowsWhereAnyRowDoes) {
+    Settings given;
+    given.shadows = Shadows::off;
+    EXPECT_EQ(truthFor(given, {given, given}), given);
+    Settings shadowed = given;
+    shadowed.shadows = Shadows::evsm;
+    EXPECT_NE(truthFor(given, {given, shadowed}).shadows, Shadows::off);
+    EXPECT_EQ(referenceSettings(truthFor(given, {given, shadowed})).shadows, Shadows::pcf);
+    EXPECT_EQ(truthFor(shadowed, {given}), shadowed);
+}
+
+}  // namespace
+}  // namespace diptych::tradeoff
