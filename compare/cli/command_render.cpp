@@ -195,7 +195,7 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const Pictur
 void noteIgnored(const Options& options) {
     const Settings &given = options.settings, usual;
     for (const Field& field : settingFields()) {
-        const std::string_view why = ignoredBecause(given.path, field.option);
+        const std::string_view why = ignoredBecause(given, field.option);
         if (!why.empty() && given.valueOf(field.option) != usual.valueOf(field.option))
             note(options, fmt::format("--{} is not used: {}", field.option, why));
     }

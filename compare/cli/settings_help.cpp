@@ -43,7 +43,7 @@ bool isDrawnBy(const std::string& command, const Field& field) {
         // The reference beside the paths gets nothing that neither of them draws yet.
         const bool later = field.default_only.because.starts_with(row::not_built) || s.env != Settings().env;
         if (later && command != "render" && s.path == Path::reference) return false;
-        if (!field.ignored.of(s.path).empty()) return false;
+        if (!ignoredBecause(s, field.option).empty()) return false;
         if (field.option == "env") return s.env != Settings().env;
         return field.default_only.because.empty() ||
                (field.default_only.unless && field.default_only.unless(s));

@@ -73,8 +73,8 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
         const TradeoffRow& row = tradeoff.rows[i];
         std::vector<std::string> fields{fmt::format("{}", i + 1), std::string(nameOf(row.settings.path))};
         for (const std::string& option : optionColumns())
-            fields.push_back(ignoredBecause(row.settings.path, option).empty() ? row.settings.valueOf(option)
-                                                                               : "");
+            fields.push_back(ignoredBecause(row.settings, option).empty() ? row.settings.valueOf(option)
+                                                                          : "");
         const Spread time = timeOf(row);
         for (const double ms : {time.value, time.low, time.high}) fields.push_back(digits(ms));
         fields.push_back(fmt::format("{}", tradeoff.runs));

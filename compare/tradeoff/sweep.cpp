@@ -56,7 +56,7 @@ public:
         if (requested.path == Path::reference)
             return skip({{"path", "reference"}}, "is what the others are measured against");
         for (const auto& [option, value] : tried)
-            if (const std::string_view why = ignoredBecause(requested.path, option); !why.empty())
+            if (const std::string_view why = ignoredBecause(requested, option); !why.empty())
                 skip({{"path", std::string(nameOf(requested.path))}, {option, value}}, std::string(why));
         const Settings row = effectiveSettings(requested);
         if (const auto problem = row.problem()) return skip(tried, *problem);
@@ -125,8 +125,8 @@ std::vector<Grid> usualGrids(const Settings& given) {
         }
     for (const Settings& start : starts)
         for (const SweepPair& pair : sweepPairs()) {
-            if (pair.b == each || !ignoredBecause(start.path, pair.a).empty() ||
-                !ignoredBecause(start.path, pair.b).empty())
+            if (pair.b == each || !ignoredBecause(start, pair.a).empty() ||
+                !ignoredBecause(start, pair.b).empty())
                 continue;
             grids.push_back(from(start));
             for (const std::string_view option : {pair.a, pair.b})
@@ -162,7 +162,7 @@ std::vector<Choice> choicesOf(const Settings& row, const Settings& given) {
     for (const Field& field : settingFields()) {
         const std::string value = row.valueOf(field.option);
         if (field.option != "path" && value != given.valueOf(field.option) &&
-            ignoredBecause(row.path, field.option).empty())
+            ignoredBecause(row, field.option).empty())
             choices.emplace_back(field.option, value);
     }
     return choices;

@@ -39,7 +39,7 @@ AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& r
         other.set(field.option, value);
         if (referenceSettings(other) == referenceSettings(given)) continue;
         against.settings.set(field.option, given.valueOf(field.option));
-        if (ignoredBecause(row.settings.path, field.option).empty()) swept[std::string(field.option)] = value;
+        if (ignoredBecause(row.settings, field.option).empty()) swept[std::string(field.option)] = value;
     }
     against.sameReference = swept.empty();
     against.grid = nlohmann::ordered_json{{"settings", swept}}.dump();

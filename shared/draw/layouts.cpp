@@ -4,7 +4,6 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
-#include "shared/vulkan/check.h"
 
 #include <array>
 #include <cstddef>
@@ -35,17 +34,8 @@ Layouts::Layouts(Device& device, VkDescriptorSetLayout material)
       gbuffer(makeSetLayout(device, gbufferTypes)),
       partial_sums(makeSetLayout(device, partialSumTypes)) {
     const std::array<VkDescriptorSetLayout, 4> sets{frame, material, gbuffer, partial_sums};
-    const VkPushConstantRange constants{drawStages, 0, sizeof(gpu::DrawConstants)};
-    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                          .pNext = nullptr,
-                                          .flags = 0,
-                                          .setLayoutCount = sets.size(),
-                                          .pSetLayouts = sets.data(),
-                                          .pushConstantRangeCount = 1,
-                                          .pPushConstantRanges = &constants};
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    pipeline = OwnedPipelineLayout(device.handle(), layout);
+    pipeline =
+        makePipelineLayout(device, sets, VkPushConstantRange{drawStages, 0, sizeof(gpu::DrawConstants)});
     nearest = makeNearestSampler(device);
     lists = ListLayouts(device, frame);
 }

@@ -80,6 +80,7 @@ struct IgnoredBecause {
     std::string_view deferred = {};
     std::string_view forward_plus = {};
     std::string_view reference = {};
+    bool (*unless)(const Settings&) = nullptr;  // what makes their path read it after all
 
     constexpr std::string_view of(Path path) const {
         switch (path) {
@@ -172,6 +173,9 @@ inline bool hasClipmap(const Settings& s) {
 inline bool hasCascades(const Settings& s) {
     return hasShadows(s) && !hasClipmap(s);
 }
+inline bool isShadowedForwardPlus(const Settings& s) {
+    return s.path == Path::forward_plus && hasShadows(s);  // its surfaces' normals are packed alike
+}
 inline bool hasEvsm4(const Settings& s) {
     return s.shadows == Shadows::evsm4;
 }
@@ -213,7 +217,8 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "gbuffer",
                 .help = "encoding of the deferred path's G-buffer",
                 .ignored = {.forward_plus = "forward_plus has no G-buffer",
-                            .reference = "the reference has no G-buffer"},
+                            .reference = "the reference has no G-buffer",
+                            .unless = row::isShadowedForwardPlus},
                 .sweep = "all",
                 .for_surfaces = "full"},  // the geometric normal is not packed either
           &Settings::gbuffer);
@@ -303,7 +308,6 @@ void Settings::rows(Visit&& visit) {
                 .valid = {"is at least 0", [](const Settings& s) { return s.shadow_lights >= 0; }},
                 .default_only = {row::needs_shadows, row::hasShadows},
                 .sweep = "0,1,4",
-                .sweep_with = "shadows",
                 .for_surfaces = "0"},
           &Settings::shadow_lights);
     visit(
@@ -313,8 +317,7 @@ void Settings::rows(Visit&& visit) {
                         [](const Settings& s) { return s.shadow_size >= 16 && row::isSide(s.shadow_size); }},
               .default_only = {row::needs_shadows, row::hasShadows},
               .ignored = {.reference = row::traces_shadows},
-              .sweep = "512,1024,2048,4096",
-              .sweep_with = "shadows"},
+              .sweep = "512,1024,4096"},
         &Settings::shadow_size);
     visit(Field{.option = "shadow-cascades",
                 .help = "shadow maps of the sun, from near to far",
@@ -322,7 +325,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) { return s.shadow_cascades >= 1 && s.shadow_cascades <= 4; }},
                 .default_only = {row::needs_cascades, row::hasCascades},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "1,2,3,4"},
+                .sweep = "1,2,4"},
           &Settings::shadow_cascades);
     visit(Field{.option = "shadow-kernel",
                 .help = "side of the shadow filter, texels",
@@ -338,8 +341,7 @@ void Settings::rows(Visit&& visit) {
                 .help = "what shadow maps of the sun cover: the view, or the depths that the picture shows",
                 .default_only = {row::needs_cascades, row::hasCascades},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "all",
-                .sweep_with = "shadow-size"},
+                .sweep = "all"},
           &Settings::shadow_fit);
     visit(Field{.option = "shadow-distance",
                 .help = "view depth that gets shadows, m; 0: as far as the scene reaches",
@@ -354,7 +356,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.shadow_bias}); }},
                 .default_only = {row::needs_shadows, row::hasShadows},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "0.25,0.5,1"},
+                .sweep = "0.25,1"},
           &Settings::shadow_bias);
     visit(Field{.option = "clipmap-pages",
                 .help = "pages of the sun's clipmap that there is room for; where more are needed a coarser "
@@ -365,7 +367,7 @@ void Settings::rows(Visit&& visit) {
                           }},
                 .default_only = {row::needs_clipmap, row::hasClipmap},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "64,256,1024",
+                .sweep = "64,1024",
                 .sweep_with = "shadows"},
           &Settings::clipmap_pages);
     visit(Field{.option = "clipmap-page-size",
@@ -377,7 +379,7 @@ void Settings::rows(Visit&& visit) {
                           }},
                 .default_only = {row::needs_clipmap, row::hasClipmap},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "64,128,256",
+                .sweep = "64,256",
                 .sweep_with = "shadows"},
           &Settings::clipmap_page_size);
     visit(Field{.option = "evsm-precision",
@@ -393,7 +395,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) { return row::isExponent(s, s.evsm_exponent); }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "5,10,20,40",
+                .sweep = "5,20",
                 .sweep_with = "shadows"},
           &Settings::evsm_exponent);
     visit(Field{.option = "evsm-negative-exponent",
@@ -402,7 +404,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) { return row::isExponent(s, s.evsm_negative_exponent); }},
                 .default_only = {row::needs_evsm4, row::hasEvsm4},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "5,20,40",
+                .sweep = "20",
                 .sweep_with = "shadows"},
           &Settings::evsm_negative_exponent);
     visit(Field{.option = "evsm-depth",
@@ -410,7 +412,7 @@ void Settings::rows(Visit&& visit) {
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "all",
-                .sweep_with = "evsm-exponent"},
+                .sweep_with = "shadows"},
           &Settings::evsm_depth);
     visit(Field{.option = "evsm-bleed",
                 .help = "light-bleeding reduction, 0 to below 1",
@@ -419,7 +421,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) { return s.evsm_bleed >= 0 && s.evsm_bleed < 1; }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "0,0.2,0.5",
+                .sweep = "0.2",
                 .sweep_with = "shadows"},
           &Settings::evsm_bleed);
     visit(Field{.option = "evsm-min-variance",
@@ -428,7 +430,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) { return row::isFiniteFrom0(double{s.evsm_min_variance}); }},
                 .default_only = {row::needs_evsm, row::hasEvsm},
                 .ignored = {.reference = row::traces_shadows},
-                .sweep = "0,1e-6,1e-4",
+                .sweep = "0,1e-4",
                 .sweep_with = "shadows"},
           &Settings::evsm_min_variance);
     visit(Field{.option = "msaa",
@@ -482,8 +484,9 @@ const Field& settingField(std::string_view option);
 // std::runtime_error where there is no such option.
 std::string acceptedValues(std::string_view option);
 
-// Why a path ignores a Setting, "deferred has no depth pre-pass"; empty where the path reads it.
-std::string_view ignoredBecause(Path path, std::string_view option);
+// Why the path of `settings` ignores an option of them, "deferred has no depth pre-pass"; empty where it
+// reads it.
+std::string_view ignoredBecause(const Settings& settings, std::string_view option);
 // The same with what its path ignores at its default: equal where they are one picture.
 Settings effectiveSettings(const Settings& settings);
 

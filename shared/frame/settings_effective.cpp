@@ -17,16 +17,21 @@ bool isOfTheReferenceAlone(const Field& field) {
            std::ranges::none_of(drawn_paths, [&](Path path) { return field.ignored.of(path).empty(); });
 }
 
+std::string_view whyIgnored(const Settings& settings, const Field& field) {
+    const bool is_read = field.ignored.unless && field.ignored.unless(settings);
+    return is_read ? std::string_view{} : field.ignored.of(settings.path);
+}
+
 }  // namespace
 
-std::string_view ignoredBecause(Path path, std::string_view option) {
-    return settingField(option).ignored.of(path);
+std::string_view ignoredBecause(const Settings& settings, std::string_view option) {
+    return whyIgnored(settings, settingField(option));
 }
 
 Settings effectiveSettings(const Settings& settings) {
     Settings effective = settings;
     Settings::rows([&](const Field& field, auto member) {
-        if (!field.ignored.of(settings.path).empty()) effective.*member = defaults().*member;
+        if (!whyIgnored(settings, field).empty()) effective.*member = defaults().*member;
     });
     if (settings.path != Path::reference) return effective;
     for (const Field& field : settingFields())

@@ -2,7 +2,6 @@
 #include "shared/light/light_lists.h"
 
 #include "shared/contract/bindings.h"
-#include "shared/vulkan/check.h"
 
 #include <algorithm>
 #include <array>
@@ -56,13 +55,7 @@ std::span<const VkDescriptorType> listBindings() {
 ListLayouts::ListLayouts(Device& device, VkDescriptorSetLayout frame)
     : lists_(makeSetLayout(device, listTypes)) {
     const std::array<VkDescriptorSetLayout, 2> sets{frame, lists_};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = sets.size();
-    info.pSetLayouts = sets.data();
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    pipeline_ = OwnedPipelineLayout(device.handle(), layout);
+    pipeline_ = makePipelineLayout(device, sets);
 }
 
 LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& layouts, const Choice& choice,

@@ -3,12 +3,12 @@
 
 #include "shared/material/textures.h"
 #include "shared/scene/model/material_slots.h"
-#include "shared/vulkan/check.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
 #include <fmt/format.h>
+#include <array>
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -23,16 +23,6 @@ namespace {
 
 constexpr std::array probeTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                 VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-
-OwnedPipelineLayout layoutOf(Device& device, VkDescriptorSetLayout set) {
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &set;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    return {device.handle(), layout};
-}
 
 Sampler probeSampler(bool linear) {
     Sampler sampler;
@@ -62,7 +52,8 @@ std::vector<float> sampled(Device& device, const TextureImage& picture, bool srg
     sets.image(0, 0, placesImage.view(), fetch, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     sets.image(0, 1, pictureImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
-    const OwnedPipelineLayout layout = layoutOf(device, setLayout);
+    const OwnedPipelineLayout layout =
+        makePipelineLayout(device, std::array<VkDescriptorSetLayout, 1>{setLayout});
     Pipelines pipelines(device, layout);
     PassList passes(device, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     const ImageRef target = passes.image("probe", VK_FORMAT_R32G32B32A32_SFLOAT);

@@ -3,7 +3,6 @@
 
 #include "shared/draw/record.h"
 #include "shared/shadow/scene_bounds.h"
-#include "shared/vulkan/check.h"
 
 #include <fmt/format.h>
 
@@ -199,13 +198,7 @@ std::size_t ClipmapAtlas::draw(const FrameInputs& inputs, Uploader& uploader, co
 ClipmapAtlases::ClipmapAtlases(Device& device, VkDescriptorSetLayout frame)
     : device_(device), marks_(makeSetLayout(device, clipmapTypes)) {
     const std::array<VkDescriptorSetLayout, 2> sets{frame, marks_};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = sets.size();
-    info.pSetLayouts = sets.data();
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    pipeline_ = OwnedPipelineLayout(device.handle(), layout);
+    pipeline_ = makePipelineLayout(device, sets);
 }
 
 std::shared_ptr<ClipmapAtlas> ClipmapAtlases::lend(const AtlasShape& shape) {

@@ -4,8 +4,8 @@
 #include "shared/draw/frame_buffers.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
-#include "shared/vulkan/check.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -16,16 +16,6 @@ namespace diptych {
 namespace {
 
 constexpr auto boundsTypes = bindingTypes({DEPTH_BOUNDS_BINDINGS(DIPTYCH_BINDING_ROW)});
-
-OwnedPipelineLayout layoutOf(Device& device, VkDescriptorSetLayout set) {
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &set;
-    VkPipelineLayout made = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &made), "vkCreatePipelineLayout");
-    return {device.handle(), made};
-}
 
 // As the shaders have it (shaders/lib/position.glsl), so that the bounds are values of the channel depth.
 double viewDepth(const gpu::View& view, gpu::uint bits) {
@@ -46,7 +36,7 @@ double relativeDeviation(const std::vector<double>& values) {
 
 DepthBounds::DepthBounds(Device& device)
     : layout_(makeSetLayout(device, boundsTypes)),
-      pipeline_layout_(layoutOf(device, layout_)),
+      pipeline_layout_(makePipelineLayout(device, std::array<VkDescriptorSetLayout, 1>{layout_})),
       sampler_(makeNearestSampler(device)),
       sets_(device, layout_, boundsTypes, 1),
       bounds_(device, "depth bounds", sizeof(gpu::DepthBounds),

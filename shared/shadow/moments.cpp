@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/shadow/moments.h"
 
-#include "shared/vulkan/check.h"
-
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -74,15 +71,7 @@ MomentMaps::MomentMaps(Device& device)
       sets_(device, layout_, momentTypes, SETS_OF_LAYER * gpu::MAX_CASCADES) {
     const VkDescriptorSetLayout layout = layout_;
     const VkPushConstantRange constants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::MomentConstants)};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &layout;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &constants;
-    VkPipelineLayout made = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &made), "vkCreatePipelineLayout");
-    pipeline_layout_ = OwnedPipelineLayout(device.handle(), made);
+    pipeline_layout_ = makePipelineLayout(device, {&layout, 1}, constants);
 }
 
 ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef depth, std::uint32_t size,

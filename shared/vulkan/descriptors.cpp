@@ -22,6 +22,20 @@ OwnedDescriptorSetLayout makeSetLayout(Device& device, std::span<const VkDescrip
     return {device.handle(), layout};
 }
 
+OwnedPipelineLayout makePipelineLayout(Device& device, std::span<const VkDescriptorSetLayout> sets,
+                                       const std::optional<VkPushConstantRange>& constants) {
+    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .pNext = nullptr,
+                                          .flags = 0,
+                                          .setLayoutCount = static_cast<std::uint32_t>(sets.size()),
+                                          .pSetLayouts = sets.data(),
+                                          .pushConstantRangeCount = constants ? 1u : 0u,
+                                          .pPushConstantRanges = constants ? &*constants : nullptr};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
+    return {device.handle(), layout};
+}
+
 DescriptorSets::DescriptorSets(Device& device, VkDescriptorSetLayout layout,
                                std::span<const VkDescriptorType> types, std::uint32_t count)
     : device_(device.handle()), types_(types.begin(), types.end()) {

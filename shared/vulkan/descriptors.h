@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace diptych {
 
 OwnedDescriptorSetLayout makeSetLayout(
     Device& device, std::span<const VkDescriptorType> types);  // bindings 0..n-1, all stages
+OwnedPipelineLayout makePipelineLayout(Device& device, std::span<const VkDescriptorSetLayout> sets,
+                                       const std::optional<VkPushConstantRange>& constants = {});
 
 // Sets of one layout from one pool; they live as long as it.
 class DescriptorSets {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Measurements of what no feature bit tells.
-#include "shared/vulkan/check.h"
+#include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
@@ -15,17 +15,9 @@ namespace diptych {
 
 namespace {
 
-OwnedPipelineLayout emptyLayout(Device& device) {
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    return {device.handle(), layout};
-}
-
 // The first 32 bits of every texel after a full-screen draw of `fragment`.
 std::vector<std::uint32_t> drawProbe(Device& device, Shader fragment, VkFormat format, std::uint32_t width) {
-    const OwnedPipelineLayout layout = emptyLayout(device);
+    const OwnedPipelineLayout layout = makePipelineLayout(device, {});
     Pipelines pipelines(device, layout);
     PassList passes(device, width, 1);
     const ImageRef target = passes.image("probe", format);

@@ -6,6 +6,7 @@
 #include "shared/draw/frame_inputs.h"
 #include "shared/shadow/moments.h"
 #include "shared/vulkan/check.h"
+#include "shared/vulkan/descriptors.h"
 #include "tests/probe/probe.h"
 
 #include <fmt/format.h>
@@ -54,15 +55,7 @@ public:
         : width_(width), height_(height), size_(size), module_(probeModule(device_, "bench_shadow.comp")) {
         const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, 8};
         const VkDescriptorSetLayout set = layout_;
-        VkPipelineLayoutCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-        info.setLayoutCount = info.pushConstantRangeCount = 1;
-        info.pSetLayouts = &set;
-        info.pPushConstantRanges = &range;
-        VkPipelineLayout made = VK_NULL_HANDLE;
-        checkResult(vkCreatePipelineLayout(device_.handle(), &info, nullptr, &made),
-                    "vkCreatePipelineLayout");
-        pipeline_layout_ = OwnedPipelineLayout(device_.handle(), made);
+        pipeline_layout_ = makePipelineLayout(device_, {&set, 1}, range);
     }
 
     // Of the filter number `filter` of bench_shadow.comp, ms; and of its moments' passes, by name.

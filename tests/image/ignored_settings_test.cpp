@@ -14,8 +14,6 @@ Image litOf(Renderer& renderer, const Settings& settings) {
     return renderer.draw(settings, options).channels.at(lit);
 }
 
-// Without shadows: where they begin, forward+ reads of --gbuffer how it quantises the triangle's normal, so
-// that both paths have the same shadows.
 TEST(IgnoredSettings, ChangeNoBit) {
     const Scene scene = loadScene("builtin:gallery");
     Renderer renderer(device(), scene, pipelines());
@@ -27,7 +25,7 @@ TEST(IgnoredSettings, ChangeNoBit) {
         const Image before = litOf(renderer, usual);
         for (const Field& field : settingFields()) {
             if (field.option == "path" || field.option == "size") continue;
-            const bool ignored = !ignoredBecause(path, field.option).empty();
+            const bool ignored = !ignoredBecause(usual, field.option).empty();
             for (const std::string& value : sweptValues(usual, field.option)) {
                 Settings other = usual;
                 other.set(field.option, value);
@@ -41,6 +39,21 @@ TEST(IgnoredSettings, ChangeNoBit) {
     }
     EXPECT_GE(compared, 4u) << "gbuffer of forward+, prepass of deferred";
     EXPECT_GE(changed, 2u) << "what is read is told from it: the G-buffer of deferred";
+}
+
+// Where a shadow begins follows from the triangle's normal, which forward+ packs as the G-buffer would.
+TEST(IgnoredSettings, ForwardPlusReadsTheGBuffersEncodingWithShadowsAlone) {
+    const Scene scene = loadScene("builtin:gallery");
+    Renderer renderer(device(), scene, pipelines());
+    Settings full, compact;
+    full.path = compact.path = Path::forward_plus;
+    full.size = compact.size = {96, 54};
+    full.gbuffer = GBufferEncoding::full;
+    compact.gbuffer = GBufferEncoding::compact;
+    EXPECT_EQ(ignoredBecause(full, "gbuffer"), "");
+    EXPECT_GT(unequalPixels(litOf(renderer, full), litOf(renderer, compact), 0), 0u);
+    full.shadows = Shadows::off;
+    EXPECT_NE(ignoredBecause(full, "gbuffer"), "");
 }
 
 }  // namespace

@@ -2,11 +2,8 @@
 // Small scenes under points and spots that cast shadows.
 #pragma once
 
-#include "tests/image/scenes.h"
+#include "tests/image/shadow_scenes.h"
 
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <utility>
@@ -14,24 +11,12 @@
 
 namespace diptych::tests {
 
-// A rectangle from `corner` along x and y, seen from where cross(x, y) points.
-inline Primitive sheet(const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y, int material = 0) {
-    Primitive p;
-    p.positions = {corner, corner + x, corner + x + y, corner + y};
-    p.normals.assign(4, glm::normalize(glm::cross(x, y)));
-    p.tangents.assign(4, {1, 0, 0, 1});
-    p.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    p.indices = {0, 1, 2, 0, 2, 3};
-    p.material = material;
-    return p;
-}
-
 // The six sides of a box, seen from outside; from inside with `inwards`.
 inline void addBox(std::vector<Primitive>& all, const glm::vec3& low, const glm::vec3& high, int material = 0,
                    bool inwards = false) {
     const glm::vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
     const auto side = [&](const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b) {
-        all.push_back(inwards ? sheet(corner, b, a, material) : sheet(corner, a, b, material));
+        all.push_back(inwards ? rectangle(corner, b, a, material) : rectangle(corner, a, b, material));
     };
     side(low, y, x);
     side(low + z, x, y);
@@ -87,14 +72,9 @@ inline Scene sceneOf(std::vector<Primitive> all, const std::vector<Light>& light
 // The ground, 8 m x 8 m around the origin, and what stands on it, seen from above.
 inline Scene ground(const std::vector<Light>& lights, std::vector<Primitive> standing = {},
                     double scale = 1) {
-    std::vector<Primitive> all{sheet({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})};
+    std::vector<Primitive> all{rectangle({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})};
     for (Primitive& p : standing) all.push_back(std::move(p));
     return sceneOf(std::move(all), lights, {0.4, 6, 2.5}, {0, 0, 0}, scale);
-}
-
-// An upright board over the origin, as wide as the ground and 1 m high: its foot lies on the ground's middle.
-inline Primitive board(int material = 0) {
-    return sheet({0, 0, 4}, {0, 0, -8}, {0, 1, 0}, material);
 }
 
 // A room of 6 m x 3 m x 6 m with pillars on all sides of its middle and small things along the edges of a

@@ -2,7 +2,6 @@
 // Every kind of pass that a list can run, drawn: blending, depth bias and clamping, resolved samples, levels
 // and layers, storage images, indirect dispatches and draws, memory that is shared, bands of rows, frames in
 // flight. Whatever barriers are missing the validation layer reports (validation_test.cpp).
-#include "shared/vulkan/check.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
@@ -37,20 +36,6 @@ std::vector<std::uint32_t> compiledTestShader(const std::string& name) {
     return words;
 }
 
-OwnedPipelineLayout layoutOf(Device& on, std::span<const VkDescriptorSetLayout> sets,
-                             VkShaderStageFlags stages) {
-    const VkPushConstantRange range{stages, 0, sizeof(DrawnTriangle)};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = static_cast<std::uint32_t>(sets.size());
-    info.pSetLayouts = sets.data();
-    info.pushConstantRangeCount = stages != 0 ? 1 : 0;
-    info.pPushConstantRanges = &range;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    checkResult(vkCreatePipelineLayout(on.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    return {on.handle(), layout};
-}
-
 constexpr VkShaderStageFlags triangleStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 // Triangles of one colour at one depth.
@@ -61,7 +46,7 @@ public:
           fragmentWords_(compiledTestShader("pass_kinds.frag")),
           vertex_{"pass_kinds.vert", Shader::none, 0, true, false, 3, vertexWords_},
           fragment_{"pass_kinds.frag", Shader::none, 0, true, false, 3, fragmentWords_},
-          layout_(layoutOf(on, {}, triangleStages)),
+          layout_(makePipelineLayout(on, {}, VkPushConstantRange{triangleStages, 0, sizeof(DrawnTriangle)})),
           pipelines_(on, layout_, [this](const PipelineKey& key) {
               return PipelineParts{&vertex_, key.colors.empty() ? nullptr : &fragment_, {}, {}};
           }) {}
@@ -224,7 +209,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     constexpr std::array storage{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     const OwnedDescriptorSetLayout setLayout = makeSetLayout(device(), storage);
     const std::array<VkDescriptorSetLayout, 1> setLayouts{setLayout};
-    const OwnedPipelineLayout layout = layoutOf(device(), setLayouts, 0);
+    const OwnedPipelineLayout layout = makePipelineLayout(device(), setLayouts);
     DescriptorSets sets(device(), setLayout, storage, 1);
     const std::vector<std::uint32_t> words = compiledTestShader("pass_kinds.comp");
     const ShaderModule module{"pass_kinds.comp", Shader::none, 0, true, false, 3, words};

@@ -2,6 +2,7 @@
 // The depth bounds of tiles by the shipped kernel, with one sample and with four for each pixel. Bounds must
 // cover all samples, because a tile's lists must not depend on which sample is shaded.
 #include "shared/scene/motion/bounds.h"
+#include "shared/vulkan/descriptors.h"
 #include "tests/probe/kernel_frame.h"
 #include "tests/probe/probe.h"
 
@@ -150,18 +151,9 @@ public:
         sets_.buffer(0, 0, values_.handle());
         const std::array<VkDescriptorSetLayout, 1> layouts{set_layout_};
         const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, 12};
-        VkPipelineLayoutCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-        info.setLayoutCount = layouts.size();
-        info.pSetLayouts = layouts.data();
-        info.pushConstantRangeCount = 1;
-        info.pPushConstantRanges = &range;
-        VkPipelineLayout layout = VK_NULL_HANDLE;
-        checkResult(vkCreatePipelineLayout(probeDevice().handle(), &info, nullptr, &layout),
-                    "vkCreatePipelineLayout");
-        layout_ = OwnedPipelineLayout(probeDevice().handle(), layout);
+        layout_ = makePipelineLayout(probeDevice(), layouts, range);
         for (int s = 0; s < picture.samples; ++s)
-            pipelines_.push_back(depthPipeline(layout, picture.samples, 1u << s));
+            pipelines_.push_back(depthPipeline(layout_, picture.samples, 1u << s));
     }
 
     void record(VkCommandBuffer commands, const DepthImage& target) const {

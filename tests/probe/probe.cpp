@@ -44,17 +44,7 @@ struct ProbeLayout {
     explicit ProbeLayout(Device& device) : set(makeSetLayout(device, probeBindings)) {
         const std::array<VkDescriptorSetLayout, 1> sets{set};
         const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(std::uint32_t)};
-        const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                              .pNext = nullptr,
-                                              .flags = 0,
-                                              .setLayoutCount = 1,
-                                              .pSetLayouts = sets.data(),
-                                              .pushConstantRangeCount = 1,
-                                              .pPushConstantRanges = &range};
-        VkPipelineLayout layout = VK_NULL_HANDLE;
-        checkResult(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
-                    "vkCreatePipelineLayout");
-        pipeline = OwnedPipelineLayout(device.handle(), layout);
+        pipeline = makePipelineLayout(device, sets, range);
     }
     OwnedDescriptorSetLayout set;
     OwnedPipelineLayout pipeline;

@@ -301,8 +301,10 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputKeepTheirTilesApart) {
     EXPECT_TRUE(merged && !third.ended()) << third.err();
     ::kill(third.process(), SIGKILL);
     third.wait();
-    ASSERT_EQ(keptIn(folder), first);
-    EXPECT_TRUE(std::ranges::includes(tilesIn(first[0]), done));
+    // Whichever of both it is: the system may free the lock of a killed program after its end was seen.
+    const std::vector<fs::path> taken = keptIn(folder);
+    ASSERT_EQ(taken.size(), 1u);
+    EXPECT_TRUE(std::ranges::includes(tilesIn(taken[0]), done));
 
     const Ran last = runTool(folder, inShell(words));
     EXPECT_EQ(last.code, 0) << last.err;

@@ -174,13 +174,24 @@ TEST(Settings, EffectiveOnesAreWithoutWhatTheirPathIgnores) {
             for (const std::string& value : otherValues(field)) {
                 Settings changed = plain;
                 changed.set(field.option, value);
-                const bool ignored = !ignoredBecause(path, field.option).empty();
+                const bool ignored = !ignoredBecause(changed, field.option).empty();
                 if (path == Path::reference && !field.one_for_reference.empty() && value != field.off)
                     changed.set(field.option, std::string(field.one_for_reference));
                 EXPECT_EQ(effectiveSettings(changed), ignored ? plain : changed)
                     << name << " " << field.option << " " << value;
             }
         }
+}
+
+TEST(Settings, ForwardPlusReadsTheGBuffersEncodingWithShadowsAlone) {
+    Settings settings;
+    settings.path = Path::forward_plus;
+    settings.gbuffer = GBufferEncoding::compact;
+    EXPECT_EQ(ignoredBecause(settings, "gbuffer"), "");
+    EXPECT_EQ(effectiveSettings(settings), settings);
+    settings.shadows = Shadows::off;
+    EXPECT_EQ(ignoredBecause(settings, "gbuffer"), "forward_plus has no G-buffer");
+    EXPECT_EQ(effectiveSettings(settings).gbuffer, Settings().gbuffer);
 }
 
 TEST(Settings, TheReferenceFollowsWhatItsRowsSayAndNothingElse) {

@@ -85,13 +85,15 @@ TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
 }
 
 TEST(TradeoffSweep, WhatAPathIgnoresIsSaidOnce) {
-    const SweepRows sweep = usualSweep();
+    Settings given;
+    given.shadows = Shadows::off;
+    const SweepRows sweep = usualSweep(given);
     const std::vector<std::string> gbuffer = reasonsOf(sweep, "gbuffer"),
                                    prepass = reasonsOf(sweep, "prepass");
     EXPECT_EQ(gbuffer, (std::vector<std::string>(2, "forward_plus has no G-buffer"))) << "compact and full";
     EXPECT_EQ(prepass, (std::vector<std::string>(2, "deferred has no depth pre-pass"))) << "on and off";
-    const std::vector<std::string> rows = wordsOfRows(sweep);
-    EXPECT_FALSE(holds(rows, "forward_plus, gbuffer full"));
+    EXPECT_FALSE(holds(wordsOfRows(sweep, given), "forward_plus, gbuffer full"));
+    EXPECT_TRUE(holds(wordsOfRows(usualSweep()), "forward_plus, gbuffer full")) << "with shadows it is read";
 }
 
 TEST(TradeoffSweep, TheReferenceIsNoRow) {
@@ -131,8 +133,10 @@ TEST(TradeoffSweep, AGridIsItsProduct) {
 }
 
 TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
-    const SweepRows sweep = makeSweepRows({}, {{{"gbuffer", {"compact", "full"}}}});
-    EXPECT_EQ(wordsOfRows(sweep), std::vector<std::string>{"forward_plus"});
+    Settings given;
+    given.shadows = Shadows::off;
+    const SweepRows sweep = makeSweepRows(given, {{{"gbuffer", {"compact", "full"}}}});
+    EXPECT_EQ(wordsOfRows(sweep, given), std::vector<std::string>{"forward_plus"});
     EXPECT_EQ(sweep.skips.size(), 2u);
 }
 
