@@ -193,6 +193,14 @@ void addGeometry(std::vector<Cell>& cells) {
         c.tangents_made = true;
         c.textures[gpu::SLOT_normal].texcoord = 1;
     });
+    add("tangents made, the map turned", [](Cell& c) {
+        c.tangents_made = true;
+        c.textures[gpu::SLOT_normal].transform = transformOf(gpu::SLOT_normal);
+    });
+    add("tangents made, the map mirrored", [](Cell& c) {
+        c.tangents_made = true;
+        c.textures[gpu::SLOT_normal].transform = {{1, 0}, 0, {-1, 1}, {}};
+    });
     add("mirrored in x", [](Cell& c) { c.scale = {-1, 1, 1}; });
     add("mirrored in y", [](Cell& c) {
         c.scale = {1, -1, 1};
@@ -294,6 +302,8 @@ const std::vector<Cell>& fewMaterialCells() {
                                  "cutoff below half the opaque texel's alpha, by the vertices",
                                  "bitangents turned",
                                  "tangents made",
+                                 "tangents made, the map turned",
+                                 "tangents made, the map mirrored",
                                  "mirrored in x",
                                  "mirrored in y",
                                  "mirrored in x, tangents made",

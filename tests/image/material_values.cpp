@@ -24,18 +24,29 @@ std::vector<double> components(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+// MikkTSpace's tangent points to where u grows and v rests, its bitangent to where v falls and u rests: those
+// that the map is read with, KHR_texture_transform included. Both ways on the square as columns, in x and y.
+glm::dmat2 growthOf(const CellTexture& map) {
+    // By x and y: u grows to the right, v downwards. The second set is the first one transposed.
+    const int set = map.transform && map.transform->texcoord ? *map.transform->texcoord : map.texcoord;
+    glm::dmat2 uv = set == 1 ? glm::dmat2(0, 1, -1, 0) : glm::dmat2(1, 0, 0, -1);
+    if (map.transform) {
+        const double c = std::cos(map.transform->rotation), s = std::sin(map.transform->rotation);
+        const glm::dvec2& scale = map.transform->scale;
+        uv = glm::dmat2(c, -s, s, c) * glm::dmat2(scale.x, 0, 0, scale.y) * uv;
+    }
+    return glm::inverse(uv);
+}
+
 // glTF 2.0, 3.7.2.1 and 3.9.3: (T, w cross(N, T), N), to the world as normals and as directions are; a
-// mirroring node turns the cross product round. Seen from behind it is negated. MikkTSpace's tangent points
-// to where u grows, its bitangent to where v falls.
+// mirroring node turns the cross product round. Seen from behind it is negated.
 void mapNormal(const Cell& cell, const glm::dvec3& texel, CellSurface& s) {
     glm::dvec3 tangent(std::cos(cell.tangent_angle), std::sin(cell.tangent_angle), 0);
     double w = cell.tangent_w;
     if (cell.tangents_made) {
-        // The second set is the first one transposed: u grows downwards, v to the right.
-        const bool second = cell.textures[gpu::SLOT_normal].texcoord == 1;
-        tangent = second ? glm::dvec3(0, -1, 0) : glm::dvec3(1, 0, 0);
-        const glm::dvec3 bitangent = second ? glm::dvec3(-1, 0, 0) : glm::dvec3(0, 1, 0);
-        w = glm::dot(glm::cross(glm::dvec3(0, 0, 1), tangent), bitangent);
+        const glm::dmat2 growth = growthOf(cell.textures[gpu::SLOT_normal]);
+        tangent = glm::dvec3(glm::normalize(growth[0]), 0);
+        w = glm::determinant(glm::dmat2(growth[0], -growth[1])) < 0 ? -1 : 1;
     }
     const glm::dmat3 node = cell.node();
     const glm::dvec3 n = glm::normalize(glm::transpose(glm::inverse(node)) * glm::dvec3(0, 0, 1)),

@@ -291,7 +291,7 @@ TEST(GltfExtremes, ManyTangentsAtOneVertexTakeLinearTime) {
         p.indices.insert(p.indices.end(), {0, 2 * i + 1, 2 * i + 2});
     }
     p.normals.assign(p.positions.size(), {0, 0, 1});
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     ASSERT_EQ(p.tangents.size(), p.positions.size());
     EXPECT_GT(p.positions.size(), 2 * count + count / 2) << "or the tangents were not many";
     for (const std::uint32_t i : {0u, 50000u, 199999u})

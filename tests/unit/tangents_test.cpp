@@ -77,28 +77,50 @@ Primitive ball() {
 // normal +Z the bitangent cross(n, t) * w = +Y asks for w = +1.
 TEST(Tangents, UprightPictureHasTangentToTheRightAndPositiveSign) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     ASSERT_EQ(p.positions.size(), 4u);
     for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, 1);
 }
 
 TEST(Tangents, PictureUpsideDownHasNegativeSign) {
     Primitive p = quad({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, -1);
 }
 
 // The picture rotated by 90 degrees: its right is world +Y, its top world -X.
 TEST(Tangents, RotatedPictureRotatesTangent) {
     Primitive p = quad({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}});
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     for (const glm::vec4& t : p.tangents) expectTangent(t, {0, 1, 0}, 1);
+}
+
+// A map's own transform turns or mirrors its directions on the surface (KHR_texture_transform).
+TEST(Tangents, FollowTheTransformOfTheirMap) {
+    const auto expect = [](const glm::dvec3& u, const glm::dvec3& v, const glm::vec3& direction, float sign) {
+        Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
+        makeTangents(p, {.texcoord = 0, .u = u, .v = v});
+        EXPECT_EQ(p.positions.size(), 4u);
+        for (const glm::vec4& t : p.tangents) expectTangent(t, direction, sign);
+    };
+    expect({3, 0, 0.25}, {0, 0.5, 7}, {1, 0, 0}, 1);
+    expect({-1, 0, 1}, {0, 1, 0}, {-1, 0, 0}, -1);
+    expect({1, 0, 0}, {0, -1, 1}, {1, 0, 0}, -1);
+    // Coordinates turned by an angle (row u: cos, sin): along the picture's right u' rises and v' rests.
+    for (const double angle : {0.3, 1.5707963267948966, 2.5, -2.0}) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        expect({c, s, 0}, {-s, c, 0}, {c, -s, 0}, 1);
+    }
+    // Scales of its axes that differ shear the directions: u' = u + v, v' = v.
+    const double h = std::sqrt(0.5);
+    expect({1, 1, 0}, {0, 1, 0}, {1, 0, 0}, 1);
+    expect({1, 0, 0}, {1, 1, 0}, {h, h, 0}, 1);
 }
 
 TEST(Tangents, SecondUvSetIsReadWhenAskedFor) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
     p.texcoords[1] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
-    makeTangents(p, 1);
+    makeTangents(p, {.texcoord = 1});
     for (const glm::vec4& t : p.tangents) expectTangent(t, {0, 1, 0}, 1);
 }
 
@@ -114,7 +136,7 @@ TEST(Tangents, MirroredPictureSplitsTheSharedEdge) {
             p.colors.push_back({x, y, 0, 1});
         }
     p.indices = {0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3};
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     ASSERT_EQ(p.positions.size(), 8u);
     ASSERT_EQ(p.colors.size(), 8u) << "every attribute is split along";
     for (std::size_t i = 0; i < p.indices.size(); ++i) {
@@ -140,8 +162,8 @@ TEST(Tangents, EqualVerticesAreWelded) {
         loose.normals.push_back(sheet.normals[v]);
         loose.texcoords[0].push_back(sheet.texcoords[0][v]);
     }
-    makeTangents(sheet, 0);
-    makeTangents(loose, 0);
+    makeTangents(sheet, {.texcoord = 0});
+    makeTangents(loose, {.texcoord = 0});
     for (std::size_t i = 0; i < 6; ++i)
         EXPECT_EQ(sheet.tangents[sheet.indices[i]], loose.tangents[loose.indices[i]]);
     EXPECT_NE(sheet.tangents[1], sheet.tangents[3]) << "or the test says nothing";
@@ -152,7 +174,7 @@ TEST(Tangents, EqualVerticesAreWelded) {
 // 0). Both meet vertex 0 with 45 degrees: the mean direction is the bisector of the two.
 TEST(Tangents, GroupsAreWeightedByAngle) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {1, -1}}});
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     ASSERT_EQ(p.positions.size(), 4u);
     const glm::vec3 first(1, 0, 0), second = glm::normalize(glm::vec3(2, 1, 0));
     expectTangent(p.tangents[1], first, 1);
@@ -165,7 +187,7 @@ TEST(Tangents, GroupsAreWeightedByAngle) {
 TEST(Tangents, TangentIsProjectedIntoTheNormalsPlane) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
     p.normals.assign(4, glm::normalize(glm::vec3(1, 0, 1)));
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     for (const glm::vec4& t : p.tangents) expectTangent(t, glm::normalize(glm::vec3(1, 0, -1)), 1);
 }
 
@@ -184,7 +206,7 @@ TEST(Tangents, CubeHasTheFacesOwnAxes) {
         }
         for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(base + i);
     }
-    makeTangents(p, 0);
+    makeTangents(p, {.texcoord = 0});
     ASSERT_EQ(p.positions.size(), 24u);
     for (std::size_t v = 0; v < 24; ++v) {
         expectTangent(p.tangents[v], rights[v / 4], 1);
@@ -195,22 +217,22 @@ TEST(Tangents, CubeHasTheFacesOwnAxes) {
 
 TEST(Tangents, DegenerateUvsAndTrianglesStillGetUnitTangents) {
     Primitive flat = quad({{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}});
-    makeTangents(flat, 0);
+    makeTangents(flat, {.texcoord = 0});
     expectUnitFrames(flat);
 
     Primitive line = quad({{{0, 0}, {1, 0}, {2, 0}, {3, 0}}});
-    makeTangents(line, 0);
+    makeTangents(line, {.texcoord = 0});
     expectUnitFrames(line);
 
     // A triangle without area takes its neighbour's tangent.
     Primitive needle = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
     needle.indices = {0, 0, 1, 0, 1, 2, 0, 2, 3, 2, 2, 2};
-    makeTangents(needle, 0);
+    makeTangents(needle, {.texcoord = 0});
     for (const glm::vec4& t : needle.tangents) expectTangent(t, {1, 0, 0}, 1);
 
     // A triangle whose UVs have no area joins the group across the edge.
     Primitive joined = quad({{{0, 1}, {1, 1}, {1, 0}, {0.5f, 0.5f}}});
-    makeTangents(joined, 0);
+    makeTangents(joined, {.texcoord = 0});
     expectUnitFrames(joined);
     EXPECT_EQ(joined.tangents[joined.indices[0]], joined.tangents[joined.indices[3]]);
 }
@@ -227,7 +249,7 @@ TEST(Tangents, ThousandTrianglesAroundOneVertexEndWell) {
         fan.indices.insert(fan.indices.end(), {0, 1 + i, 1 + (i + 1) % spokes});
     }
     fan.normals.assign(fan.positions.size(), {0, 0, 1});
-    makeTangents(fan, 0);
+    makeTangents(fan, {.texcoord = 0});
     ASSERT_EQ(fan.positions.size(), spokes + 1);
     // UVs are floats around 0.5, so the derivative of one 6 mm spoke is good to 1e-5.
     for (const glm::vec4& t : fan.tangents) EXPECT_NEAR(t.x, 1, 1e-5f);
@@ -245,8 +267,8 @@ TEST(Tangents, SmoothClosedMeshDoesNotDependOnTriangleOrder) {
         std::rotate(t.begin(), t.begin() + random() % 3, t.end());
         shuffled.indices.insert(shuffled.indices.end(), t.begin(), t.end());
     }
-    makeTangents(straight, 0);
-    makeTangents(shuffled, 0);
+    makeTangents(straight, {.texcoord = 0});
+    makeTangents(shuffled, {.texcoord = 0});
     expectUnitFrames(straight);
     ASSERT_EQ(straight.positions.size(), shuffled.positions.size());
 
@@ -270,7 +292,7 @@ TEST(Tangents, WithoutThatUvSetAnyPerpendicularUnitVector) {
     for (const int set : {-1, 0, 1}) {
         Primitive p = ball();
         p.texcoords[0].clear();
-        makeTangents(p, set);
+        makeTangents(p, {.texcoord = set});
         expectUnitFrames(p);
         for (const glm::vec4& t : p.tangents) EXPECT_EQ(t.w, 1);
     }

@@ -358,10 +358,10 @@ private:
             result_.tangents_made = true;
             const TextureSlot& slot =
                 use_.materials[static_cast<std::size_t>(result_.material)].normal_texture;
-            return makeTangents(result_, slot.texture >= 0 ? slot.texcoord : -1);
+            return slot.texture >= 0 ? makeTangents(result_, slot) : makeAnyTangents(result_);
         }
         std::vector<glm::vec4> read = std::move(result_.tangents);
-        makeTangents(result_, -1);  // the fallback for tangents of the file that have no direction
+        makeAnyTangents(result_);  // the fallback for tangents of the file that have no direction
         std::size_t broken = 0;
         for (std::size_t v = 0; v < read.size(); ++v) {
             const glm::dvec3 t(read[v]);

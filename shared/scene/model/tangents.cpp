@@ -61,6 +61,9 @@ void makeFlatNormals(Primitive& primitive) {
 // the vertex normal. The algorithm's default angular threshold of 180 degrees never splits a group, so
 // none is applied. t is 1 - v: the bitangent must point towards the top of the picture (glTF's +Y of a
 // normal map), and v grows downwards. Double throughout; inputs are float.
+//
+// UV are the coordinates that the normal map is read with, after KHR_texture_transform: a map that is turned
+// or mirrored has its own directions on the surface.
 
 namespace {
 
@@ -106,8 +109,8 @@ struct Triangle {
 
 class TangentSpace {
 public:
-    TangentSpace(const Primitive& primitive, int texcoord)
-        : primitive_(primitive), texcoords_(primitive.texcoords[texcoord]) {
+    TangentSpace(const Primitive& primitive, const TextureSlot& map)
+        : primitive_(primitive), map_(map), texcoords_(primitive.texcoords[map.texcoord]) {
         weld();
         derive();
         findNeighbors();
@@ -130,6 +133,7 @@ public:
 
 private:
     const Primitive& primitive_;
+    const TextureSlot& map_;
     const std::vector<glm::vec2>& texcoords_;
     std::vector<std::uint32_t>
         source_;  // welded vertex -> the first of the primitive's vertices that it stands for
@@ -147,7 +151,8 @@ private:
     }
     glm::dvec2 st(int v) const {
         const glm::dvec2 uv(texcoords_[source_[static_cast<std::size_t>(v)]]);
-        return {uv.x, 1 - uv.y};
+        const glm::dvec3 at(uv, 1);
+        return {glm::dot(map_.u, at), 1 - glm::dot(map_.v, at)};
     }
 
     // By sorting rather than hashing: a file could be made of vertices that all have the same hash.
@@ -293,13 +298,16 @@ private:
 
 }  // namespace
 
-void makeTangents(Primitive& primitive, int texcoord) {
+void makeAnyTangents(Primitive& primitive) {
     primitive.tangents.clear();
-    if (texcoord < 0 || texcoord > 1 || primitive.texcoords[texcoord].empty()) {
-        for (const glm::vec3& normal : primitive.normals) primitive.tangents.push_back(anyTangent(normal));
-        return;
-    }
-    const TangentSpace space(primitive, texcoord);
+    for (const glm::vec3& normal : primitive.normals) primitive.tangents.push_back(anyTangent(normal));
+}
+
+void makeTangents(Primitive& primitive, const TextureSlot& map) {
+    if (map.texcoord < 0 || map.texcoord > 1 || primitive.texcoords[map.texcoord].empty())
+        return makeAnyTangents(primitive);
+    primitive.tangents.clear();
+    const TangentSpace space(primitive, map);
 
     // A vertex keeps the first tangent found for it; for each further tangent the vertex is copied. Corners
     // with equal tangents share a copy as long as the search is short: a vertex of a million triangles may

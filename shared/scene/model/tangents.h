@@ -10,8 +10,10 @@ namespace diptych {
 void makeFlatNormals(Primitive& primitive);
 
 // Tangents as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008),
-// from positions, normals and the UV set `texcoord`; vertices are split where tangents differ.
-// Without that UV set, every vertex gets a unit tangent perpendicular to its normal, sign +1.
-void makeTangents(Primitive& primitive, int texcoord);
+// from positions, normals and the coordinates that `map` is read with, its transform included; vertices are
+// split where tangents differ. Without its UV set it makes any.
+void makeTangents(Primitive& primitive, const TextureSlot& map);
+// Every vertex gets a unit tangent perpendicular to its normal, sign +1.
+void makeAnyTangents(Primitive& primitive);
 
 }  // namespace diptych
