@@ -7,6 +7,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/run/interruption.h"
 #include "compare/run/version.h"
+#include "compare/tradeoff/felt.h"
 #include "compare/tradeoff/grid.h"
 #include "compare/tradeoff/measure.h"
 #include "compare/tradeoff/sweep_state.h"
@@ -80,9 +81,9 @@ int firstVisit(const Options& options) {
 
 class Sweep {
 public:
-    Sweep(const Options& options, const SweepRows& sweep)
+    Sweep(const Options& options, SweepRows sweep)
         : options_(options),
-          sweep_(sweep),
+          sweep_(std::move(sweep)),
           folder_(outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffManifest)),
           references_(folder_, true),
           progress_(progressOutput(options)),
@@ -90,11 +91,10 @@ public:
         say(options, "on " + device_.info().name);
         tradeoff_.scene = options.scenes.front();
         tradeoff_.cameras = options.cameras;
-        tradeoff_.given = truthFor(options.settings, sweep.rows);
+        tradeoff_.given = truthFor(options.settings, sweep_.rows);
         tradeoff_.reference = referenceSettings(tradeoff_.given);
         tradeoff_.device = reportDevice(device_);
         tradeoff_.runs = options.runs;
-        tradeoff_.skips = sweep.skips;
     }
 
     int run() {
@@ -106,6 +106,9 @@ public:
         tradeoff_.notes = scene.notes;
         stage.at(loading, "upload");
         SceneViews views(scene);
+        if (options_.grid.empty())
+            sweep_ = rowsThatAreFelt(sweep_, views.at(viewRequest(options_.settings)).lights);
+        tradeoff_.skips = sweep_.skips;
         Renderer renderer(device_, views);
         tradeoff_.cost.reading = msSince(start_);
         const double referenceDone = loading + (1 - loading) / static_cast<double>(sweep_.rows.size() + 1);
@@ -237,7 +240,7 @@ private:
     }
 
     const Options& options_;
-    const SweepRows& sweep_;
+    SweepRows sweep_;
     const Clock::time_point start_ = Clock::now();
     const std::filesystem::path folder_;
     KeptReferences references_;
@@ -252,11 +255,11 @@ int runTradeoff(const Options& options) {
     checkTradeoffOptions(options);
     refuseUndrawn({&options.settings, 1});
     const Settings& given = options.settings;
-    const SweepRows sweep =
+    SweepRows sweep =
         makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));
     if (options.debug_given) note(options, "--debug is not used: errors are of lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are of lit");
-    return Sweep(options, sweep).run();
+    return Sweep(options, std::move(sweep)).run();
 }
 
 }  // namespace diptych::cli

@@ -89,7 +89,7 @@ TEST(TradeoffOutput, CsvHasEveryRowAndReadsBack) {
     EXPECT_EQ(at(4, "front_flip"), "0");
     EXPECT_EQ(at(3, "front_flip"), "1");
     EXPECT_EQ(at(3, "size"), "320x180");
-    EXPECT_EQ(at(1, "gbuffer"), "") << "forward_plus has none";
+    EXPECT_EQ(at(4, "prepass"), "") << "deferred has none";
     EXPECT_EQ(at(4, "gbuffer"), "compact");
     EXPECT_EQ(at(1, "ms: shade"), "4");
     EXPECT_EQ(at(1, "compare").find("diptych compare --baseline reference"), 0u);

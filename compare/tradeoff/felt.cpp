@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/felt.h"
+
+#include "shared/scene/lights/casters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace diptych::tradeoff {
+namespace {
+
+// Why the scene cannot feel Settings, by their options.
+using Reasons = std::map<std::string_view, std::string_view>;
+
+bool hasPlace(const Light& light) {
+    return light.kind != LightKind::directional;
+}
+
+// Sets what a row cannot feel to one value and says why, so that rows of one picture become equal.
+class Unfelt {
+public:
+    Unfelt(Settings row, std::span<const Light> lights) : row_(std::move(row)) {
+        const auto any = [&](const auto& of) { return std::ranges::any_of(lights, of); };
+        if (!any(hasPlace)) {
+            constexpr std::string_view why = "no light has a place: each reaches every pixel";
+            if (row_.assign != Assignment::per_object) reset("assign", why);
+            reset("light-kernel", why);
+            reset("light-cutoff", why);
+        } else if (!any([](const Light& light) { return hasPlace(light) && std::isinf(light.range); })) {
+            reset("light-cutoff", "every light has a range of its own");
+        }
+        if (lights.empty()) reset("pixel-lights", "there is no light");
+        if (!any([](const Light& light) { return isArea(light.kind); }))
+            reset("area-lights", "there is no area light");
+        if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
+            reset("shadow-lights", "there is no point or spot light");
+        noteShadows(lights);
+    }
+    const Settings& row() const { return row_; }
+    const Reasons& reasons() const { return reasons_; }
+
+private:
+    void noteShadows(std::span<const Light> lights) {
+        const std::optional<std::size_t> sun = brightestSun(lights);
+        if (castingLights(lights, row_.shadow_lights).empty()) {
+            constexpr std::string_view why = "nothing casts: no sun, and no point or spot that is asked for";
+            for (const Field& field : settingFields())
+                if (field.option.starts_with("shadow") || field.option.starts_with("clipmap") ||
+                    field.option.starts_with("evsm"))
+                    reset(field.option, why);
+        } else if (row_.shadows == Shadows::pcss && !(sun && lights[*sun].angle > 0)) {
+            row_.shadows = Shadows::pcf;
+            reasons_.emplace("shadows", "the sun has no angle: its soft shadow is that of pcf");
+        }
+    }
+    void reset(std::string_view option, std::string_view why) {
+        static const Settings usual;
+        row_.set(option, usual.valueOf(option));
+        reasons_.emplace(option, why);
+    }
+
+    Settings row_;
+    Reasons reasons_;
+};
+
+}  // namespace
+
+SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights) {
+    SweepRows result{{}, sweep.skips};
+    std::vector<Settings> drawn;  // the rows of the result without what is not felt
+    for (const Settings& row : sweep.rows) {
+        const Unfelt unfelt(row, lights);
+        const auto same = std::ranges::find(drawn, unfelt.row());
+        if (same == drawn.end()) {
+            drawn.push_back(unfelt.row());
+            result.rows.push_back(row);
+            continue;
+        }
+        const Settings& earlier = result.rows[static_cast<std::size_t>(same - drawn.begin())];
+        for (const auto& [option, why] : unfelt.reasons()) {
+            const std::string value = row.valueOf(option);
+            if (value == earlier.valueOf(option)) continue;
+            const SweepSkip skip{{{"path", std::string(nameOf(row.path))}, {std::string(option), value}},
+                                 std::string(why)};
+            const auto isSame = [&](const SweepSkip& other) {
+                return other.tried == skip.tried && other.reason == skip.reason;
+            };
+            if (std::ranges::none_of(result.skips, isSame)) result.skips.push_back(skip);
+        }
+    }
+    return result;
+}
+
+}  // namespace diptych::tradeoff

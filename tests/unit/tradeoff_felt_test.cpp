@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// A sweep leaves out what the scene cannot feel, and says why.
+#include "compare/tradeoff/felt.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace diptych {
+
+using namespace tradeoff;
+
+namespace {
+
+Light lightOf(LightKind kind, float range = std::numeric_limits<float>::infinity(), float angle = 0) {
+    Light light;
+    light.kind = kind;
+    light.range = range;
+    light.angle = angle;
+    return light;
+}
+
+SweepRows feltBy(const std::vector<Light>& lights) {
+    return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), lights);
+}
+
+// Values of a Setting among the rows.
+std::set<std::string> valuesOf(const SweepRows& sweep, std::string_view option) {
+    std::set<std::string> values;
+    for (const Settings& row : sweep.rows) values.insert(row.valueOf(option));
+    return values;
+}
+
+// The first reason; `value`: of that value.
+std::string reasonOf(const SweepRows& sweep, const std::string& option, const std::string& value = {}) {
+    for (const SweepSkip& skip : sweep.skips)
+        if (skip.tried.size() == 2 && skip.tried[1].first == option &&
+            (value.empty() || skip.tried[1].second == value))
+            return skip.reason;
+    return {};
+}
+
+TEST(TradeoffFelt, ASunAloneFeelsNoListsAndNoAreaLights) {
+    const SweepRows sweep = feltBy({lightOf(LightKind::directional)});
+    EXPECT_EQ(valuesOf(sweep, "assign"), (std::set<std::string>{"clustered", "per_object"}));
+    EXPECT_EQ(valuesOf(sweep, "light-cutoff").size(), 1u);
+    EXPECT_EQ(valuesOf(sweep, "area-lights").size(), 1u);
+    EXPECT_EQ(valuesOf(sweep, "shadow-lights").size(), 1u);
+    EXPECT_FALSE(valuesOf(sweep, "shadows").contains("pcss"));
+    EXPECT_GT(valuesOf(sweep, "shadows").size(), 4u);
+    EXPECT_EQ(reasonOf(sweep, "assign", "tiled"), "no light has a place: each reaches every pixel");
+    EXPECT_EQ(reasonOf(sweep, "shadows"), "the sun has no angle: its soft shadow is that of pcf");
+}
+
+TEST(TradeoffFelt, ASunWithADiscFeelsPcss) {
+    EXPECT_TRUE(valuesOf(feltBy({lightOf(LightKind::directional, 1, 0.01f)}), "shadows").contains("pcss"));
+}
+
+TEST(TradeoffFelt, TheCutoffIsFeltByALightWithoutARange) {
+    EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::point, 3)}), "light-cutoff").size(), 1u);
+    EXPECT_EQ(reasonOf(feltBy({lightOf(LightKind::point, 3)}), "light-cutoff"),
+              "every light has a range of its own");
+    EXPECT_GT(
+        valuesOf(feltBy({lightOf(LightKind::point, 3), lightOf(LightKind::spot)}), "light-cutoff").size(),
+        1u);
+}
+
+TEST(TradeoffFelt, AreaLightsAreVariedWhereThereIsOne) {
+    EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::point)}), "area-lights").size(), 1u);
+    EXPECT_EQ(valuesOf(feltBy({lightOf(LightKind::tube)}), "area-lights").size(), 2u);
+}
+
+// Points cast as soon as --shadow-lights asks for some.
+TEST(TradeoffFelt, ShadowsAreVariedWhereSomethingCasts) {
+    const SweepRows none = feltBy({lightOf(LightKind::rect)});
+    EXPECT_EQ(valuesOf(none, "shadows").size(), 1u);
+    EXPECT_EQ(valuesOf(none, "shadow-size").size(), 1u);
+    EXPECT_EQ(valuesOf(none, "evsm-exponent").size(), 1u);
+    EXPECT_EQ(reasonOf(none, "shadow-size"), "nothing casts: no sun, and no point or spot that is asked for");
+    EXPECT_GT(valuesOf(feltBy({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
+}
+
+// Whatever is left out, each skip names its path, and no two rows are one picture.
+TEST(TradeoffFelt, NothingIsDrawnTwiceNorLostInSilence) {
+    const SweepRows all = makeSweepRows({}, usualGrids({}));
+    const SweepRows sweep = feltBy({lightOf(LightKind::directional)});
+    EXPECT_LT(sweep.rows.size(), all.rows.size());
+    EXPECT_EQ(sweep.rows.front(), Settings()) << "the given Settings stay first";
+    for (const Settings& row : all.rows) {
+        if (std::ranges::count(sweep.rows, row) > 0) continue;
+        const bool said = std::ranges::any_of(sweep.skips, [&](const SweepSkip& skip) {
+            return skip.tried.size() == 2 && skip.tried[0].second == nameOf(row.path) &&
+                   row.valueOf(skip.tried[1].first) == skip.tried[1].second;
+        });
+        EXPECT_TRUE(said) << inWords(choicesOf(row, Settings()));
+    }
+}
+
+}  // namespace
+}  // namespace diptych
