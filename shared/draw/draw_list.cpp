@@ -51,24 +51,40 @@ std::array<glm::dvec4, 8> corners(const glm::dmat4& fromObject, const PrimitiveR
     return result;
 }
 
-// Whether all corners of the box are beyond one of the clip planes (far excepted where it is at infinity:
-// there z = 0 is reached by nothing). The slack keeps a box that float32 might still touch.
-bool outside(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
-    const std::array<glm::dvec4, 8> box = corners(clipFromObject, range);
-    double scale = 0;
-    for (const glm::dvec4& corner : box)
-        for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(corner[c]));
-    const double slack = 1e-5 * scale;
-    const auto allBeyond = [&](auto distance) {
-        return std::all_of(box.begin(), box.end(), [&](const glm::dvec4& c) { return distance(c) < -slack; });
-    };
-    return allBeyond([](const glm::dvec4& c) { return c.w + c.x; }) ||
-           allBeyond([](const glm::dvec4& c) { return c.w - c.x; }) ||
-           allBeyond([](const glm::dvec4& c) { return c.w + c.y; }) ||
-           allBeyond([](const glm::dvec4& c) { return c.w - c.y; }) ||
-           allBeyond([](const glm::dvec4& c) { return c.w - c.z; }) ||
-           allBeyond([](const glm::dvec4& c) { return c.z; });
-}
+struct ObjectBox {
+    glm::dvec3 centre, half;
+    template <class Vector>
+    ObjectBox(const Vector& min, const Vector& max)
+        : centre((glm::dvec3(min) + glm::dvec3(max)) / 2.0),
+          half((glm::dvec3(max) - glm::dvec3(min)) / 2.0) {}
+};
+
+// The sides of clip space as an object sees them (far excepted where it is at infinity: there z = 0 is
+// reached by nothing). What is inside of none of its boxes is not drawn.
+class ClipSides {
+public:
+    // `range`: all boxes lie in its bounds. The slack keeps a box that float32 might still touch.
+    ClipSides(const glm::dmat4& clipFromObject, const PrimitiveRange& range) {
+        const glm::dmat4 rows = glm::transpose(clipFromObject);
+        sides_ = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
+                  rows[3] - rows[1], rows[3] - rows[2], rows[2]};
+        double scale = 0;
+        for (const glm::dvec4& corner : corners(clipFromObject, range))
+            for (int c = 0; c < 4; ++c) scale = std::max(scale, std::abs(corner[c]));
+        slack_ = 1e-5 * scale;
+    }
+    // Whether the box is wholly beyond one of them.
+    bool exclude(const ObjectBox& box) const {
+        return std::ranges::any_of(sides_, [&](const glm::dvec4& side) {
+            const glm::dvec3 normal(side);
+            return glm::dot(normal, box.centre) + glm::dot(glm::abs(normal), box.half) + side.w < -slack_;
+        });
+    }
+
+private:
+    std::array<glm::dvec4, 6> sides_;
+    double slack_ = 0;
+};
 
 ViewDepths viewDepths(const glm::dmat4& cameraFromObject, const glm::dvec3& forward,
                       const PrimitiveRange& range) {
@@ -98,57 +114,124 @@ DrawItem itemOf(const Instance& instance, const PrimitiveRange& range, const Mat
     return item;
 }
 
-// The instances that `draws` and that are not wholly outside of clip space. `depthsOf` gives the view depths
-// of one, of its transform relative to `eye`; they are ordered by the farthest.
-template <class Draws, class DepthsOf>
-DrawList listOf(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                const glm::dmat4& clipFromWorld, const glm::dvec3& eye, const Draws& draws,
-                const DepthsOf& depthsOf) {
-    DrawList list;
-    for (const Instance& instance : pose.instances) {
-        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
-        if (range.index_count == 0 || !draws(range)) continue;
-        glm::dmat4 fromCamera = instance.world_from_object;
-        fromCamera[3] -= glm::dvec4(eye, 0.0);
-        if (outside(clipFromWorld * fromCamera, range)) {
-            ++list.culled;
-            continue;
-        }
-        DrawItem item = itemOf(instance, range, materials);
-        item.draw = static_cast<std::uint32_t>(list.draws.size());
-        list.draws.push_back(gpuDraw(instance.world_from_object, eye, clipFromWorld));
-        item.mirrored = list.draws.back().handedness < 0;
-        item.depths = depthsOf(fromCamera, range);
-        item.distance = distanceOf(item.depths.farthest);
-        list.items.push_back(item);
-    }
+glm::dmat4 fromEye(const Instance& instance, const glm::dvec3& eye) {
+    glm::dmat4 fromCamera = instance.world_from_object;
+    fromCamera[3] -= glm::dvec4(eye, 0.0);
+    return fromCamera;
+}
+
+ClipBox clipBox(const glm::dmat4& clipFromObject, const ObjectBox& box) {
+    const glm::dvec3 centre(clipFromObject * glm::dvec4(box.centre, 1));
+    glm::dvec3 reach(0);
+    for (int i = 0; i < 3; ++i) reach += glm::abs(glm::dvec3(clipFromObject[i])) * box.half[i];
+    return {centre - reach, centre + reach};
+}
+
+void add(DrawList& list, DrawItem item, const Instance& instance, const glm::dvec3& eye,
+         const glm::dmat4& clipFromWorld) {
+    item.draw = static_cast<std::uint32_t>(list.draws.size());
+    list.draws.push_back(gpuDraw(instance.world_from_object, eye, clipFromWorld));
+    item.mirrored = list.draws.back().handedness < 0;
+    item.distance = distanceOf(item.depths.farthest);
+    list.items.push_back(item);
+}
+
+void sort(DrawList& list) {
     std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
         const auto key = [](const DrawItem& i) {
             return std::tie(i.masked, i.distance, i.variant, i.range.material);
         };
         return key(a) < key(b);
     });
-    return list;
+}
+
+// The clusters that `keeps`, as runs of the list; none of them: false.
+template <class Keeps>
+bool addRuns(DrawList& list, DrawItem& item, std::span<const Cluster> clusters, const Keeps& keeps) {
+    item.first_run = static_cast<std::uint32_t>(list.runs.size());
+    for (const Cluster& cluster : clusters) {
+        if (!keeps(ObjectBox(cluster.min, cluster.max))) continue;
+        const bool follows = list.runs.size() > item.first_run &&
+                             list.runs.back().first + list.runs.back().count == cluster.first_index;
+        if (!follows) list.runs.push_back({cluster.first_index, 0});
+        list.runs.back().count += cluster.index_count;
+        list.triangles += cluster.index_count / 3;
+    }
+    item.runs = static_cast<std::uint32_t>(list.runs.size()) - item.first_run;
+    return item.runs > 0;
 }
 
 }  // namespace
 
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view) {
-    return listOf(
-        pose, geometry, materials, view.clipFromWorld(), view.eye(),
-        [](const PrimitiveRange&) { return true; },
-        [&](const glm::dmat4& fromCamera, const PrimitiveRange& range) {
-            return viewDepths(fromCamera, -view.backward(), range);
-        });
+    DrawList list;
+    const glm::dmat4 clipFromWorld = view.clipFromWorld();
+    for (const Instance& instance : pose.instances) {
+        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+        if (range.index_count == 0) continue;
+        const glm::dmat4 fromCamera = fromEye(instance, view.eye());
+        if (ClipSides(clipFromWorld * fromCamera, range).exclude({range.bounds_min, range.bounds_max})) {
+            ++list.culled;
+            continue;
+        }
+        DrawItem item = itemOf(instance, range, materials);
+        item.depths = viewDepths(fromCamera, -view.backward(), range);
+        list.triangles += range.index_count / 3;
+        add(list, item, instance, view.eye(), clipFromWorld);
+    }
+    sort(list);
+    return list;
 }
 
 DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                        const glm::dmat4& clipFromWorld, const glm::dvec3& eye) {
-    return listOf(
-        pose, geometry, materials, clipFromWorld, eye,
-        [&](const PrimitiveRange& range) { return materials.castsShadow(range.material); },
-        [](const glm::dmat4&, const PrimitiveRange&) { return ViewDepths(); });
+                        const CasterRequest& request) {
+    DrawList list;
+    for (const Instance& instance : pose.instances) {
+        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+        if (range.index_count == 0 || !materials.castsShadow(range.material)) continue;
+        const glm::dmat4 clipFromObject = request.clip_from_world * fromEye(instance, request.eye);
+        const ClipSides sides(clipFromObject, range);
+        const auto keeps = [&](const ObjectBox& box) {
+            return !sides.exclude(box) && (!request.matters || request.matters(clipBox(clipFromObject, box)));
+        };
+        DrawItem item = itemOf(instance, range, materials);
+        if (request.all) {
+            list.triangles += range.index_count / 3;
+        } else if (!keeps({range.bounds_min, range.bounds_max}) ||
+                   !addRuns(list, item, geometry.clusters(range), keeps)) {
+            ++list.culled;
+            continue;
+        }
+        add(list, item, instance, request.eye, request.clip_from_world);
+    }
+    sort(list);
+    return list;
+}
+
+double SeenBox::reach(const glm::dvec3& along) const {
+    return std::abs(glm::dot(along, halves[0])) + std::abs(glm::dot(along, halves[1])) +
+           std::abs(glm::dot(along, halves[2]));
+}
+
+std::vector<SeenBox> seenBoxes(const Pose& pose, const Geometry& geometry, const View& view) {
+    std::vector<SeenBox> boxes;
+    for (const Instance& instance : pose.instances) {
+        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+        if (range.index_count == 0) continue;
+        const glm::dmat4 fromCamera = fromEye(instance, view.eye());
+        const ClipSides sides(view.clipFromWorld() * fromCamera, range);
+        if (sides.exclude({range.bounds_min, range.bounds_max})) continue;
+        for (const Cluster& cluster : geometry.clusters(range)) {
+            const ObjectBox box(cluster.min, cluster.max);
+            if (sides.exclude(box)) continue;
+            const glm::dmat3 linear(fromCamera);
+            boxes.push_back(
+                {.centre = fromCamera * glm::dvec4(box.centre, 1),
+                 .halves = {linear[0] * box.half.x, linear[1] * box.half.y, linear[2] * box.half.z}});
+        }
+    }
+    return boxes;
 }
 
 }  // namespace diptych

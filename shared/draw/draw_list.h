@@ -7,6 +7,8 @@
 #include "shared/material/materials.h"
 #include "shared/scene/view.h"
 
+#include <array>
+#include <functional>
 #include <vector>
 
 namespace diptych {
@@ -16,20 +18,28 @@ struct ViewDepths {
     double nearest = 0, farthest = 0;
 };
 
+// Indices that follow one another.
+struct IndexRun {
+    std::uint32_t first = 0, count = 0;
+};
+
 struct DrawItem {
     PrimitiveRange range;
-    std::uint32_t draw = 0;  // into DrawList::draws
-    Variant variant;         // the material's features and the primitive's
-    bool mirrored = false;   // the transform turns front faces round
-    bool masked = false;     // alpha mask
-    int distance = 0;        // of the farthest corner: only its order counts
+    std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; none: the whole range is drawn
+    std::uint32_t draw = 0;                 // into DrawList::draws
+    Variant variant;                        // the material's features and the primitive's
+    bool mirrored = false;                  // the transform turns front faces round
+    bool masked = false;                    // alpha mask
+    int distance = 0;                       // of the farthest corner: only its order counts
     ViewDepths depths;
 };
 
 struct DrawList {
     std::vector<gpu::Draw> draws;
     std::vector<DrawItem> items;
-    std::uint32_t culled = 0;  // instances outside the view
+    std::vector<IndexRun> runs;
+    std::uint32_t culled = 0;     // instances that are not drawn
+    std::uint64_t triangles = 0;  // that are drawn
 };
 
 // Orders opaque draws before masked ones, then from near to far by the farthest corner of the bounding box,
@@ -39,9 +49,37 @@ struct DrawList {
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view);
 
-// What may cast a shadow into a part of light space: `clipFromWorld`, of world axes with `eye` as the origin,
-// puts it into -1..1, whatever its depth. Ordered as above, for a light that is infinitely far.
+// A box in clip space where w is 1 everywhere.
+struct ClipBox {
+    glm::dvec3 min{0}, max{0};
+};
+
+// What is drawn into a shadow map. `clip_from_world`, of world axes with `eye` as the origin, puts what the
+// map covers into -1..1, whatever its depth.
+struct CasterRequest {
+    glm::dmat4 clip_from_world{1};
+    glm::dvec3 eye{0};
+    // Whether what lies in the box may change what is read of the map; only where w is 1 everywhere. None:
+    // all that the map covers may.
+    std::function<bool(const ClipBox&)> matters{};
+    bool all = false;  // every caster, wherever it is
+};
+
+// What may cast a shadow into the map: those clusters of casters whose boxes are not wholly beyond one of its
+// sides, and that matter. Ordered as above, for a light that is infinitely far.
 DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                        const glm::dmat4& clipFromWorld, const glm::dvec3& eye);
+                        const CasterRequest& request);
+
+// A box along any three axes.
+struct SeenBox {
+    glm::dvec3 centre{0};                // world axes, from the eye
+    std::array<glm::dvec3, 3> halves{};  // of its sides
+    // Half its extent along a direction, times its length.
+    double reach(const glm::dvec3& along) const;
+};
+
+// Of every cluster that is not wholly beyond one plane of the view: where that lies which the picture may
+// show.
+std::vector<SeenBox> seenBoxes(const Pose& pose, const Geometry& geometry, const View& view);
 
 }  // namespace diptych

@@ -32,19 +32,31 @@ bool mayVanish(const Primitive& p) {
     return false;
 }
 
+// Throws std::runtime_error where there are too many: they are stored up to twice, in the scene's order and
+// in that of clusters.
+std::uint32_t indicesOf(const Scene& scene) {
+    std::uint64_t sum = 0;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) sum += p.indices.size();
+    if (2 * sum > std::numeric_limits<std::uint32_t>::max())
+        throw std::runtime_error("the scene has over 2^31 indices: more than one buffer holds");
+    return static_cast<std::uint32_t>(sum);
+}
+
 }  // namespace
 
 Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
     std::vector<glm::vec3> positions;
     std::vector<gpu::VertexAttributes> attributes;
     std::vector<std::uint32_t> indices;
+    // After all indices, and of primitives that are more than one cluster alone.
+    std::vector<std::uint32_t> clustered;
+    const std::uint32_t allIndices = indicesOf(scene);
     for (const Mesh& mesh : scene.meshes) {
         ranges_.emplace_back();
         for (const Primitive& p : mesh.primitives) {
-            if (indices.size() + p.indices.size() > std::numeric_limits<std::uint32_t>::max() ||
-                positions.size() + p.positions.size() > std::numeric_limits<std::int32_t>::max())
-                throw std::runtime_error(
-                    "the scene has over 2^32 indices or 2^31 vertices: more than one buffer holds");
+            if (positions.size() + p.positions.size() > std::numeric_limits<std::int32_t>::max())
+                throw std::runtime_error("the scene has over 2^31 vertices: more than one buffer holds");
             PrimitiveRange range;
             range.first_index = static_cast<std::uint32_t>(indices.size());
             range.index_count = static_cast<std::uint32_t>(p.indices.size());
@@ -60,9 +72,23 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
             }
             positions.insert(positions.end(), p.positions.begin(), p.positions.end());
             indices.insert(indices.end(), p.indices.begin(), p.indices.end());
+            range.first_cluster = static_cast<std::uint32_t>(clusters_.size());
+            if (p.indices.size() > 3 * clusterTriangles) {
+                const auto first = static_cast<std::uint32_t>(clustered.size());
+                clustered.insert(clustered.end(), p.indices.begin(), p.indices.end());
+                for (Cluster cluster : cutIntoClusters(p.positions, std::span(clustered).subspan(first))) {
+                    cluster.first_index += allIndices + first;
+                    clusters_.push_back(cluster);
+                }
+            } else if (range.index_count > 0) {
+                clusters_.push_back(
+                    {range.first_index, range.index_count, range.bounds_min, range.bounds_max});
+            }
+            range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
             ranges_.back().push_back(range);
         }
     }
+    indices.insert(indices.end(), clustered.begin(), clustered.end());
     positions_ =
         makeBuffer<glm::vec3>(device, uploader, "positions", positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     attributes_ = makeBuffer<gpu::VertexAttributes>(device, uploader, "vertex attributes", attributes,

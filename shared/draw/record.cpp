@@ -6,6 +6,7 @@
 #include "shared/draw/pipeline_keys.h"
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -61,8 +62,12 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
         vkCmdSetFrontFace(commands,
                           item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         push(commands, inputs, constantsOf(item));
-        vkCmdDrawIndexed(commands, item.range.index_count, 1, item.range.first_index,
-                         item.range.vertex_offset, item.draw);
+        const IndexRun whole{item.range.first_index, item.range.index_count};
+        const std::span<const IndexRun> runs =
+            item.runs == 0 ? std::span(&whole, 1)
+                           : std::span(source.draws.runs).subspan(item.first_run, item.runs);
+        for (const IndexRun& run : runs)
+            vkCmdDrawIndexed(commands, run.count, 1, run.first, item.range.vertex_offset, item.draw);
         last = &item;
         lastPipeline = pipelines[i];
     }

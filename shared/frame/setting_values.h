@@ -85,6 +85,11 @@ template <>
 inline constexpr auto enum_names<ShadowFit> =
     std::to_array<EnumName<ShadowFit>>({{ShadowFit::view, "view"}, {ShadowFit::depth, "depth"}});
 
+enum class ShadowCasters { needed, all };
+template <>
+inline constexpr auto enum_names<ShadowCasters> =
+    std::to_array<EnumName<ShadowCasters>>({{ShadowCasters::needed, "needed"}, {ShadowCasters::all, "all"}});
+
 enum class EvsmPrecision { automatic, fp32, fp16 };
 template <>
 inline constexpr auto enum_names<EvsmPrecision> = std::to_array<EnumName<EvsmPrecision>>(

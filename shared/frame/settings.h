@@ -41,6 +41,7 @@ struct Settings {
     ShadowFit shadow_fit = ShadowFit::view;
     float shadow_distance = 0.0f;  // m; 0: as far as the scene reaches
     float shadow_bias = 0.5f;      // texels
+    ShadowCasters shadow_casters = ShadowCasters::needed;
     int clipmap_pages = 512;
     int clipmap_page_size = 128;  // texels
     EvsmPrecision evsm_precision = EvsmPrecision::automatic;
@@ -358,6 +359,12 @@ void Settings::rows(Visit&& visit) {
                 .ignored = {.reference = row::traces_shadows},
                 .sweep = "0.25,1"},
           &Settings::shadow_bias);
+    visit(Field{.option = "shadow-casters",
+                .help = "what is drawn into shadow maps: what the picture needs, or everything that casts; "
+                        "pictures are the same",
+                .default_only = {row::needs_shadows, row::hasShadows},
+                .ignored = {.reference = row::traces_shadows}},
+          &Settings::shadow_casters);
     visit(Field{.option = "clipmap-pages",
                 .help = "pages of the sun's clipmap that there is room for; where more are needed a coarser "
                         "level serves",

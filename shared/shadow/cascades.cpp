@@ -53,6 +53,11 @@ double reachOf(const View& view, const Bounds& bounds) {
 
 }  // namespace
 
+double marginOf(const CascadeRequest& request) {
+    const double reach = (request.kernel + 1) / 2.0;
+    return reach + std::sqrt(2.0) * reach + request.bias + 1;
+}
+
 glm::dvec3 LightSpace::from(const glm::dvec3& world) const {
     return {glm::dot(x, world), glm::dot(y, world), glm::dot(z, world)};
 }
@@ -107,11 +112,7 @@ Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& t
         near = std::min(near, far / 2);
     }
     near = std::max(near, far * nearestShare);
-    // Texels on each side: what the filter reads, where a surface is moved to before it reads, and the step
-    // to whole texels.
-    const double reach = (request.kernel + 1) / 2.0;
-    const double margin = reach + std::sqrt(2.0) * reach + request.bias + 1;
-    const double inner = std::max(request.size - 2 * margin, 1.0);
+    const double inner = std::max(request.size - 2 * marginOf(request), 1.0);
     const double sceneSide = std::max(most.x - least.x, most.y - least.y) + 2 * room;
     for (const double end : splitDepths(near, far, request.count)) {
         CascadeArea area{.begin = begin, .end = end};

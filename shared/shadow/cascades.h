@@ -30,6 +30,10 @@ struct CascadeRequest {
     std::optional<DepthRange> shown{};  // what the picture shows: cascades serve nothing else
 };
 
+// Texels on each side of a receiver that are read for it, with the step to whole texels: what the filter
+// reads, and how far a surface is moved before it reads.
+double marginOf(const CascadeRequest& request);
+
 // Light space: unit axes in world directions; z points to the light.
 struct LightSpace {
     glm::dvec3 x, y, z;

@@ -148,7 +148,7 @@ void ClipmapAtlas::follow(const Pose& pose, const Geometry& geometry, const Ligh
 }
 
 std::size_t ClipmapAtlas::draw(const FrameInputs& inputs, Uploader& uploader, const Pose& pose,
-                               const PageGrid& grid, std::span<const PageDraw> pages) {
+                               const PageGrid& grid, std::span<const PageDraw> pages, bool all) {
     const std::vector<PageDraw> stale = cache_.stale(pages);
     const Cascades space{.space = grid.space, .near = grid.near, .far = grid.far, .areas = {}};
     for (std::size_t first = 0; first < stale.size(); first += pagesAtOnce) {
@@ -159,7 +159,8 @@ std::size_t ClipmapAtlas::draw(const FrameInputs& inputs, Uploader& uploader, co
         for (const PageDraw& page : now) {
             DrawList list = makeCasterList(
                 pose, inputs.geometry, inputs.materials,
-                space.clipFromWorld(grid.areaOf(page.page), grid.slot(), glm::dvec3(0)), glm::dvec3(0));
+                {.clip_from_world = space.clipFromWorld(grid.areaOf(page.page), grid.slot(), glm::dvec3(0)),
+                 .all = all});
             for (DrawItem& item : list.items) item.draw += static_cast<std::uint32_t>(draws.size());
             draws.insert(draws.end(), list.draws.begin(), list.draws.end());
             lists.push_back(std::move(list));

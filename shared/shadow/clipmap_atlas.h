@@ -41,9 +41,10 @@ public:
 
     // Has the cache forget what shows something that has moved since the last call.
     void follow(const Pose& pose, const Geometry& geometry, const LightSpace& space);
-    // Draws those pages that are not drawn yet, and waits. Returns how many they were.
+    // Draws those pages that are not drawn yet, and waits. `all`: every caster into each. Returns how many
+    // they were.
     std::size_t draw(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const PageGrid& grid,
-                     std::span<const PageDraw> pages);
+                     std::span<const PageDraw> pages, bool all);
     // All texels, whatever they belong to; the cache does not hear of it.
     void fill(float value);
     // A slot's texels, row by row.

@@ -41,6 +41,7 @@ ClipmapShadow::ClipmapShadow(Device& device, Uploader& uploader, ClipmapAtlases&
       uploader_(uploader),
       layouts_(atlases),
       pose_(pose),
+      all_(settings.shadow_casters == ShadowCasters::all),
       extent_{static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height)},
       clipmap_(fitClipmap(view, boundsOf(pose, geometry), to_light, clipmapRequest(settings))),
       atlas_(atlases.lend({static_cast<std::uint32_t>(settings.clipmap_pages),
@@ -123,8 +124,9 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
             vkCmdDispatch(commands, (groups.x + side - 1) / side, (groups.y + side - 1) / side, 1);
         });
     if (set == OF_FRAME)
-        mark.prepare(
-            [this, &inputs] { atlas_->draw(inputs, uploader_, pose_, clipmap_.grid, served_.resident); });
+        mark.prepare([this, &inputs] {
+            atlas_->draw(inputs, uploader_, pose_, clipmap_.grid, served_.resident, all_);
+        });
 }
 
 std::vector<gpu::uint> ClipmapShadow::readMarks() const {

@@ -50,6 +50,7 @@ private:
     Uploader& uploader_;
     const ClipmapAtlases& layouts_;
     const Pose& pose_;
+    bool all_;  // casters are drawn, not those that a page needs
     VkExtent2D extent_;
     Clipmap clipmap_;
     std::shared_ptr<ClipmapAtlas> atlas_;

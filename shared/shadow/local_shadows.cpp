@@ -111,9 +111,13 @@ LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose,
     }
     std::size_t draws = 0;
     for (const AtlasTile& tile : atlas_.tiles) {
-        Map map{makeCasterList(pose, geometry, materials, atlas_.clipFromWorld(tile, view.eye()), view.eye()),
+        Map map{makeCasterList(pose, geometry, materials,
+                               {.clip_from_world = atlas_.clipFromWorld(tile, view.eye()),
+                                .eye = view.eye(),
+                                .all = settings.shadow_casters == ShadowCasters::all}),
                 {}};
-        cullBeyond(map.casters, atlas_, tile, view.eye());
+        if (settings.shadow_casters == ShadowCasters::needed)
+            cullBeyond(map.casters, atlas_, tile, view.eye());
         draws += map.casters.items.size();
         map.draws = makeBuffer<gpu::Draw>(device, uploader, "casters", map.casters.draws,
                                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);

@@ -3,9 +3,11 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/draw/record.h"
+#include "shared/shadow/receivers.h"
 #include "shared/shadow/scene_bounds.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -192,17 +194,29 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
 // None where nothing casts into any.
 void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
                             const Cascades& cascades) {
+    const bool all = settings_.shadow_casters == ShadowCasters::all;
+    const bool compares = !hasMoments(settings_.shadows);
+    std::vector<SeenBox> seen;
+    if (!all && !cascades.areas.empty()) seen = seenBoxes(pose, inputs.geometry, view);
     for (const CascadeArea& area : cascades.areas) {
+        const ReceiverMask mask(cascades, area, view, seen, request_, compares);
         Map map{makeCasterList(pose, inputs.geometry, inputs.materials,
-                               cascades.clipFromWorld(area, request_.size, view.eye()), view.eye()),
+                               {.clip_from_world = cascades.clipFromWorld(area, request_.size, view.eye()),
+                                .eye = view.eye(),
+                                .matters = [&](const ClipBox& box) { return mask.reachedBy(box); },
+                                .all = all}),
                 {}};
         map.draws = makeBuffer<gpu::Draw>(inputs.device, uploader, "casters", map.casters.draws,
                                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
         maps_.push_back(std::move(map));
     }
-    if (maps_.empty() ||
-        std::ranges::any_of(maps_, [](const Map& map) { return !map.casters.items.empty(); }))
+    if (maps_.empty()) return;
+    if (std::ranges::any_of(maps_, [](const Map& map) { return map.casters.triangles > 0; })) {
+        notes_.push_back(fmt::format(
+            "shadow maps: {} triangles are drawn, from near to far, of {}", fmt::join(triangles(), ", "),
+            all ? "everything that casts" : "what casts on something that may be seen"));
         return;
+    }
     notes_.emplace_back("shadow maps: none is drawn: nothing casts");
     maps_.clear();
 }
@@ -315,6 +329,12 @@ void SunShadow::read(Pass& pass) const {
 
 void SunShadow::addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
     if (clipmap_) clipmap_->addMarks(passes, inputs, depth);
+}
+
+std::vector<std::uint64_t> SunShadow::triangles() const {
+    std::vector<std::uint64_t> counts;
+    for (const Map& map : maps_) counts.push_back(map.casters.triangles);
+    return counts;
 }
 
 std::uint64_t SunShadow::bytes() const {

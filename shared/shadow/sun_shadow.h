@@ -68,6 +68,8 @@ public:
     ClipmapShadow* clipmap() { return clipmap_ ? &*clipmap_ : nullptr; }
     // Of --shadow-fit depth: the view depths that cascades serve.
     const std::optional<DepthRange>& shown() const { return request_.shown; }
+    // That are drawn into each map.
+    std::vector<std::uint64_t> triangles() const;
     // In words, for people: which light casts, what was drawn and what was not.
     const std::vector<std::string>& notes() const { return notes_; }
 

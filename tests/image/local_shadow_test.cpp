@@ -106,7 +106,7 @@ TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     // From the filter's middle to a corner, and a texel; the path's own bound has what a surface is moved by,
     // too.
     const double reach = path.local_shadow_reach * (3 * std::numbers::sqrt2 / 2 + 1) /
-                         marginOf({.kernel = 3, .bias = double{settings.shadow_bias}});
+                         marginOf(AtlasRequest{.kernel = 3, .bias = double{settings.shadow_bias}});
     std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
     for (std::size_t i = 0; i < path.channels.at(localMode).pixels(); ++i) {
         if (*path.channels.at(ids).pixel(i) < 0) continue;

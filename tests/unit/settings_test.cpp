@@ -45,6 +45,7 @@ Settings everythingChanged() {
     s.shadow_fit = ShadowFit::depth;
     s.shadow_distance = 12.5f;
     s.shadow_bias = 0.25f;
+    s.shadow_casters = ShadowCasters::all;
     s.clipmap_pages = 99;
     s.clipmap_page_size = 64;
     s.evsm_precision = EvsmPrecision::fp16;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "shared/shadow/receivers.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace diptych {
+
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+// Of view depths, of the picture's sides and of the map's depth range: for what float32 rounds.
+constexpr double rounding = 1e-5;
+// The same of positions, as a share of their distance from the camera: twice ShadowLight::rounding.
+constexpr double positions = 1e-6;
+
+// The corners of the view between two view depths, in world axes from the eye; a little more of it.
+std::array<glm::dvec3, 8> sliceOf(const View& view, const DepthRange& depths) {
+    const double aspect = static_cast<double>(view.width) / view.height;
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double depth = i & 1 ? depths.far : depths.near;
+        const double side =
+            view.camera.orthographic ? view.camera.ymag : depth * std::tan(view.camera.yfov / 2);
+        const double x = side * aspect * (1 + rounding), y = side * (1 + rounding);
+        corners[i] =
+            -view.backward() * depth + view.right() * (i & 2 ? x : -x) + view.up() * (i & 4 ? y : -y);
+    }
+    return corners;
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+// Convex, counter-clockwise (Andrew 1979's monotone chain).
+std::vector<glm::dvec2> hullOf(std::array<glm::dvec2, 8> points) {
+    std::ranges::sort(points, [](const glm::dvec2& a, const glm::dvec2& b) {
+        return a.x < b.x || (a.x == b.x && a.y < b.y);
+    });
+    std::vector<glm::dvec2> hull;
+    const auto chain = [&](const auto& range) {
+        const std::size_t least = hull.size() + 2;
+        for (const glm::dvec2& point : range) {
+            while (hull.size() >= least &&
+                   cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
+                hull.pop_back();
+            hull.push_back(point);
+        }
+        hull.pop_back();
+    };
+    chain(points);
+    std::ranges::reverse(points);
+    chain(points);
+    return hull;
+}
+
+// Whether a square of half a side `half` around `centre` is wholly beyond one edge of the hull.
+bool beside(const std::vector<glm::dvec2>& hull, const glm::dvec2& centre, double half) {
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        const glm::dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+        const double reach = half * (std::abs(edge.x) + std::abs(edge.y));
+        if (cross(edge, centre - hull[i]) < -reach) return true;
+    }
+    return false;
+}
+
+struct CellRange {
+    int begin = 0, end = 0;
+};
+// The cells that an interval of clip space meets.
+CellRange cellsOf(double low, double high) {
+    const double count = ReceiverMask::cells;
+    const auto at = [count](double clip) { return std::clamp((clip + 1) / 2 * count, -1.0, count); };
+    return {std::max(static_cast<int>(std::floor(at(low))), 0),
+            std::min(static_cast<int>(std::floor(at(high))) + 1, ReceiverMask::cells)};
+}
+
+}  // namespace
+
+ReceiverMask::ReceiverMask(const Cascades& cascades, const CascadeArea& area, const View& view,
+                           std::span<const SeenBox> seen, const CascadeRequest& request, bool compares)
+    : deepest_(std::size_t{cells} * cells, unbounded) {
+    // The first cascade serves whatever is nearer too, as the shaders have it.
+    const bool first = &area == &cascades.areas.front();
+    const DepthRange depths{first ? 0 : area.begin * (1 - rounding), area.end * (1 + rounding)};
+    const glm::dmat4 clip = cascades.clipFromWorld(area, request.size, view.eye());
+    const glm::dvec3 x(clip[0].x, clip[1].x, clip[2].x), y(clip[0].y, clip[1].y, clip[2].y),
+        z(clip[0].z, clip[1].z, clip[2].z), origin(clip[3]);
+    std::array<glm::dvec2, 8> corners;
+    const std::array<glm::dvec3, 8> slice = sliceOf(view, depths);
+    double farthest = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners[i] = glm::dvec2(glm::dot(x, slice[i]), glm::dot(y, slice[i])) + glm::dvec2(origin);
+        farthest = std::max(farthest, glm::length(slice[i]));
+    }
+    margin_ = 2 * marginOf(request) / request.size + positions * farthest * glm::length(x);
+    const double deeper = rounding + positions * farthest * glm::length(z);
+    const std::vector<glm::dvec2> hull = hullOf(corners);
+    std::vector<bool> seenThere(deepest_.size());
+    constexpr double side = 2.0 / cells;
+    for (int row = 0; row < cells; ++row)
+        for (int column = 0; column < cells; ++column)
+            seenThere[static_cast<std::size_t>(row * cells + column)] =
+                !beside(hull, {(column + 0.5) * side - 1, (row + 0.5) * side - 1}, side / 2 * (1 + rounding));
+
+    const glm::dvec3 forward = -view.backward();
+    for (const SeenBox& box : seen) {
+        const double depth = glm::dot(forward, box.centre), reach = box.reach(forward);
+        if (depth - reach > depths.far || depth + reach < depths.near) continue;
+        const double atX = glm::dot(x, box.centre) + origin.x, byX = box.reach(x);
+        const double atY = glm::dot(y, box.centre) + origin.y, byY = box.reach(y);
+        const double least =
+            compares ? glm::dot(z, box.centre) + origin.z - box.reach(z) - deeper : -unbounded;
+        const CellRange columns = cellsOf(atX - byX, atX + byX), rows = cellsOf(atY - byY, atY + byY);
+        for (int row = rows.begin; row < rows.end; ++row)
+            for (int column = columns.begin; column < columns.end; ++column) {
+                const auto cell = static_cast<std::size_t>(row * cells + column);
+                if (seenThere[cell]) deepest_[cell] = std::min(deepest_[cell], least);
+            }
+    }
+}
+
+bool ReceiverMask::reachedBy(const ClipBox& caster) const {
+    const CellRange columns = cellsOf(caster.min.x - margin_, caster.max.x + margin_),
+                    rows = cellsOf(caster.min.y - margin_, caster.max.y + margin_);
+    for (int row = rows.begin; row < rows.end; ++row)
+        for (int column = columns.begin; column < columns.end; ++column)
+            if (deepest(column, row) <= caster.max.z) return true;
+    return false;
+}
+
+}  // namespace diptych

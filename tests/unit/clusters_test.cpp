@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Parts of primitives: together they are what they were cut from.
+#include "shared/draw/clusters.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+namespace diptych {
+namespace {
+
+struct Triangles {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+};
+
+// Small ones, spread over a flat box.
+Triangles soup(std::size_t count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> part(0, 1);
+    Triangles soup;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 at(16 * part(random), part(random), 4 * part(random));
+        for (int corner = 0; corner < 3; ++corner) {
+            soup.indices.push_back(static_cast<std::uint32_t>(soup.positions.size()));
+            soup.positions.push_back(at + 0.01f * glm::vec3(part(random), part(random), part(random)));
+        }
+    }
+    // So that indices do not follow one another as triangles do.
+    std::ranges::shuffle(soup.positions, random);
+    return soup;
+}
+
+std::vector<std::array<std::uint32_t, 3>> sorted(const std::vector<std::uint32_t>& indices) {
+    std::vector<std::array<std::uint32_t, 3>> all;
+    for (std::size_t i = 0; i < indices.size(); i += 3)
+        all.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    std::ranges::sort(all);
+    return all;
+}
+
+TEST(Clusters, HoldEveryTriangleOnceWithItsCornersInOrder) {
+    for (const std::size_t count : {1, 64, 65, 1000}) {
+        const Triangles given = soup(count);
+        std::vector<std::uint32_t> indices = given.indices;
+        const std::vector<Cluster> clusters = cutIntoClusters(given.positions, indices);
+        EXPECT_EQ(sorted(indices), sorted(given.indices));
+        std::uint32_t next = 0;
+        for (const Cluster& cluster : clusters) {
+            EXPECT_EQ(cluster.first_index, next);
+            next += cluster.index_count;
+            EXPECT_LE(cluster.index_count, 3 * clusterTriangles);
+            EXPECT_GE(cluster.index_count, 3 * std::min(count, clusterTriangles / 2));
+            glm::vec3 min = given.positions[indices[cluster.first_index]], max = min;
+            for (std::uint32_t i = 0; i < cluster.index_count; ++i) {
+                if (i % 3 == 0 && i > 0) {
+                    EXPECT_LT(indices[cluster.first_index + i - 3], indices[cluster.first_index + i]);
+                }
+                min = glm::min(min, given.positions[indices[cluster.first_index + i]]);
+                max = glm::max(max, given.positions[indices[cluster.first_index + i]]);
+            }
+            EXPECT_EQ(cluster.min, min);
+            EXPECT_EQ(cluster.max, max);
+        }
+        EXPECT_EQ(next, given.indices.size());
+    }
+}
+
+// Neighbours are together: the boxes of all parts are a small share of the whole.
+TEST(Clusters, AreSmall) {
+    Triangles given = soup(4096);
+    std::ranges::sort(given.indices);
+    for (std::size_t i = 0; i < given.positions.size(); i += 3) {
+        const glm::vec3 at = given.positions[i];
+        given.positions[i + 1] = at + glm::vec3(0.01f, 0, 0);
+        given.positions[i + 2] = at + glm::vec3(0, 0, 0.01f);
+    }
+    double sum = 0;
+    for (const Cluster& cluster : cutIntoClusters(given.positions, given.indices)) {
+        const glm::vec3 side = cluster.max - cluster.min;
+        sum += double{side.x} * double{side.z};
+    }
+    EXPECT_LT(sum, 1.5 * 16 * 4);
+}
+
+}  // namespace
+}  // namespace diptych

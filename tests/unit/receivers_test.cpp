@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// What casts nowhere into the part of a map that is read may be left out of it, and nothing else.
+#include "shared/shadow/receivers.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <random>
+
+namespace diptych {
+namespace {
+
+View viewFrom(const glm::dvec3& eye, const glm::dvec3& target, bool orthographic) {
+    View view;
+    view.width = 320;
+    view.height = 180;
+    view.camera.near = 0.1;
+    view.camera.orthographic = orthographic;
+    view.camera.ymag = 3;
+    view.camera.world_from_camera = glm::inverse(glm::lookAt(eye, target, {0.01, 1, 0.02}));
+    return view;
+}
+
+const glm::dvec3 toSun = glm::normalize(glm::dvec3(0.3, 1, 0.2));
+
+// A view into a box of 40 m x 10 m x 40 m, and its cascades.
+struct Case {
+    View view;
+    CascadeRequest request{.size = 512, .count = 3};
+    Cascades cascades;
+    explicit Case(bool orthographic = false)
+        : view(viewFrom({1, 3, 2}, {-12, 1, -9}, orthographic)),
+          cascades(fitCascades(view, bounds(), toSun, request)) {}
+    static Bounds bounds() {
+        Bounds box;
+        box.min = {-20, 0, -20};
+        box.max = {20, 10, 20};
+        return box;
+    }
+    // x and y from -1 to 1 over the picture; world axes from the eye.
+    glm::dvec3 at(double x, double y, double depth) const {
+        const double side =
+            view.camera.orthographic ? view.camera.ymag : depth * std::tan(view.camera.yfov / 2);
+        return view.right() * (x * side * view.width / view.height) + view.up() * (y * side) -
+               view.backward() * depth;
+    }
+    glm::dvec3 clip(const CascadeArea& area, const glm::dvec3& place) const {
+        return cascades.clipFromWorld(area, request.size, view.eye()) * glm::dvec4(place, 1);
+    }
+    ReceiverMask mask(const CascadeArea& area, const std::vector<SeenBox>& seen, bool compares = true) const {
+        return {cascades, area, view, seen, request, compares};
+    }
+    double texel() const { return 2.0 / request.size; }
+    double cell() const { return 2.0 / ReceiverMask::cells; }
+};
+
+ClipBox pointBox(const glm::dvec3& at) {
+    return {at, at};
+}
+
+// Everything that is drawn, in one box that is larger than the view.
+const std::vector<SeenBox> everything{{{0, 0, 0}, {glm::dvec3(90, 0, 0), {0, 90, 0}, {0, 0, 90}}}};
+
+// Whatever place of a cascade's part of the view is seen, up to its very edges: what casts on it from above
+// matters, and what lies as far beside it as a filter reads.
+TEST(ReceiverMask, HoldsWhateverCastsOnWhatIsSeen) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> part(-1, 1);
+    for (const bool orthographic : {false, true}) {
+        const Case test(orthographic);
+        for (const CascadeArea& area : test.cascades.areas) {
+            const ReceiverMask ofAll = test.mask(area, everything);
+            for (int i = 0; i < 4000; ++i) {
+                // Half of them on the sides of the picture, a third where the cascade ends.
+                const double x = i % 4 == 0 ? std::copysign(1, part(random)) : part(random);
+                const double y = i % 4 == 1 ? std::copysign(1, part(random)) : part(random);
+                const double share = i % 3 == 0 ? 1 : std::abs(part(random));
+                const glm::dvec3 seen = test.at(x, y, area.begin + (area.end - area.begin) * share);
+                const double angle = 3.15 * part(random);
+                glm::dvec3 caster = test.clip(area, seen);
+                if (std::abs(caster.x) > 0.95 || std::abs(caster.y) > 0.95) continue;
+                // The filter's reach from the middle, and as far as a surface is moved aside.
+                const double beside = (2 + 2 * std::sqrt(2.0) + 0.5) * test.texel();
+                caster += glm::dvec3(std::cos(angle) * beside, std::sin(angle) * beside, 0);
+                caster.z = std::abs(part(random));
+                EXPECT_TRUE(ofAll.reachedBy(pointBox(caster))) << area.begin << " " << i;
+                if (i % 40 != 0) continue;
+                const ReceiverMask ofOne = test.mask(area, {{seen, {}}});
+                caster.z = test.clip(area, seen).z;
+                EXPECT_TRUE(ofOne.reachedBy(pointBox(caster))) << area.begin << " " << i;
+            }
+        }
+    }
+}
+
+// Of one receiver: what is farther from the light than it by a thousandth of the range, and what is beside it
+// by a hundredth of the map beyond what is read, does not matter; with moments what is farther does.
+TEST(ReceiverMask, LeavesOutWhatIsBehindAndBeside) {
+    const Case test;
+    const CascadeArea& area = test.cascades.areas[1];
+    const glm::dvec3 seen = test.at(0.3, -0.2, (area.begin + area.end) / 2), at = test.clip(area, seen);
+    const ReceiverMask mask = test.mask(area, {{seen, {}}}), moments = test.mask(area, {{seen, {}}}, false);
+    EXPECT_TRUE(mask.reachedBy(pointBox(at)));
+    EXPECT_FALSE(mask.reachedBy(pointBox(at - glm::dvec3(0, 0, 1e-3))));
+    EXPECT_TRUE(moments.reachedBy(pointBox(at - glm::dvec3(0, 0, 1e-3))));
+    const double far = marginOf(test.request) * test.texel() + test.cell() + 0.01;
+    for (const glm::dvec3& away : {glm::dvec3(far, 0, 0), {-far, 0, 0}, {0, far, 0}, {0, -far, 0}}) {
+        EXPECT_FALSE(mask.reachedBy(pointBox(at + away)));
+        EXPECT_FALSE(moments.reachedBy(pointBox(at + away)));
+        // A box that reaches from there over the receiver does.
+        EXPECT_TRUE(mask.reachedBy({glm::min(at, at + away), glm::max(at, at + away)}));
+    }
+    // In another cascade's part of the view it is none.
+    const CascadeArea& last = test.cascades.areas[2];
+    EXPECT_FALSE(test.mask(last, {{seen, {}}}).reachedBy({{-1, -1, 0}, {1, 1, 1}}));
+}
+
+// Of what is drawn all over, what the view does not show is left out: a view of 60 degrees is seen from above
+// as a wedge of its bounding sphere.
+TEST(ReceiverMask, IsNoLargerThanTheView) {
+    const Case test;
+    for (const CascadeArea& area : test.cascades.areas) {
+        const ReceiverMask mask = test.mask(area, everything);
+        int held = 0;
+        for (int y = 0; y < ReceiverMask::cells; ++y)
+            for (int x = 0; x < ReceiverMask::cells; ++x) held += std::isfinite(mask.deepest(x, y));
+        EXPECT_GT(held, ReceiverMask::cells * ReceiverMask::cells / 20) << area.begin;
+        EXPECT_LT(held, ReceiverMask::cells * ReceiverMask::cells / 2) << area.begin;
+    }
+}
+
+}  // namespace
+}  // namespace diptych
