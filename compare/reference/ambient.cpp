@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/ambient.h"
 
-#include "compare/reference/brdf.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -61,25 +59,28 @@ void eachPoint(double from, double to, const F& f) {
 // In a frame with the normal +Z and the viewer in the plane y = 0.
 class Integrals {
 public:
-    explicit Integrals(const Surface& surface) : brdf_(framed(surface)) {}
+    Integrals(const Surface& surface, const Compensation& compensation)
+        : brdf_(framed(surface), compensation) {}
 
-    // Integrates over the projected hemisphere; by symmetry one half is enough.
-    glm::dvec3 diffuse() const {
-        glm::dvec3 sum(0);
+    // All but the lobe of GGX: integrates over the projected hemisphere; by symmetry one half is enough.
+    Reflected smooth() const {
+        Reflected sum;
         eachPoint(0, 1, [&](double square, double step) {
             const double cosine = std::sqrt(square), sine = std::sqrt(1 - square);
             eachPoint(0, std::numbers::pi, [&](double phi, double turn) {
                 const glm::dvec3 l(sine * std::cos(phi), sine * std::sin(phi), cosine);
-                sum += brdf_(l).diffuse * (step * turn / cosine);  // d(cos^2) dphi is 2 cos dl; both halves
+                Reflected f = brdf_(l);
+                f.specular -= brdf_.lobe(l);
+                sum += f * (step * turn / cosine);  // d(cos^2) dphi is 2 cos dl; both halves
             });
         });
         return sum;
     }
 
-    // Integrates over rings of half vectors, by the tangent of their angle to the normal, in three parts: up
-    // to where a part of a ring begins to reflect light from below the horizon; from there to the lobe's
-    // width; and on to where all of a ring does.
-    glm::dvec3 specular() const {
+    // The lobe: integrates over rings of half vectors, by the tangent of their angle to the normal, in three
+    // parts: up to where a part of a ring begins to reflect light from below the horizon; from there to the
+    // lobe's width; and on to where all of a ring does.
+    glm::dvec3 lobe() const {
         const double view = std::acos(std::min(brdf_.toViewer().z, 1.0)), right = std::numbers::pi / 2;
         const double whole = std::tan((right - view) / 2), none = std::tan((right + view) / 2);
         const double alpha = brdf_.alpha(), width = std::clamp(alpha, whole, none);
@@ -122,7 +123,7 @@ private:
         eachPoint(0, std::acos(std::clamp(edge, -1.0, 1.0)), [&](double phi, double turn) {
             const glm::dvec3 h(s * std::cos(phi), s * std::sin(phi), c);
             const double v_dot_h = glm::dot(v, h);
-            sum += brdf_(2 * v_dot_h * h - v).specular * (4 * v_dot_h * turn);  // dl = 4 v.h dh
+            sum += brdf_.lobe(2 * v_dot_h * h - v) * (4 * v_dot_h * turn);  // dl = 4 v.h dh
         });
         return sum * (2 * s);  // dh = sin(angle) d(angle) dphi; factor 2 for both halves
     }
@@ -132,12 +133,14 @@ private:
 
 }  // namespace
 
-glm::dvec3 diffuseAlbedo(const Surface& surface) {
-    return Integrals(surface).diffuse();
+glm::dvec3 diffuseAlbedo(const Surface& surface, const Compensation& compensation) {
+    return Integrals(surface, compensation).smooth().diffuse;
 }
 
-glm::dvec3 specularAlbedo(const Surface& surface) {
-    return Integrals(surface).specular();
+glm::dvec3 specularAlbedo(const Surface& surface, const Compensation& compensation) {
+    const Integrals integrals(surface, compensation);
+    const glm::dvec3 lobe = integrals.lobe();
+    return compensation.between == glm::dvec3(0) ? lobe : lobe + integrals.smooth().specular;
 }
 
 }  // namespace diptych::reference

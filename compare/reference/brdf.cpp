@@ -44,8 +44,9 @@ glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double weight) {
 
 }  // namespace
 
-Brdf::Brdf(const Surface& s)
-    : normal_(s.normal),
+Brdf::Brdf(const Surface& s, const Compensation& compensation)
+    : compensation_(compensation),
+      normal_(s.normal),
       to_viewer_(s.to_viewer),
       albedo_(s.albedo),
       dielectric_f0_(s.dielectric_f0),
@@ -56,6 +57,13 @@ Brdf::Brdf(const Surface& s)
       lambda_v_(lambda(alpha_, n_dot_v_)) {}
 
 Reflected Brdf::operator()(const glm::dvec3& to_light) const {
+    Reflected f = evaluate(to_light);
+    const double n_dot_l = std::clamp(glm::dot(normal_, to_light), 0.0, 1.0);
+    f.specular += compensation_.between * (n_dot_l / std::numbers::pi);
+    return f;
+}
+
+Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const double n_dot_l = std::min(glm::dot(normal_, to_light), 1.0);
     if (!(n_dot_l > 0)) return {};
     const glm::dvec3 sum = to_light + to_viewer_;
@@ -70,9 +78,10 @@ Reflected Brdf::operator()(const glm::dvec3& to_light) const {
     const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, weight);
     const glm::dvec3 metal = fresnel(albedo_, 1, weight);
     // A dielectric's Lambertian base receives what its specular layer does not reflect.
-    const double base = 1 - std::max({layer.r, layer.g, layer.b});
-    return {albedo_ * ((1 - metallic_) * base * n_dot_l / std::numbers::pi),
-            (layer * (1 - metallic_) + metal * metallic_) * (lobe * n_dot_l)};
+    const double base = compensation_.base.value_or(1 - std::max({layer.r, layer.g, layer.b}));
+    const glm::dvec3 mixed =
+        layer * compensation_.dielectric * (1 - metallic_) + metal * compensation_.metal * metallic_;
+    return {albedo_ * ((1 - metallic_) * base * n_dot_l / std::numbers::pi), mixed * (lobe * n_dot_l)};
 }
 
 }  // namespace diptych::reference

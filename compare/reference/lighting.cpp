@@ -2,6 +2,7 @@
 #include "compare/reference/lighting.h"
 
 #include "compare/reference/ambient.h"
+#include "compare/reference/microsurface.h"
 #include "compare/reference/punctual.h"
 #include "compare/reference/sampling.h"
 #include "shared/scene/model/axes.h"
@@ -50,6 +51,9 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
         glm::length(glm::cross(brdf.normal(), half));  // sine of the angle between half vector and normal
     return split(turn > std::max(brdf.alpha(), apart - turn));
 }
+
+// The stream of a surface's walks, which no light has.
+constexpr std::uint64_t betweenStream = ~std::uint64_t{1};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -171,8 +175,8 @@ private:
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
                    const glm::dvec3& eye, const glm::dvec3& ambient, std::span<const std::size_t> casters,
-                   bool shadowed_environment)
-    : ambient_(ambient), shadowed_environment_(shadowed_environment) {
+                   bool shadowed_environment, Multiscatter multiscatter)
+    : ambient_(ambient), shadowed_environment_(shadowed_environment), multiscatter_(multiscatter) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const Light& light = lights[i];
         const bool casts = std::ranges::find(casters, i) != casters.end();
@@ -187,7 +191,8 @@ Lighting::Lighting(std::span<const Light> lights, const Environment* environment
 }
 
 Shading Lighting::operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const {
-    const Brdf brdf(surface);
+    const Compensation compensation = compensationOf(surface, multiscatter_);
+    const Brdf brdf(surface, compensation);
     Shading sum;
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position);
@@ -204,10 +209,81 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
     // A lightmap has no directions: its irradiance is assumed uniform, and only the diffuse base reflects
     // it.
     if (ambient_ + surface.lightmap != glm::dvec3(0))
-        sum.ambient = diffuseAlbedo(surface) * (ambient_ + surface.lightmap);
-    if (ambient_ != glm::dvec3(0)) sum.ambient += specularAlbedo(surface) * ambient_;
+        sum.ambient = diffuseAlbedo(surface, compensation) * (ambient_ + surface.lightmap);
+    const glm::dvec3 base = sum.ambient;
+    if (ambient_ != glm::dvec3(0)) sum.ambient += specularAlbedo(surface, compensation) * ambient_;
+    if (multiscatter_ == Multiscatter::walk) {
+        const MoreReflections more = between(surface, visible, sum.all(), streamOf(seed, betweenStream));
+        sum += more.shading;
+        sum.reflected.diffuse *= more.base;
+        sum.ambient -= base * (1 - more.base);
+    }
     sum.ambient *= surface.occlusion;
     return sum;
+}
+
+Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibility& visible,
+                                            const glm::dvec3& single, std::uint64_t seed) const {
+    // Lights without extent are seen, or not, by all paths alike.
+    std::vector<Incident> directions;
+    for (const Punctual& p : punctual_) {
+        const Incident light = incident(p.light, p.position, surface.position);
+        if (glm::dot(light.to_light, surface.normal) > 0 && light.irradiance != glm::dvec3(0) &&
+            (!p.casts || !visible || visible(light.to_light, light.distance)))
+            directions.push_back(light);
+    }
+    struct Shining {
+        std::vector<Patch> patches;
+        glm::dvec3 radiance;
+        bool casts, far;
+    };
+    std::vector<Shining> shining;
+    for (const auto& [emitter, casts] : emitters_) {
+        const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - surface.position;
+        const double window = rangeWindow(glm::length(centre), emitter.range);
+        if (window > 0)
+            shining.push_back({visiblePatches(emitter, centre, surface.normal), emitter.radiance * window,
+                               casts, emitter.far});
+    }
+    const Between paths(surface);
+    const double share = paths.share();
+    glm::dvec3 layer(0);
+    std::size_t walked = 0;
+    const auto estimate = [&](std::size_t round, std::uint64_t index) {
+        Random random(streamOf(streamOf(seed, round), index));
+        const Between::Path path = paths.path(random, [&](const Between::Add& add) {
+            for (const Incident& light : directions) add(light.to_light, light.irradiance);
+            for (const Shining& light : shining)
+                for (const Patch& patch : light.patches) {
+                    const double u = random();
+                    const Patch::Point point = patch.at(u, random());
+                    const double distance = glm::length(point.place);
+                    if (!(distance > 0) || !(point.area > 0)) continue;
+                    const glm::dvec3 to_light = point.place / distance;
+                    const double angle =
+                        std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / (distance * distance);
+                    if (!light.casts || !visible || visible(to_light, light.far ? infinity : distance))
+                        add(to_light, light.radiance * angle);
+                }
+        });
+        layer += path.layer * share;
+        ++walked;
+        // Light from everywhere in the place of `diffuse`.
+        Reflected sum{path.weight * ambient_, path.direct};
+        if (environment_ && (!shadowed_environment_ || !visible || visible(path.direction, infinity)))
+            sum.specular += path.weight * environment_->radiance(path.direction);
+        return sum * share;
+    };
+    Shading more;
+    const double whole = std::max({single.r, single.g, single.b});
+    // Where few paths meet a second facet, those that do have few samples to spend.
+    if (share > Between::leastShare) more = untilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
+    if (walked > 0) layer /= static_cast<double>(walked);
+    Surface dielectric = surface;
+    dielectric.metallic = 0;
+    if (surface.metallic < 1) layer += specularAlbedo(dielectric);
+    return {{{glm::dvec3(0), more.reflected.specular}, more.uncertainty, more.reflected.diffuse},
+            1 - std::min(std::max({layer.r, layer.g, layer.b}), 1.0)};
 }
 
 Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,

@@ -5,6 +5,7 @@
 #include "compare/reference/area.h"
 #include "compare/reference/brdf.h"
 #include "compare/reference/environment.h"
+#include "compare/reference/multiscatter.h"
 #include "compare/reference/quadrature.h"
 #include "compare/reference/surface.h"
 #include "shared/scene/model/scene.h"
@@ -55,11 +56,15 @@ public:
     // shadows.
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
-             std::span<const std::size_t> casters = {}, bool shadowed_environment = false);
+             std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
+             Multiscatter multiscatter = Multiscatter::off);
 
     // `visible`, for what casts shadows; empty: nothing does. `seed` identifies the shaded surface, for
     // sampling.
     Shading operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const;
+
+    // What a surface reflects of light from one direction.
+    Brdf brdf(const Surface& surface) const { return Brdf(surface, compensationOf(surface, multiscatter_)); }
 
 private:
     struct Punctual {
@@ -74,12 +79,22 @@ private:
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
                         const Visibility& visible, std::uint64_t seed) const;
     Shading fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const;
+    // What further reflections between microfacets add, by random walk (microsurface.h), and the share that
+    // the base gets of all light: what its layer does not reflect. `single`: the radiance of single
+    // reflections, which the confidence is relative to.
+    struct MoreReflections {
+        Shading shading;
+        double base;
+    };
+    MoreReflections between(const Surface& surface, const Visibility& visible, const glm::dvec3& single,
+                            std::uint64_t seed) const;
 
     std::vector<Punctual> punctual_;
     std::vector<Emitting> emitters_;
     std::optional<EnvironmentLight> environment_;
     glm::dvec3 ambient_;
     bool shadowed_environment_;
+    Multiscatter multiscatter_;
 };
 
 }  // namespace diptych::reference

@@ -79,7 +79,7 @@ void addScene(Key& key, const Request& request) {
 // Everything that decides a pixel. The version number must be increased whenever the reference itself draws
 // differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 6;
+    constexpr int version = 7;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));
@@ -100,6 +100,7 @@ std::uint64_t keyOf(const Request& request) {
     }
     key.add(request.environment_factor);
     key.add(request.ambient);
+    key.add(request.multiscatter);
     if (request.scene.environment) {
         const Image& sky = request.scene.environment->radiance;
         key.add(glm::ivec2(sky.width, sky.height));

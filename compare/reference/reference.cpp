@@ -171,7 +171,7 @@ public:
           materials_(request.scene, geometry_),
           lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
                     request.environment_factor, eye_, request.ambient, request.casters,
-                    request.shadowed_environment),
+                    request.shadowed_environment, request.multiscatter),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         for (const std::size_t caster : request.casters)
             if (!sun_ && request.lights[caster].kind == LightKind::directional)
@@ -250,7 +250,7 @@ private:
         pixel.edge_distance =
             partly ? 0 : edgeDistance(sees, foot.place, foot.geometric_normal, to_light, 2 * scene_radius_);
         const glm::dvec3 irradiance = incident(*sun_, {}, {}).irradiance;
-        pixel.sun_radiance = (Brdf(s)(to_light) * irradiance).size();
+        pixel.sun_radiance = (lighting_.brdf(s)(to_light) * irradiance).size();
         pixel.sun_irradiance = std::max(glm::dot(s.normal, to_light), 0.0) * luminance(irradiance);
     }
 
@@ -276,7 +276,7 @@ private:
             const double edge =
                 edgeDistance(sees, foot.place, foot.geometric_normal, here.to_light, here.distance);
             pixel.local_edge = std::min(pixel.local_edge, edge / here.distance);
-            pixel.local_radiance += (Brdf(s)(here.to_light) * here.irradiance).size();
+            pixel.local_radiance += (lighting_.brdf(s)(here.to_light) * here.irradiance).size();
         }
         if (all > 0) pixel.local_visibility = seen / all;
     }

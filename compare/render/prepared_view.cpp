@@ -92,7 +92,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       draws(makeDrawList(scene.pose, shared.geometry, shared.materials, scene.view)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
-              objectPixelLights(settings)),
+              objectPixelLights(settings), settings.multiscatter),
       shadow(device, shared.uploader, scene.pose, shared.geometry, shared.materials, scene.view, draws,
              lights, scene.lights, buffers.placeholders(), buffers.sets(), settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
@@ -108,7 +108,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .frame_set = buffers.set(),
           .placeholders = buffers.placeholders(),
           .lists = buffers.lists(),
-          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights),
+          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings.area_lights,
+                                  settings.multiscatter),
           .gbuffer = gbuffer,
           .shadow = shadow,
       } {

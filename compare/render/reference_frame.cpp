@@ -59,6 +59,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .lights = view.lights,
         .environment_factor = double{settings.ibl_intensity},
         .ambient = {double{settings.ambient.r}, double{settings.ambient.g}, double{settings.ambient.b}},
+        .multiscatter = settings.multiscatter,
         .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}
                                                     : castingLights(view.lights, settings.shadow_lights),
         .mode = settings.reference_mode,

@@ -66,8 +66,11 @@ float baseShare(Brdf b) {
 vec3 reflectedAmbient(Brdf b, vec3 ambient, vec3 lightmap) {
     vec3 radiance = vec3(0.0);
     if (on(feature_ambient)) {
-        vec2 lobe = specularAlbedo(b.alpha, b.n_dot_v);
-        radiance = (b.f0 * lobe.x + vec3(b.f90 * lobe.y)) * ambient;
+        vec2 lobe = b.albedo;
+        if (!on(feature_multiscatter)) lobe = specularAlbedo(b.alpha, b.n_dot_v);
+        vec3 reflected = b.f0 * lobe.x + b.f90 * lobe.y;
+        if (feature_multiscatter == MULTISCATTER_FDEZ) reflected += b.between * PI;
+        radiance = reflected * ambient;
     }
     radiance += b.diffuse * PI * baseShare(b) * (ambient + lightmap);
     return radiance;

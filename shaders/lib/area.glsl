@@ -89,10 +89,12 @@ void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 dif
     float share = clamp(lobe.z, 0.0, 1.0);
     weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * fromCosine(a.ltc, lobe)) + a.v));
     vec3 reflected = a.brdf.f0 * a.magnitude +
-                     (vec3(a.brdf.f90) - a.brdf.f0) * blend(a.magnitude * weight, a.fresnel, share);
+                     (a.brdf.f90 - a.brdf.f0) * blend(a.magnitude * weight, a.fresnel, share);
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
     vec3 from_lobe = reflected * share * radiance;
+    if (feature_multiscatter == MULTISCATTER_FDEZ)
+        from_lobe += a.brdf.between * (PI * max(plain.z, 0.0)) * radiance;
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 

@@ -94,7 +94,7 @@ void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3
     float n_dot_l = max(dot(n, l), 0.0);
     vec3 sum = l + v;
     float sum2 = dot(sum, sum);
-    vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(0.5 * sqrt(sum2));
+    vec3 fresnel = b.f0 + (b.f90 - b.f0) * schlickWeight(0.5 * sqrt(sum2));
     // Of a round lobe in whose middle a light with the tangent t stands the share t^2 / (t^2 + 4 alpha^2)
     // meets it: so much is left of the peak that a mirror shows a large light as bright as it is. Aslant the
     // lobe is n.v narrower.
@@ -107,6 +107,7 @@ void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     vec3 from_base = b.diffuse * (base * received) * radiance;
     vec3 from_lobe = fresnel * lobe * radiance;
+    if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received * radiance;
     if (lit) diffuse += from_base, specular += from_lobe;
 }
 

@@ -10,9 +10,12 @@
 struct Brdf {
     vec3 diffuse;    // (1 - metallic) albedo / pi, 1/sr
     vec3 f0;         // of the mix
-    float f90;
+    vec3 f90;
     float base_f0;   // the dielectric layer's largest component: what it reflects the base does not get
     float base_f90;
+    // With feature_multiscatter (multiscatter.glsl):
+    vec3 between;    // a Lambertian lobe beside the specular one, 1/sr
+    vec2 albedo;     // specularAlbedo()
     float alpha;     // GGX width, roughness^2
     float alpha2;
     float n_dot_v;
@@ -23,9 +26,11 @@ Brdf makeBrdf(Surface s, vec3 v) {
     Brdf b;
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
     b.f0 = specularF0(s);
-    b.f90 = blend(s.dielectric_f90, 1.0, s.metallic);
+    b.f90 = vec3(blend(s.dielectric_f90, 1.0, s.metallic));
     b.base_f0 = max(s.dielectric_f0.r, max(s.dielectric_f0.g, s.dielectric_f0.b));
     b.base_f90 = s.dielectric_f90;
+    b.between = vec3(0.0);
+    b.albedo = vec2(0.0);
     float roughness = max(s.roughness, MIN_PERCEPTUAL_ROUGHNESS);
     b.alpha = roughness * roughness;
     b.alpha2 = b.alpha * b.alpha;
@@ -73,12 +78,13 @@ void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffus
     vec3 s = l + v;
     float s2 = dot(s, s);
     float weight = schlickWeight(0.5 * sqrt(s2));  // v.h = |l + v| / 2
-    vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * weight;
+    vec3 fresnel = b.f0 + (b.f90 - b.f0) * weight;
     float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
     float lobe = specularLobe(b, n, s, s2, n_dot_l);
     vec3 received = irradiance * n_dot_l;
     vec3 from_base = b.diffuse * base * received;
     vec3 from_lobe = fresnel * lobe * received;
+    if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received;
     diffuse += from_base;
     specular += from_lobe;
 }

@@ -21,6 +21,7 @@
 #include "shared/contract/local_shadow.h"
 #include "shared/contract/ltc.h"
 #include "shared/contract/material.h"
+#include "shared/contract/multiscatter.h"
 #include "shared/contract/object_lights.h"
 #include "shared/contract/shadow.h"
 #include "shared/contract/view.h"

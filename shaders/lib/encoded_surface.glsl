@@ -7,6 +7,7 @@
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/draw.glsl"
 #include "shaders/lib/encoding_bits.glsl"
+#include "shaders/lib/multiscatter.glsl"
 
 bool compactBits() { return feature_gbuffer_encoding == GBUFFER_compact; }
 float metallicBound(float x) {
@@ -48,25 +49,32 @@ Surface movedSurface(Surface s, uint surface) {
 // the layer over a dielectric's base reflects is the least.
 Brdf raisedBrdf(Brdf b, Surface s) {
     vec3 albedo = s.albedo + rootBound(s.albedo, ALBEDO_BITS), f0 = s.dielectric_f0;
-    float f90 = s.dielectric_f90, moved = metallicBound(s.metallic);
+    vec3 least_f0 = f0;
+    float f90 = s.dielectric_f90, least_f90 = f90, moved = metallicBound(s.metallic);
     float less = s.metallic - moved, more = s.metallic + moved;
     if (on(feature_dielectric_specular)) {
         vec3 bound = rootBound(s.dielectric_f0, SPECULAR_BITS);
         float bound90 = unormBound(s.dielectric_f90, SPECULAR_BITS);
         b.base_f0 = max(b.base_f0 - max(bound.r, max(bound.g, bound.b)), 0.0);
         b.base_f90 = max(b.base_f90 - bound90, 0.0);
+        least_f0 = max(f0 - bound, vec3(0.0));
+        least_f90 = max(f90 - bound90, 0.0);
         f0 += bound;
         f90 += bound90;
     }
     b.diffuse = (1.0 - less) * albedo * INVERSE_PI;
-    b.f0 = max(blend(f0, albedo, less), blend(f0, albedo, more));
-    b.f90 = max(blend(f90, 1.0, less), blend(f90, 1.0, more));
+    SpecularFactors low = mixedFactors(f0, f90, albedo, less, b.albedo),
+                    high = mixedFactors(f0, f90, albedo, more, b.albedo);
+    setSpecular(b, SpecularFactors(max(low.f0, high.f0), max(low.f90, high.f90),
+                                   max(low.between, high.between)));
+    if (on(feature_multiscatter)) setBase(b, layerAlbedo(least_f0, least_f90, b.albedo));
     return b;
 }
 
 // What the lights of a draw meet at a pixel: of shaded surfaces of SURFACE_RAISED on, the raised factors.
 Brdf shadedBrdf(Surface s, vec3 v) {
     Brdf b = makeBrdf(s, v);
+    if (on(feature_multiscatter)) b = compensated(b, s, specularAlbedo(b.alpha, b.n_dot_v));
     if (on(feature_encoded_surface) && constants.surface != SURFACE_DECODED) b = raisedBrdf(b, s);
     return b;
 }

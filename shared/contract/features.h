@@ -81,7 +81,9 @@
     X(45, shadow_kernel,              frame,   0, PASSES_SHADE | PASS_SHADOWS)                              \
     X(46, shadow_cascades,            frame,   0, PASSES_SHADE)                                             \
     /* a sum of LOCAL_SHADOWS_* of local_shadow.h; normals as for shadows */                                \
-    X(47, local_shadows,              frame,   2, PASSES_SURFACE | PASS_LIGHTING)
+    X(47, local_shadows,              frame,   2, PASSES_SURFACE | PASS_LIGHTING)                           \
+    /* MULTISCATTER_* of multiscatter.h */                                                                  \
+    X(48, multiscatter,               frame,   0, PASSES_SHADE)
 // clang-format on
 
 CONTRACT_BEGIN

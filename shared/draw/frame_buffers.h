@@ -5,6 +5,7 @@
 #include "shared/draw/draw_list.h"
 #include "shared/draw/layouts.h"
 #include "shared/draw/object_lights.h"
+#include "shared/frame/setting_values.h"
 #include "shared/light/ltc_image.h"
 
 #include <cstdint>
@@ -15,10 +16,12 @@ namespace diptych {
 // The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
 class FrameBuffers {
 public:
+    // `multiscatter`: whether the table of albedo.h is needed whatever lights there are.
     // `objectPixelLights`: --pixel-lights of --assign per_object; nothing with any other assignment.
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
                  const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
-                 std::optional<std::uint32_t> objectPixelLights = {});
+                 std::optional<std::uint32_t> objectPixelLights = {},
+                 Multiscatter multiscatter = Multiscatter::off);
     VkDescriptorSet set() const { return sets_[0]; }
     DescriptorSets& sets() { return sets_; }
     VkBuffer draws() const { return draws_.handle(); }

@@ -2,11 +2,28 @@
 #include "shared/draw/frame_inputs.h"
 
 #include "shared/contract/gbuffer.h"
+#include "shared/contract/multiscatter.h"
 
 namespace diptych {
+namespace {
+
+gpu::uint multiscatterOf(Multiscatter multiscatter) {
+    switch (multiscatter) {
+        case Multiscatter::off:
+        case Multiscatter::walk:  // of the reference alone
+            return gpu::MULTISCATTER_OFF;
+        case Multiscatter::energy:
+            return gpu::MULTISCATTER_ENERGY;
+        case Multiscatter::fdez:
+            return gpu::MULTISCATTER_FDEZ;
+    }
+    return gpu::MULTISCATTER_OFF;
+}
+
+}  // namespace
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer, AreaLights area_lights) {
+                     const GBufferLayout& gbuffer, AreaLights area_lights, Multiscatter multiscatter) {
     Variant variant;
     gpu::uint area = 0;
     if (lights.rect > 0) area |= gpu::AREA_RECTS;
@@ -21,6 +38,7 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_area_lights, area)
         .set(gpu::FEATURE_lightmap, needs.lightmap)
         .set(gpu::FEATURE_ambient, lights.ambient != glm::vec3(0))
+        .set(gpu::FEATURE_multiscatter, multiscatterOf(multiscatter))
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;

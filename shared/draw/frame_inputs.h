@@ -50,6 +50,6 @@ constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 
 // The features that are the same for all draws of a frame; shared/contract/features.h says which those are.
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer, AreaLights area_lights);
+                     const GBufferLayout& gbuffer, AreaLights area_lights, Multiscatter multiscatter);
 
 }  // namespace diptych

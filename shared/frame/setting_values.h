@@ -70,6 +70,14 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
+enum class Multiscatter { off, energy, fdez, walk };
+template <>
+inline constexpr auto enum_names<Multiscatter> =
+    std::to_array<EnumName<Multiscatter>>({{Multiscatter::off, "off"},
+                                           {Multiscatter::energy, "energy"},
+                                           {Multiscatter::fdez, "fdez"},
+                                           {Multiscatter::walk, "walk"}});
+
 enum class Shadows { off, pcf, evsm, evsm4, msm4, pcss, clipmap };
 template <>
 inline constexpr auto enum_names<Shadows> = std::to_array<EnumName<Shadows>>({{Shadows::off, "off"},

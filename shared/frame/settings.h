@@ -33,6 +33,7 @@ struct Settings {
     float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
     AreaLights area_lights = AreaLights::ltc;
+    Multiscatter multiscatter = Multiscatter::off;
     Shadows shadows = Shadows::pcf;
     int shadow_lights = 0;
     int shadow_size = 2048;  // texels
@@ -296,6 +297,12 @@ void Settings::rows(Visit&& visit) {
                 .ignored = {.reference = "the reference integrates area lights"},
                 .sweep = "all"},
           &Settings::area_lights);
+    visit(Field{.option = "multiscatter",
+                .help = "light between microfacets; walk: the reference alone follows it",
+                .off = "off",
+                .sweep = "off,energy,fdez",
+                .for_surfaces = "off"},
+          &Settings::multiscatter);
     visit(Field{.option = "shadows",
                 .help = "shadow technique",
                 .off = "off",

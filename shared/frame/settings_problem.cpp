@@ -38,7 +38,13 @@ std::optional<std::string> levelsHavePages(const Settings& s) {
         s.shadow_size < 128 ? "--shadow-size 128 or more" : "a smaller one");
 }
 
-constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths, levelsHavePages};
+std::optional<std::string> onlyTheReferenceWalks(const Settings& s) {
+    if (s.path == Path::reference || s.multiscatter != Multiscatter::walk) return {};
+    return "--multiscatter walk: the reference alone follows light between microfacets; use energy or fdez";
+}
+
+constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths, levelsHavePages,
+                          onlyTheReferenceWalks};
 
 // "''" of a value without any.
 std::string quotedValue(const Settings& settings, std::string_view option) {

@@ -89,6 +89,27 @@ TEST(Parity, OfAmbientLight) {
     }
 }
 
+// One table and one formula, of every kind of light: encodings move the compensation as they move what it
+// compensates.
+TEST(Parity, OfLightBetweenMicrofacets) {
+    for (const auto& [name, multiscatter] : {std::pair("builtin:gallery", Multiscatter::fdez),
+                                             std::pair("builtin:dielectrics", Multiscatter::energy),
+                                             std::pair("builtin:areas", Multiscatter::energy),
+                                             std::pair("builtin:normals", Multiscatter::fdez)}) {
+        UploadedScene& scene = uploaded(name);
+        for (const GBufferEncoding encoding :
+             {GBufferEncoding::full, GBufferEncoding::standard, GBufferEncoding::compact}) {
+            Settings settings = smallPicture(encoding);
+            settings.ambient = {0.3f, 0.4f, 0.5f};
+            settings.multiscatter = multiscatter;
+            const std::vector<Frame> frames =
+                bothPaths(scene.renderer, settings, {litModes.begin(), litModes.end()});
+            encoding == GBufferEncoding::full ? expectBitEqual(frames, litModes.size())
+                                              : expectExplainedLight(frames);
+        }
+    }
+}
+
 // What shades a surface as it is knows nothing of the encoding: another one compiles anew what encodes
 // surfaces, and what captures the geometric normal, which is quantised.
 TEST(Parity, AnotherEncodingCompilesAgainWhatEncodesAlone) {

@@ -53,7 +53,7 @@ struct ProbeLayout {
 using Feature = std::pair<std::uint32_t, std::uint32_t>;
 
 OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::string& shader,
-                        const Feature& feature) {
+                        const std::array<Feature, 2>& features) {
     const OwnedShaderModule module = probeModule(device, shader + ".comp");
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
@@ -61,8 +61,11 @@ OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::stri
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
-    const VkSpecializationMapEntry entry{feature.first, 0, sizeof feature.second};
-    const VkSpecializationInfo specialization{1, &entry, sizeof feature.second, &feature.second};
+    const std::array values{features[0].second, features[1].second};
+    const std::array entries{VkSpecializationMapEntry{features[0].first, 0, sizeof values[0]},
+                             VkSpecializationMapEntry{features[1].first, sizeof values[0], sizeof values[1]}};
+    const std::uint32_t given = features[0].first == features[1].first ? 1 : 2;
+    const VkSpecializationInfo specialization{given, entries.data(), sizeof values, values.data()};
     info.stage.pSpecializationInfo = &specialization;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
@@ -74,16 +77,16 @@ OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::stri
 }  // namespace
 
 std::vector<float> Probes::run(const std::string& shader, const std::vector<float>& input,
-                               std::size_t inWidth, std::size_t outWidth,
-                               std::pair<std::uint32_t, std::uint32_t> feature) {
+                               std::size_t inWidth, std::size_t outWidth, Feature feature, Feature other) {
     Device& device = probeDevice();
     const std::size_t rows = input.size() / inWidth;
     const auto count = static_cast<std::uint32_t>(rows);
     // Each shader is compiled once for all tests.
     static const ProbeLayout layout(device);
-    static std::map<std::pair<std::string, Feature>, OwnedPipeline> pipelines;
-    OwnedPipeline& pipeline = pipelines[{shader, feature}];
-    if (pipeline == VK_NULL_HANDLE) pipeline = makeProbe(device, layout.pipeline, shader, feature);
+    static std::map<std::pair<std::string, std::array<Feature, 2>>, OwnedPipeline> pipelines;
+    const std::array features{feature, other};
+    OwnedPipeline& pipeline = pipelines[{shader, features}];
+    if (pipeline == VK_NULL_HANDLE) pipeline = makeProbe(device, layout.pipeline, shader, features);
 
     const GpuBuffer in(device, "in", input.size() * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                        MemoryUse::upload);

@@ -23,10 +23,11 @@ OwnedShaderModule probeModule(Device& device, const std::string& shader);
 class Probes {
 public:
     // `shader`: file name without ".comp". `input` holds rows of inWidth floats. Returns as many rows of
-    // outWidth floats. `feature`: a specialization constant and its value (shared/contract/features.h); all
-    // others are 0.
+    // outWidth floats. `feature`, `other`: specialization constants and their values
+    // (shared/contract/features.h); all others are 0.
     std::vector<float> run(const std::string& shader, const std::vector<float>& input, std::size_t inWidth,
-                           std::size_t outWidth, std::pair<std::uint32_t, std::uint32_t> feature = {});
+                           std::size_t outWidth, std::pair<std::uint32_t, std::uint32_t> feature = {},
+                           std::pair<std::uint32_t, std::uint32_t> other = {});
 
     Device& device() { return probeDevice(); }
 };

@@ -19,6 +19,7 @@ struct Asked {
     std::vector<Light> lights{lightOf(LightKind::point, {0, 0, 2})};
     double environment_factor = 1;
     glm::dvec3 ambient{0};
+    Multiscatter multiscatter = Multiscatter::off;
     std::vector<std::size_t> casters;
     bool shadowed_environment = false;
     ReferenceMode mode = ReferenceMode::scene;
@@ -54,6 +55,7 @@ struct Asked {
                       .lights = lights,
                       .environment_factor = environment_factor,
                       .ambient = ambient,
+                      .multiscatter = multiscatter,
                       .casters = casters,
                       .shadowed_environment = shadowed_environment,
                       .mode = mode,
@@ -97,6 +99,7 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
         {"far", [](Asked& a) { a.view.camera.far = 100; }},
         {"orthographic", [](Asked& a) { a.view.camera.orthographic = true; }},
         {"ambient", [](Asked& a) { a.ambient.b = 0.1; }},
+        {"multiscatter", [](Asked& a) { a.multiscatter = Multiscatter::fdez; }},
         {"factor of the environment", [](Asked& a) { a.environment_factor = 2; }},
         {"environment", [](Asked& a) { a.scene.environment->radiance.data[5] = 2; }},
         {"size of the environment",

@@ -39,6 +39,17 @@ TEST(SettingsProblem, OnlyDeferredKnowsNoObjects) {
         }
 }
 
+TEST(SettingsProblem, OnlyTheReferenceFollowsLightBetweenMicrofacets) {
+    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
+        for (const auto& [multiscatter, name] : enumNames<Multiscatter>()) {
+            Settings s;
+            s.path = path;
+            s.multiscatter = multiscatter;
+            EXPECT_EQ(s.problem().has_value(), path != Path::reference && multiscatter == Multiscatter::walk)
+                << nameOf(path) << " " << name;
+        }
+}
+
 TEST(SettingsProblem, OnlyTheReferenceInModeSceneHasSamples) {
     for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
         for (const int spp : {1, 2, 65536}) {

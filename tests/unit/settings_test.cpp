@@ -37,6 +37,7 @@ Settings everythingChanged() {
     s.light_cutoff = 1e-3f;
     s.pixel_lights = 0;
     s.area_lights = AreaLights::representative;
+    s.multiscatter = Multiscatter::fdez;
     s.shadows = Shadows::clipmap;
     s.shadow_lights = 7;
     s.shadow_size = 512;
@@ -311,6 +312,8 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"light-kernel", "gather"},
         {"light-cutoff", "0.01"},
         {"area-lights", "representative"},
+        {"multiscatter", "energy"},
+        {"multiscatter", "fdez"},
         {"prepass", "on"},
         {"prepass", "off"},
         {"gbuffer", "compact"},

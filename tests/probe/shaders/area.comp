@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/lib/area.glsl"
+#include "shaders/lib/multiscatter.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 /
@@ -32,7 +33,10 @@ void main() {
     s.albedo = vec3(IN(WIDTH, 22));
     s.dielectric_f0 = vec3(IN(WIDTH, 23));
     s.dielectric_f90 = IN(WIDTH, 24);
-    AreaView a = areaViewOf(makeBrdf(s, v), s.normal, v, vec4(IN3(WIDTH, 25), IN(WIDTH, 28)), IN(WIDTH, 29));
+    Brdf b = makeBrdf(s, v);
+    float magnitude = IN(WIDTH, 28), fresnel = IN(WIDTH, 29);
+    if (on(feature_multiscatter)) b = compensated(b, s, vec2(magnitude - fresnel, fresnel));
+    AreaView a = areaViewOf(b, s.normal, v, vec4(IN3(WIDTH, 25), magnitude), fresnel);
 
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     uint kind = uint(IN(WIDTH, 0));

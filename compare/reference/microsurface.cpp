@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/microsurface.h"
+
+#include "compare/reference/ambient.h"
+#include "compare/reference/brdf.h"
+#include "shared/scene/model/axes.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace diptych::reference {
+namespace {
+
+// Rays along the surface meet a facet at once, as those a hair aside do.
+constexpr double leastCosine = 1e-9;
+constexpr double leastView = 1e-4;  // of n.v, as in the material (README.md, "The model")
+
+double squared(double x) {
+    return x * x;
+}
+
+}  // namespace
+
+// Smith's Lambda for GGX; of directions from below, Lambda(-w) = -1 - Lambda(w).
+double Microsurface::lambda(const glm::dvec3& w) const {
+    const double z = std::clamp(std::abs(w.z), leastCosine, 1.0);
+    const double above = (std::sqrt(1 + squared(alpha_) * (1 - squared(z)) / squared(z)) - 1) / 2;
+    return w.z < 0 ? -1 - above : above;
+}
+
+// A facet that is seen from a direction, above or below: Dupuy and Benyoub 2023, "Sampling Visible GGX
+// Normals with Spherical Caps".
+glm::dvec3 Microsurface::facet(const glm::dvec3& seen_from, Random& random) const {
+    const glm::dvec3 w = glm::normalize(glm::dvec3(alpha_ * seen_from.x, alpha_ * seen_from.y, seen_from.z));
+    const double phi = 2 * std::numbers::pi * random(), z = (1 - random()) * (1 + w.z) - w.z;
+    const double r = std::sqrt(std::clamp(1 - z * z, 0.0, 1.0));
+    const glm::dvec3 h(r * std::cos(phi) + w.x, r * std::sin(phi) + w.y, z + w.z);
+    return glm::normalize(glm::dvec3(alpha_ * h.x, alpha_ * h.y, std::max(h.z, 1e-100)));
+}
+
+// A ray that goes on from a height passes another with the probability (C / C')^Lambda, C being the share of
+// the surface below: for whatever distribution of heights its logarithm is all that is needed. 0 is the top.
+double Microsurface::next(const glm::dvec3& on, double height, Random& random) const {
+    const double passes = lambda(on), share = std::log1p(-random());
+    if (on.z > 0 && share <= passes * height) return 1;
+    return std::min(height - share / passes, 0.0);
+}
+
+// The phase function of facets that are seen from `back_` (their D, Walter et al. 2007, by their projected
+// area), and what of its light reaches the open.
+Microsurface::Facet::Seen Microsurface::Facet::of(const glm::dvec3& to_light) const {
+    const glm::dvec3 h = to_light + back_;
+    const double length = glm::length(h);
+    if (!(to_light.z > 0) || !(length > 1e-12) || !(h.z > 0)) return {0, 0};
+    const double cosine = h.z / length, alpha2 = squared(surface_.alpha_);
+    const double d = alpha2 / (std::numbers::pi * squared(squared(cosine) * (alpha2 - 1) + 1));
+    const double seen = std::abs(1 + surface_.lambda(back_)) * std::max(std::abs(back_.z), leastCosine);
+    return {glm::dot(back_, h) / length, d / (4 * seen) * std::exp(surface_.lambda(to_light) * height_)};
+}
+
+Between::Between(const Surface& surface)
+    : surface_(surface),
+      facets_(Brdf(surface).alpha()),
+      x_(perpendicularTo(surface.normal)),
+      y_(glm::cross(surface.normal, x_)) {
+    from_ = {glm::dot(x_, surface.to_viewer), glm::dot(y_, surface.to_viewer),
+             std::max(glm::dot(surface.normal, surface.to_viewer), leastView)};
+    from_ = glm::normalize(from_);
+    Surface white = surface;
+    white.albedo = glm::dvec3(1);
+    white.metallic = 1;
+    share_ = std::max(1 - specularAlbedo(white).g, 0.0);
+}
+
+Between::Path Between::path(Random& random, const std::function<void(const Add&)>& lights) const {
+    const Surface& s = surface_;
+    const auto local = [&](const glm::dvec3& w) {
+        return glm::dvec3(glm::dot(x_, w), glm::dot(y_, w), glm::dot(s.normal, w));
+    };
+    const auto fresnel = [](const glm::dvec3& f0, double f90, double cosine) {
+        return f0 + (glm::dvec3(f90) - f0) * std::pow(std::clamp(1 - cosine, 0.0, 1.0), 5);
+    };
+    struct Weights {
+        glm::dvec3 layer, metal;
+    };
+    const auto reflected = [&](const Weights& w, double cosine) -> Weights {
+        return {w.layer * fresnel(s.dielectric_f0, s.dielectric_f90, cosine),
+                w.metal * fresnel(s.albedo, 1, cosine)};
+    };
+    const auto mixed = [&](const Weights& w) { return w.layer * (1 - s.metallic) + w.metal * s.metallic; };
+    Path result;
+    Weights weights;
+    glm::dvec3 out;
+    int met = 0;
+    const auto visit = [&](const Microsurface::Facet& facet, double cosine) {
+        if (++met > 1)
+            lights([&](const glm::dvec3& to_light, const glm::dvec3& irradiance) {
+                const Microsurface::Facet::Seen seen = facet.of(local(to_light));
+                if (seen.share > 0)
+                    result.direct += mixed(reflected(weights, seen.cosine)) * (seen.share * irradiance);
+            });
+        weights = reflected(weights, cosine);
+    };
+    do {
+        met = 0;
+        weights = {glm::dvec3(1), glm::dvec3(1)};
+        out = facets_.trace(from_, random, visit);
+    } while (met < 2);
+    result.layer = weights.layer;
+    result.weight = mixed(weights);
+    result.direction = x_ * out.x + y_ * out.y + s.normal * out.z;
+    return result;
+}
+
+}  // namespace diptych::reference
