@@ -58,6 +58,11 @@ public:
         for (const auto& [option, value] : tried)
             if (const std::string_view why = ignoredBecause(requested, option); !why.empty())
                 skip({{"path", std::string(nameOf(requested.path))}, {option, value}}, std::string(why));
+        // Light between microfacets is another model than the others are held against.
+        if (given_.multiscatter == Multiscatter::off && requested.multiscatter != Multiscatter::off)
+            return skip(tried,
+                        "is tried where the command line asks for light between microfacets: give "
+                        "--multiscatter energy");
         const Settings row = effectiveSettings(requested);
         if (const auto problem = row.problem()) return skip(tried, *problem);
         if (std::ranges::count(sweep_.rows, row) == 0) sweep_.rows.push_back(row);
@@ -180,6 +185,8 @@ Settings truthFor(const Settings& given, const std::vector<Settings>& rows) {
     Settings truth = given;
     if (const auto row = std::ranges::find_if(rows, shadowed); !shadowed(given) && row != rows.end())
         truth.shadows = row->shadows;
+    if (std::ranges::any_of(rows, [](const Settings& row) { return row.multiscatter != Multiscatter::off; }))
+        truth.multiscatter = Multiscatter::walk;
     return truth;
 }
 

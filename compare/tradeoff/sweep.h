@@ -37,7 +37,8 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
 inline constexpr std::size_t mostCombinations = 10'000;
 
 // What the reference of the rows follows: the given Settings, but with shadows where any row has them. A
-// sweep over shadows is held against the shadowed truth.
+// sweep over shadows is held against the shadowed truth, one over compensations of light between microfacets
+// against the walk.
 Settings truthFor(const Settings& given, const std::vector<Settings>& rows);
 
 // Skips of one reason: which values of which Settings, or which combinations, in words.

@@ -191,5 +191,24 @@ TEST(TradeoffSweep, DeclaredPairsAndIgnoredSettingsExist) {
     }
 }
 
+// Light between microfacets is swept where the command line asks for it, and held against the walk.
+TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
+    const auto tried = [](const SweepRows& sweep) {
+        std::set<Multiscatter> values;
+        for (const Settings& row : sweep.rows) values.insert(row.multiscatter);
+        return values;
+    };
+    Settings given;
+    const SweepRows usual = usualSweep(given);
+    EXPECT_EQ(tried(usual), std::set{Multiscatter::off});
+    EXPECT_EQ(truthFor(given, usual.rows), given);
+    given.multiscatter = Multiscatter::energy;
+    const SweepRows asked = usualSweep(given);
+    EXPECT_EQ(tried(asked), (std::set{Multiscatter::off, Multiscatter::energy, Multiscatter::fdez}));
+    const Settings truth = truthFor(given, asked.rows);
+    EXPECT_EQ(truth.multiscatter, Multiscatter::walk);
+    EXPECT_EQ(referenceSettings(truth).problem(), std::nullopt);
+}
+
 }  // namespace
 }  // namespace diptych
