@@ -50,6 +50,8 @@ Receiver localReceiver(vec3 p, vec3 n, float rounding, LocalShadow light, LocalF
     r.depth = inverse + light.depth_offset + dot(r.slope, inside - texel_of_q);
     r.aside = inverse * aside / height;
     r.most = max(MOST_LIFT * texel * inverse, rise * depth_of_texel - r.aside);
+    r.highest = 1e30;  // all texels count
+    r.counts = 1.0;
     return r;
 }
 

@@ -69,6 +69,7 @@ float filteredDisc(Receiver r, uint layer, float width) {
             for (int i = 0; i < 4; ++i) {
                 vec2 texel = corner + GATHERED[i];
                 float weight = clamp(0.5 * width + 0.5 - lengthOf(texel - r.texel), 0.0, 1.0);
+                weight *= countOf(r, texel);
                 lit += weight * seesLight(r, stored[i], texel);
                 area += weight;
             }
@@ -76,7 +77,7 @@ float filteredDisc(Receiver r, uint layer, float width) {
         }
         NEXT(rows);
     }
-    return lit / area;
+    return area > 0.0 ? lit / area : 1.0;
 }
 
 // `r`: for the least width, that of feature_shadow_kernel. In a wide filter the plane may rise to half way to
@@ -86,7 +87,7 @@ float softlyFiltered(Surface s, ShadowLight light, Cascade cascade, Receiver r, 
     vec2 blocker = blockerDistance(r, layer, cone, light.widest);
     float most = max(r.most, 0.5 * blocker.y), steepest = 2.0 * most / lengthOf(r.slope) - 1.0;
     float width = max(min(min(2.0 * cone * blocker.x, light.widest), steepest), float(feature_shadow_kernel));
-    Receiver soft = receiverOf(s, light, cascade, width, most * texels);
+    Receiver soft = receiverOf(s, light, cascade, most * texels);
     return filteredDisc(soft, layer, width);
 }
 

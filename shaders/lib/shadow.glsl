@@ -45,14 +45,17 @@ float pageResidency(vec3 position) {
 // wherever a filter reads. Nothing is derived from neighbouring pixels.
 //
 // A texel towards which the plane rises is compared with the plane, but only up to MOST_LIFT texels above the
-// surface: farther up the triangle may have ended, and what stands there would be taken for it. A plane that
-// is steeper than that within the filter is moved aside by the rest, along its normal, until it is not.
+// surface: farther up the triangle may have ended, and what stands there would be taken for it. Where the
+// plane rises more, texels do not count, and they fade out before that: those that it falls towards are left,
+// and no texel beside the filter is read for them.
 struct Receiver {
     vec2 texel;
     float depth;
-    vec2 slope;   // of depth, per texel
-    float aside;  // by how much the plane's depth falls from moving aside
-    float most;   // depth of MOST_LIFT texels
+    vec2 slope;     // of depth, per texel
+    float aside;    // by how much the plane's depth falls from moving the surface aside, where that is done
+    float most;     // depth of MOST_LIFT texels
+    float highest;  // depth above the surface at which a texel of the plane counts for nothing
+    float counts;   // per depth: how much of it counts for what it is lower than that
 };
 
 const float MOST_LIFT = 2.0;
@@ -60,19 +63,12 @@ const float MOST_LIFT = 2.0;
 // through the whole scene within few texels.
 const float LEAST_SLOPE_COSINE = 1e-3;
 
-// `width`: of the filter, texels; `most`: of the plane above the surface, texels.
-Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float width, float most) {
+// `most`: of the plane above the surface, texels.
+Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float most) {
     vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
     float cosine = max(dot(s.geometric_normal, light.to_light), LEAST_SLOPE_COSINE);
-    float sine = max(lengthOf(across), LEAST_SLOPE_COSINE);
-    float steepness = sine / cosine;
-    // From the surface to the filter's farthest texel, in the direction in which the plane rises.
-    float reach = (0.5 * width + 0.5) * (abs(across.x) + abs(across.y)) / sine;
-    bool compares = feature_shadows == SHADOWS_PCF || feature_shadows == SHADOWS_PCSS ||
-                    feature_shadows == SHADOWS_CLIPMAP;
-    float aside = compares ? max(reach - most / steepness, 0.0) : 0.0;
     float texel = 1.0 / cascade.texels_per_metre;
-    float bias = (cascade.bias + aside) * texel + light.rounding * lengthOf(s.position);
+    float bias = cascade.bias * texel + light.rounding * lengthOf(s.position);
     vec3 position = s.position + s.geometric_normal * bias;
     float depth_of_texel = texel * light.depth_scale;
     Receiver r;
@@ -80,8 +76,10 @@ Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float width, 
         vec2(dot(position, light.x), dot(position, light.y)) * cascade.texels_per_metre + cascade.offset;
     r.depth = dot(position, light.to_light) * light.depth_scale + light.depth_offset;
     r.slope = across * (-depth_of_texel / cosine);
-    r.aside = aside * steepness * depth_of_texel;
+    r.aside = 0.0;
     r.most = most * depth_of_texel;
+    r.highest = r.most;
+    r.counts = 1.0 / depth_of_texel;
     return r;
 }
 
@@ -89,6 +87,11 @@ Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float width, 
 float seesLight(Receiver r, float stored, vec2 texel) {
     float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.most);
     return stored > r.depth + lift ? 0.0 : 1.0;
+}
+
+// How much of a texel counts, 0 to 1.
+float countOf(Receiver r, vec2 texel) {
+    return clamp((r.highest - dot(r.slope, texel - r.texel)) * r.counts, 0.0, 1.0);
 }
 
 // A box of feature_shadow_kernel texels around the receiver: every texel counts by how much of it lies in the
@@ -108,6 +111,10 @@ float filtered(sampler2DArray map, Receiver r, vec2 shift, uint layer) {
             vec2 wy = vec2(y == 0u ? 1.0 - part.y : 1.0, y + 1u == feature_shadow_kernel ? part.y : 1.0);
             vec4 weights =
                 vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);  // in textureGather's order
+            weights.x *= countOf(r, corner + vec2(0.5, 1.5));
+            weights.y *= countOf(r, corner + vec2(1.5, 1.5));
+            weights.z *= countOf(r, corner + vec2(1.5, 0.5));
+            weights.w *= countOf(r, corner + vec2(0.5, 0.5));
             lit += weights.x * seesLight(r, stored.x, corner + vec2(0.5, 1.5));
             lit += weights.y * seesLight(r, stored.y, corner + vec2(1.5, 1.5));
             lit += weights.z * seesLight(r, stored.z, corner + vec2(1.5, 0.5));
@@ -118,7 +125,7 @@ float filtered(sampler2DArray map, Receiver r, vec2 shift, uint layer) {
             area += weights.w;
         }
     }
-    return lit / area;
+    return area > 0.0 ? lit / area : 1.0;
 }
 
 // One sample of what a blur has filtered.
@@ -132,7 +139,7 @@ float filteredMoments(Receiver r, uint layer, ShadowLight light) {
 
 float cascadeVisibility(Surface s, ShadowLight light, uint layer) {
     Cascade cascade = cascadeAt(layer);
-    Receiver r = receiverOf(s, light, cascade, float(feature_shadow_kernel), MOST_LIFT);
+    Receiver r = receiverOf(s, light, cascade, MOST_LIFT);
     if (feature_shadows == SHADOWS_PCF) return filtered(shadow_map, r, vec2(0.0), layer);
     if (feature_shadows == SHADOWS_PCSS) return softlyFiltered(s, light, cascade, r, layer);
     return filteredMoments(r, layer, light);
@@ -141,7 +148,7 @@ float cascadeVisibility(Surface s, ShadowLight light, uint layer) {
 float clipmapVisibility(Surface s, ShadowLight light) {
     ClipmapPage page = servingPage(light, s.position);
     Cascade level = clipmapLevel(uint(page.level));
-    Receiver r = receiverOf(s, light, level, float(feature_shadow_kernel), MOST_LIFT);
+    Receiver r = receiverOf(s, light, level, MOST_LIFT);
     return filtered(shadow_map, r, page.shift, 0);
 }
 
