@@ -152,14 +152,16 @@ float clipmapVisibility(Surface s, ShadowLight light) {
     return filtered(shadow_map, r, page.shift, 0);
 }
 
-float cascadedVisibility(Surface s, ShadowLight light) {
+// `faces`: whether the triangle is turned to the sun. Where none of a few pixels side by side is, nothing is
+// read for them: a loop that none enters is left out, while both sides of a branch are run.
+float cascadedVisibility(Surface s, ShadowLight light, bool faces) {
     float depth = dot(s.position, light.forward);
     uint first = cascadeOf(light, depth);
     float fade = light.fades[min(first, MAX_CASCADES - 1u)], end = light.ends[min(first, MAX_CASCADES - 1u)];
     bool blends = depth > fade && first + 1u < feature_shadow_cascades;
     float next = blends ? (depth - fade) / (end - fade) : 0.0;
     float visibility = first < feature_shadow_cascades ? 0.0 : 1.0;
-    uvec2 range = uvec2(first, min(first + (blends ? 2u : 1u), feature_shadow_cascades));
+    uvec2 range = uvec2(first, faces ? min(first + (blends ? 2u : 1u), feature_shadow_cascades) : first);
     float weight = 1.0 - next;
     EACH(range) {
         visibility += weight * cascadeVisibility(s, light, range.x);
@@ -173,12 +175,18 @@ float cascadedVisibility(Surface s, ShadowLight light) {
 float sunVisibility(Surface s) {
     if (!on(feature_shadows)) return 1.0;
     ShadowLight light = shadowLight();
+    bool faces = dot(s.geometric_normal, light.to_light) > 0.0;
     float visibility = 0.0;
-    if (feature_shadows == SHADOWS_CLIPMAP)
-        visibility = clipmapVisibility(s, light);
-    else
-        visibility = cascadedVisibility(s, light);
-    return dot(s.geometric_normal, light.to_light) > 0.0 ? visibility : 0.0;
+    if (feature_shadows == SHADOWS_CLIPMAP) {
+        uvec2 once = uvec2(0, faces ? 1 : 0);
+        EACH(once) {
+            visibility = clipmapVisibility(s, light);
+            NEXT(once);
+        }
+    } else {
+        visibility = cascadedVisibility(s, light, faces);
+    }
+    return faces ? visibility : 0.0;
 }
 
 #endif

@@ -17,8 +17,8 @@ CONTRACT_BEGIN
 // clang-format on
 // Between samples it is cubic: Lagrange's polynomial through the nearest four, at the rim through the last
 // four. Within 6e-5 of the integral everywhere.
-CONTRACT_CONST(uint, ALBEDO_TABLE_WIDTH, 64);
-CONTRACT_CONST(uint, ALBEDO_TABLE_HEIGHT, 32);
+CONTRACT_CONST(uint, ALBEDO_TABLE_WIDTH, 96);
+CONTRACT_CONST(uint, ALBEDO_TABLE_HEIGHT, 48);
 CONTRACT_CONST(float, ALBEDO_BLEND, 0.3f);
 
 CONTRACT_END
