@@ -2,6 +2,7 @@
 #include "deferred/deferred.h"
 
 #include "shared/contract/debug_mode.h"
+#include "shared/draw/background.h"
 #include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
@@ -97,6 +98,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
     addDeferredLighting(passes, shade, inputs, images, Shader::deferred_shade_frag, lightingVariant(inputs),
                         {litFormat}, last);
+    addBackground(passes, inputs, images.depth, images.lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
@@ -110,8 +112,9 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         addGBuffer(passes, inputs, frame, true);
     const LightBatch last = addEarlierLighting(passes, inputs, frame);
     for (const CaptureGroup& group : captureGroups(request.modes)) {
+        const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
         Pass& pass = passes.draw("capture");
-        for (const CapturedImage& image : addCaptureImages(passes, pass, group)) images.push_back(image);
+        for (const CapturedImage& image : addCaptureImages(passes, pass, group, lit)) images.push_back(image);
         Variant variant = lightingVariant(inputs);
         group.specialise(variant);
         addDeferredLighting(passes, pass, inputs, frame, Shader::deferred_capture_frag, variant,

@@ -2,6 +2,7 @@
 #include "forward_plus/forward_plus.h"
 
 #include "shared/contract/encoded_surface.h"
+#include "shared/draw/background.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
 #include "shared/shadow/shadow_maps.h"
@@ -69,6 +70,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     });
     images.lit = passes.image("lit", litFormat);
     addShading(passes.draw("shade").color(images.lit, Load::clear), last, forwardKey);
+    addBackground(passes, inputs, images.depth, images.lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
@@ -90,8 +92,9 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
                 shaded);
         });
         for (const CaptureGroup& group : captureGroups(modes)) {
+            const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
-            for (CapturedImage image : addCaptureImages(passes, pass, group)) {
+            for (CapturedImage image : addCaptureImages(passes, pass, group, lit)) {
                 image.surface = surface;
                 images.push_back(image);
             }

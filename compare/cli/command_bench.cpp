@@ -46,7 +46,6 @@ BenchOptions benchOptions(const Options& options) {
 
 int runBench(const Options& options) {
     checkBenchOptions(options);
-    refuseUndrawn({&options.settings, 1});
     const BenchOptions requested = benchOptions(options);
     const BenchCases cases = casesOf(options, requested);
     const std::filesystem::path folder = outputFolder(options, "diptych-bench", "benchmark", benchManifest);

@@ -216,7 +216,6 @@ Report reportOf(const Options& options, CompareOptions compare, Drawn& drawn, st
 
 int runCompare(const Options& options) {
     const std::vector<Settings> settings = settingsOf(options, pathsOf(options));
-    refuseUndrawn(settings);
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare draws both");

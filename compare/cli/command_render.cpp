@@ -206,7 +206,6 @@ void noteIgnored(const Options& options) {
 int runRender(const Options& options) {
     if (options.list_scenes) return listScenes(options);
     const std::vector<Settings> settings = settingsOf(options, {options.settings.path});
-    refuseUndrawn(settings);
     checkChannels(options);
     noteIgnored(options);
     const PictureChoice picture = pictureChoice(options);

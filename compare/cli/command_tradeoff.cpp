@@ -253,7 +253,6 @@ private:
 
 int runTradeoff(const Options& options) {
     checkTradeoffOptions(options);
-    refuseUndrawn({&options.settings, 1});
     const Settings& given = options.settings;
     SweepRows sweep =
         makeSweepRows(given, options.grid.empty() ? usualGrids(given) : readGrids(options.grid, given));

@@ -2,7 +2,6 @@
 #include "compare/cli/commands.h"
 
 #include "compare/files/output.h"
-#include "compare/render/left_out.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/titles.h"
 #include "compare/run/color.h"
@@ -74,10 +73,6 @@ std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>
             all.push_back(path == Path::reference ? referenceSettings(settings) : settings);
         }
     return all;
-}
-
-void refuseUndrawn(std::span<const Settings> settings) {
-    if (const auto undrawn = undrawnSetting(settings)) throw std::runtime_error(*undrawn);
 }
 
 std::optional<ProgressOutput> progressOutput(const Options& options) {

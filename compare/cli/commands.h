@@ -38,9 +38,6 @@ int runDevices(const Options& options);
 // One Settings per camera and path, the paths of one camera side by side. Throws the first problem().
 std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths);
 
-// Throws where the Settings ask for what none of the paths under test draws (left_out.h).
-void refuseUndrawn(std::span<const Settings> settings);
-
 // Standard error; empty with --quiet.
 std::optional<ProgressOutput> progressOutput(const Options& options);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/settings_help.h"
 
-#include "compare/render/left_out.h"
-
 #include <algorithm>
 #include <sstream>
 #include <vector>
@@ -31,7 +29,7 @@ std::vector<Settings> candidates() {
             }
         }
     }
-    std::erase_if(all, [](const Settings& s) { return s.problem() || undrawnSetting({&s, 1}); });
+    std::erase_if(all, [](const Settings& s) { return s.problem().has_value(); });
     return all;
 }
 
@@ -41,7 +39,7 @@ bool isDrawnBy(const std::string& command, const Field& field) {
     static const std::vector<Settings> drawn = candidates();
     return std::ranges::any_of(drawn, [&](const Settings& s) {
         // The reference beside the paths gets nothing that neither of them draws yet.
-        const bool later = field.default_only.because.starts_with(row::not_built) || s.env != Settings().env;
+        const bool later = field.default_only.because.starts_with(row::not_built);
         if (later && command != "render" && s.path == Path::reference) return false;
         if (!ignoredBecause(s, field.option).empty()) return false;
         if (field.option == "env") return s.env != Settings().env;

@@ -194,7 +194,9 @@ Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureSc
     Image8 result = blank(image);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const float* p = image.pixel(i);
-        if (!seen.covered[i])
+        // Nothing was drawn there: the environment, where the frame shows one.
+        if (!seen.covered[i] && (mode.number != gpu::DEBUG_lit ||
+                                 std::all_of(p, p + image.components, [](float v) { return v == 0; })))
             put(result, i, background);
         else if (!std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); }))
             put(result, i, nonfiniteColor);

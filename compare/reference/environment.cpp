@@ -40,9 +40,10 @@ constexpr int mostAcross = 32, mostDown = 16;
 
 // A pixel's weight is the mean over the pixel of the bilinearly interpolated brightness, so that it is never
 // 0 where there is light.
-EnvironmentLight::EnvironmentLight(const Environment& environment, double factor)
+EnvironmentLight::EnvironmentLight(const Environment& environment, double factor, double turned)
     : image_(environment.radiance),
       factor_(factor),
+      turned_(turned),
       across_(std::min(mostAcross, image_.width)),
       down_(std::min(mostDown, image_.height)) {
     const int width = image_.width, height = image_.height;
@@ -102,12 +103,19 @@ glm::dvec3 EnvironmentLight::texel(int x, int y) const {
 }
 
 glm::dvec3 EnvironmentLight::directionOf(double x, double y) const {
-    const double azimuth = 2 * pi * x / image_.width - pi, polar = pi * y / image_.height;
+    const double azimuth = 2 * pi * x / image_.width - pi - turned_, polar = pi * y / image_.height;
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
+// A turn towards +X, which azimuths grow towards, is clockwise: what is seen at an azimuth stood at a larger
+// one.
+double EnvironmentLight::column(const glm::dvec3& d) const {
+    const double turns = (std::atan2(d.x, -d.z) + turned_) / (2 * pi) + 0.5;
+    return (turns - std::floor(turns)) * image_.width;
+}
+
 glm::dvec3 EnvironmentLight::radiance(const glm::dvec3& d) const {
-    const double x = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * image_.width - 0.5;
+    const double x = column(d) - 0.5;
     const double y = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi * image_.height - 0.5;
     const double left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
     const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
@@ -117,7 +125,7 @@ glm::dvec3 EnvironmentLight::radiance(const glm::dvec3& d) const {
 }
 
 EnvironmentLight::Pixel EnvironmentLight::pixelOf(const glm::dvec3& d) const {
-    const double x = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5) * image_.width;
+    const double x = column(d);
     const double y = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi * image_.height;
     return {std::clamp(static_cast<int>(x), 0, image_.width - 1),
             std::clamp(static_cast<int>(y), 0, image_.height - 1)};

@@ -15,7 +15,8 @@ namespace diptych::reference {
 
 class EnvironmentLight {
 public:
-    EnvironmentLight(const Environment& environment, double factor);
+    // `turned`: about +Y, counter-clockwise seen from above, rad.
+    EnvironmentLight(const Environment& environment, double factor, double turned = 0);
 
     bool black() const { return !(brightness_ > 0) || factor_ == 0; }
     glm::dvec3 radiance(const glm::dvec3& direction) const;  // W/(sr m^2); direction unit
@@ -51,13 +52,14 @@ private:
     struct Pixel {
         int x, y;
     };
+    double column(const glm::dvec3& direction) const;  // in pixels, from 0 to the width
     glm::dvec3 texel(int x, int y) const;
     glm::dvec3 directionOf(double x, double y) const;  // x, y in pixels
     Pixel pixelOf(const glm::dvec3& direction) const;
     std::size_t blockOf(Pixel pixel) const;
 
     const Image& image_;
-    double factor_, brightness_ = 0;
+    double factor_, turned_, brightness_ = 0;
     std::vector<Block> blocks_;
     int across_ = 1, down_ = 1;   // blocks
     std::vector<double> weight_;  // of each pixel: brightness times solid angle

@@ -175,7 +175,7 @@ private:
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
                    const glm::dvec3& eye, const glm::dvec3& ambient, std::span<const std::size_t> casters,
-                   bool shadowed_environment, Multiscatter multiscatter)
+                   bool shadowed_environment, Multiscatter multiscatter, double environment_turned)
     : ambient_(ambient), shadowed_environment_(shadowed_environment), multiscatter_(multiscatter) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const Light& light = lights[i];
@@ -186,7 +186,7 @@ Lighting::Lighting(std::span<const Light> lights, const Environment* environment
         else
             punctual_.push_back({light, light.position - eye, casts});
     }
-    if (environment) environment_.emplace(*environment, environment_factor);
+    if (environment) environment_.emplace(*environment, environment_factor, environment_turned);
     if (environment_ && environment_->black()) environment_.reset();
 }
 
@@ -205,7 +205,9 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
     for (std::size_t i = 0; i < emitters_.size(); ++i)
         sum += fromEmitter(emitters_[i].emitter, surface.position, brdf,
                            emitters_[i].casts ? visible : Visibility{}, streamOf(seed, i + 1));
-    if (environment_) sum += fromEnvironment(brdf, shadowed_environment_ ? visible : Visibility{}, seed);
+    if (environment_)
+        sum +=
+            fromEnvironment(brdf, shadowed_environment_ ? visible : Visibility{}, seed) * surface.occlusion;
     // A lightmap has no directions: its irradiance is assumed uniform, and only the diffuse base reflects
     // it.
     if (ambient_ + surface.lightmap != glm::dvec3(0))
@@ -271,7 +273,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
         // Light from everywhere in the place of `diffuse`.
         Reflected sum{path.weight * ambient_, path.direct};
         if (environment_ && (!shadowed_environment_ || !visible || visible(path.direction, infinity)))
-            sum.specular += path.weight * environment_->radiance(path.direction);
+            sum.specular += path.weight * environment_->radiance(path.direction) * surface.occlusion;
         return sum * share;
     };
     Shading more;

@@ -57,7 +57,12 @@ public:
     Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
              std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
-             Multiscatter multiscatter = Multiscatter::off);
+             Multiscatter multiscatter = Multiscatter::off, double environment_turned = 0);
+
+    // What is seen where no surface is, W/(sr m^2).
+    glm::dvec3 background(const glm::dvec3& direction) const {
+        return environment_ ? environment_->radiance(direction) : glm::dvec3(0);
+    }
 
     // `visible`, for what casts shadows; empty: nothing does. `seed` identifies the shaded surface, for
     // sampling.

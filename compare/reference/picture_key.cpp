@@ -99,6 +99,7 @@ std::uint64_t keyOf(const Request& request) {
         key.add(l.axis);
     }
     key.add(request.environment_factor);
+    key.add(request.environment_turned);
     key.add(request.ambient);
     key.add(request.multiscatter);
     if (request.scene.environment) {

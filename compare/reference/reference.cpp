@@ -171,7 +171,7 @@ public:
           materials_(request.scene, geometry_),
           lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
                     request.environment_factor, eye_, request.ambient, request.casters,
-                    request.shadowed_environment, request.multiscatter),
+                    request.shadowed_environment, request.multiscatter, request.environment_turned),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         for (const std::size_t caster : request.casters)
             if (!sun_ && request.lights[caster].kind == LightKind::directional)
@@ -295,7 +295,10 @@ private:
     Pixel renderCaptured(int x, int y, std::uint64_t seed) const {
         const Captured captured(*request_.surfaces);
         Pixel pixel;
-        if (!captured.isSurface(seed)) return pixel;
+        if (!captured.isSurface(seed)) {
+            pixel.lit = lighting_.background(glm::normalize(rays_.through(x + 0.5, y + 0.5).direction));
+            return pixel;
+        }
         Surface s = captured.surface(seed, rays_);
         pixel.depth = captured.depth(seed);
         Visibility visible;
@@ -358,6 +361,7 @@ private:
             from = hit->t;
             last = hit->id;
         }
+        pixel.lit += lighting_.background(glm::normalize(ray.direction)) * through;
         return pixel;
     }
 

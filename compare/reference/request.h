@@ -26,7 +26,8 @@ struct Request {
     const View& view;
     std::span<const Light> lights;  // in world space; the environment is the scene's
     double environment_factor = 1;
-    glm::dvec3 ambient{0};  // radiance from all directions, W/(sr m^2); attenuated by occlusion
+    double environment_turned = 0;  // about +Y, counter-clockwise seen from above, rad
+    glm::dvec3 ambient{0};          // radiance from all directions, W/(sr m^2); attenuated by occlusion
     Multiscatter multiscatter = Multiscatter::off;
     std::vector<std::size_t> casters = {};  // into `lights`: those that cast shadows
     bool shadowed_environment = false;      // whether the environment is shadowed too

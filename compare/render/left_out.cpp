@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace diptych {
 
@@ -28,7 +29,6 @@ std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
     if (needs.sun_discs > 0)
         note(needs.sun_discs == 1 ? "1 sun's disc" : fmt::format("{} suns' discs", needs.sun_discs),
              needs.sun_discs == 1);
-    if (!needs.environment.empty()) note("environment " + needs.environment, true);
     return notes;
 }
 
@@ -48,17 +48,6 @@ std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const 
     if (others.empty()) return {};
     return {fmt::format("of {} directional lights the brightest, {}, casts a shadow; without one: {}",
                         others.size() + 1, nameOf(lights[*sun], *sun), fmt::join(others, ", "))};
-}
-
-std::optional<std::string> undrawnSetting(std::span<const Settings> paths) {
-    const auto isReference = [](const Settings& s) { return s.path == Path::reference; };
-    if (paths.empty() || std::ranges::all_of(paths, isReference)) return {};
-    const Settings& asked = paths.front();
-    if (asked.env == Settings().env) return {};
-    return fmt::format(
-        "--env {}: neither deferred nor forward_plus draws an environment yet; leave it out, or see it with "
-        "render --path reference",
-        asked.env);
 }
 
 }  // namespace diptych

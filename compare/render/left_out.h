@@ -5,8 +5,6 @@
 #include "shared/scene/model/scene.h"
 #include "shared/scene/requirements.h"
 
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,10 +18,5 @@ std::vector<std::string> leftOutMotion(Path path, const Requirements& needs);
 
 // What of the lights casts no shadow where shadows are asked for.
 std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings);
-
-// Why it cannot be drawn what the Settings ask for, naming the option: where none of the paths under test
-// draws it, a picture without it would be taken for one with it. The reference, drawn beside them, is no such
-// path unless it is alone.
-std::optional<std::string> undrawnSetting(std::span<const Settings> paths);
 
 }  // namespace diptych

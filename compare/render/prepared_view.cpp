@@ -47,12 +47,14 @@ std::optional<CastingSun> castingSun(const std::vector<Light>& given, const GpuL
     return {};
 }
 
-GpuLights lightsOf(const std::vector<Light>& lights, const View& view, const Settings& settings) {
+GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
+    const std::vector<Light>& lights = seen.lights;
     const LocalCasting casting =
         settings.shadows == Shadows::off ? LocalCasting{} : localCasting(lights, settings.shadow_lights);
     GpuLights result =
-        gpuLights(withCutoff(lights, double{settings.light_cutoff}), view.eye(), casting.lights);
+        gpuLights(withCutoff(lights, double{settings.light_cutoff}), seen.view.eye(), casting.lights);
     result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
+    result.environment = EnvironmentLight::isLit(seen.environment, settings);
     // What is not shaded per pixel cannot be shadowed.
     if (const std::optional<CastingSun> sun = castingSun(lights, result, settings))
         result.importance[sun->light] = Importance::important;
@@ -81,18 +83,21 @@ SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<
       set(shared ? std::move(shared) : std::make_shared<PipelineSet>(d)),
       layouts(set->layouts),
       pipelines(set->pipelines),
-      clipmaps(d, layouts.frame) {
+      clipmaps(d, layouts.frame),
+      environments(d) {
     uploader.flush();
 }
 
 PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneView& seen,
                            const Settings& settings)
     : scene(seen),
-      lights(lightsOf(scene.lights, scene.view, settings)),
+      lights(lightsOf(scene, settings)),
       draws(makeDrawList(scene.pose, shared.geometry, shared.materials, scene.view)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings), settings.multiscatter),
+      environment(device, shared.uploader, shared.environments, scene.environment,
+                  buffers.placeholders().texel(), buffers.sets(), settings),
       shadow(device, shared.uploader, scene.pose, shared.geometry, shared.materials, scene.view, draws,
              lights, scene.lights, buffers.placeholders(), buffers.sets(), settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
@@ -116,6 +121,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
     shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
                    castingSun(scene.lights, lights, settings));
     shadow.specialise(inputs.variant);
+    environment.specialise(inputs.variant);
     buffers.lists().specialise(inputs.variant);
     if (device.profile().gathers_uniforms) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
     const LightLists& lists = buffers.lists();
@@ -127,6 +133,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
     notes = functionsOf(settings.path).prepare(inputs, settings);
     shadow.choosePages(inputs);
     std::ranges::move(shadow.notes(), std::back_inserter(notes));
+    std::ranges::copy(environment.notes(), std::back_inserter(notes));
 }
 
 PreparedFrame::PreparedFrame(Device& device, SharedResources& shared, const SceneView& scene,
@@ -163,9 +170,10 @@ Frame describedFrame(const PreparedFrame& prepared, const SharedResources& share
 }
 
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
-    return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes(),
+    return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
+                shared.environments.bytes(),
             shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
-                prepared.view.shadow.bytes(),
+                prepared.view.shadow.bytes() + prepared.view.environment.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};
 }
 

@@ -6,6 +6,7 @@
 #include "compare/render/path_table.h"
 #include "shared/draw/frame_buffers.h"
 #include "shared/draw/frame_inputs.h"
+#include "shared/environment/environment_light.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
 #include "shared/shadow/shadow_maps.h"
@@ -37,6 +38,7 @@ struct SharedResources {
     Layouts& layouts;
     Pipelines& pipelines;
     ClipmapAtlases clipmaps;
+    EnvironmentStore environments;
 };
 
 // One view of the scene under one Settings, ready for passes. It refers to the arguments of its constructor,
@@ -52,6 +54,7 @@ public:
     GpuLights lights;
     DrawList draws;
     FrameBuffers buffers;
+    EnvironmentLight environment;
     ShadowMaps shadow;
     GBufferLayout gbuffer;
     FrameInputs inputs;

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -58,6 +59,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .view = view.view,
         .lights = view.lights,
         .environment_factor = double{settings.ibl_intensity},
+        .environment_turned = glm::radians(double{settings.env_rotation}),
         .ambient = {double{settings.ambient.r}, double{settings.ambient.g}, double{settings.ambient.b}},
         .multiscatter = settings.multiscatter,
         .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}

@@ -61,14 +61,20 @@ float baseShare(Brdf b) {
     return share;
 }
 
+// Of light from everywhere the share that the specular lobe sends to the viewer.
+vec3 lobeShare(Brdf b) {
+    vec2 lobe = b.albedo;
+    if (!on(feature_multiscatter)) lobe = specularAlbedo(b.alpha, b.n_dot_v);
+    vec3 share = b.f0 * lobe.x + b.f90 * lobe.y;
+    return share;
+}
+
 // What `b` sends to the viewer of radiance `ambient` from everywhere and of the irradiance `lightmap` times
 // pi, which the base alone reflects; W/(sr m^2), unoccluded.
 vec3 reflectedAmbient(Brdf b, vec3 ambient, vec3 lightmap) {
     vec3 radiance = vec3(0.0);
     if (on(feature_ambient)) {
-        vec2 lobe = b.albedo;
-        if (!on(feature_multiscatter)) lobe = specularAlbedo(b.alpha, b.n_dot_v);
-        vec3 reflected = b.f0 * lobe.x + b.f90 * lobe.y;
+        vec3 reflected = lobeShare(b);
         if (feature_multiscatter == MULTISCATTER_FDEZ) reflected += b.between * PI;
         radiance = reflected * ambient;
     }

@@ -13,6 +13,7 @@
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/encoded_surface.h"
+#include "shared/contract/environment.h"
 #include "shared/contract/features.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"

@@ -14,6 +14,7 @@
 #include "shaders/lib/area.glsl"
 #endif
 #include "shaders/lib/brdf.glsl"
+#include "shaders/lib/environment.glsl"
 #include "shaders/lib/encoded_surface.glsl"
 #include "shaders/lib/partial_sums.glsl"
 #include "shaders/lib/light_lists.glsl"
@@ -108,7 +109,7 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
         step(walk);                                                                                     \
     }
 
-// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light alone.
+// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments alone.
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, shadedBrdf(s, v));
@@ -125,6 +126,8 @@ Radiance shade(Surface s, PixelLights lights) {
         vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
         radiance.diffuse = reflected;
     }
+    if (on(feature_environment) && feature_light_batch != BATCH_LATER)
+        addEnvironment(s, shading.brdf, v, radiance.diffuse, radiance.specular);
     if (on(feature_directional_lights) && feature_light_batch != BATCH_LATER) {
         radiance.sun_visibility = sunVisibility(s);
         uvec2 range = directionalPackets();

@@ -36,7 +36,10 @@ CONTRACT_END
     X(13, SHADOW_LIGHT, texel_buffer,   "ShadowLight, eight texels, then Cascade[], clipmap.h") \
     X(14, SHADOW_MAP,   image,          "depth or moments of the cascades, a layer each; pages") \
     X(15, LOCAL_SHADOW_LIGHTS, texel_buffer, "LocalCasters, then nine texels a light")        \
-    X(16, LOCAL_SHADOW_MAP, image,      "depth in the tiles of local lights, an array of one layer")
+    X(16, LOCAL_SHADOW_MAP, image,      "depth in the tiles of local lights, an array of one layer") \
+    X(17, ENVIRONMENT,      texel_buffer, "where its maps lie, and its harmonics: environment.h")     \
+    X(18, ENVIRONMENT_MAPS, image,      "octahedral maps, RGBA32F, W/(sr m^2)")                      \
+    X(19, SKY,              image,      "the environment, lat-long, RGBA32F, W/(sr m^2)")
 
 #define PARTIAL_SUM_BINDINGS(X)                                                               \
     X(0, PARTIAL_DIFFUSE,  image, "RGBA32F, W/(sr m^2)")                                      \

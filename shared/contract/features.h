@@ -49,7 +49,7 @@
     X(25, capture_5,                  pass,    0, PASSES_SHADE)                                             \
     X(26, capture_6,                  pass,    0, PASSES_SHADE)                                             \
     X(27, capture_7,                  pass,    0, PASSES_SHADE)                                             \
-    X(28, orthographic,               frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)              \
+    X(28, orthographic,               frame,   0, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_BACKGROUND) \
     /* KHR_materials_unlit: emits its base colour, reflects nothing */                                      \
     X(29, unlit,                      item,    0, PASSES_SURFACE)                                           \
     X(30, spot_lights,                frame,   0, PASSES_SHADE | PASS_LISTS)                                \
@@ -70,7 +70,7 @@
     /* beyond the packed format's range: float32 */                                                         \
     X(40, gbuffer_wide_lightmap,      gbuffer, 0, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* VIEW_*: where a fragment shader has the view from */                                                 \
-    X(41, view_source,                frame,   0, PASSES_SHADE)                                             \
+    X(41, view_source,                frame,   0, PASSES_SHADE | PASS_BACKGROUND)                           \
     /* for channels, which may need more than shading does */                                               \
     X(42, captured,                   pass,    3, PASSES_SURFACE)                                           \
     /* a depth pre-pass has stored the depth, which the draw reads */                                       \
@@ -83,7 +83,9 @@
     /* a sum of LOCAL_SHADOWS_* of local_shadow.h; normals as for shadows */                                \
     X(47, local_shadows,              frame,   2, PASSES_SURFACE | PASS_LIGHTING)                           \
     /* MULTISCATTER_* of multiscatter.h */                                                                  \
-    X(48, multiscatter,               frame,   0, PASSES_SHADE)
+    X(48, multiscatter,               frame,   0, PASSES_SHADE)                                             \
+    /* a sum of ENVIRONMENT_* of environment.h */                                                           \
+    X(49, environment,                frame,   0, PASSES_SHADE)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -101,6 +103,7 @@ CONTRACT_CONST(uint, PASS_GBUFFER, 4);         // surface.vert, gbuffer.frag
 CONTRACT_CONST(uint, PASS_LIGHTING, 8);        // deferred lighting and its captures: deferred_*
 CONTRACT_CONST(uint, PASS_LISTS, 16);          // light_*.comp
 CONTRACT_CONST(uint, PASS_SHADOWS, 32);        // moments of shadow maps: shadow_*.comp
+CONTRACT_CONST(uint, PASS_BACKGROUND, 64);     // background.frag
 CONTRACT_CONST(uint, PASSES_DRAW, 1 | 2 | 4);  // those that draw the scene's triangles
 CONTRACT_CONST(uint, PASSES_SURFACE, 2 | 4);   // those that make a Surface from a material
 CONTRACT_CONST(uint, PASSES_SHADE, 2 | 8);     // those that evaluate lights

@@ -38,9 +38,15 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
     return groups;
 }
 
-std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group) {
+std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
+                                            ImageRef lit) {
     std::vector<CapturedImage> images;
     for (std::size_t i = 0; i < group.modes.size(); ++i) {
+        if (lit.valid() && group.modes[i] == static_cast<int>(gpu::DEBUG_lit)) {
+            pass.color(lit, Load::keep);
+            images.push_back({group.modes[i], lit, passes.size() - 1});
+            continue;
+        }
         const ImageRef image = passes.image({.name = std::string(debugMode(group.modes[i]).name),
                                              .format = group.formats[i],
                                              .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,

@@ -37,7 +37,8 @@ struct CaptureRequest {
 };
 
 // Adds the group's attachments to the list's last pass, cleared to what the background holds (0; material_id
-// -1).
-std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group);
+// -1). `lit`: the image that its lit goes on from, if there is one.
+std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
+                                            ImageRef lit = {});
 
 }  // namespace diptych

@@ -46,8 +46,8 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     const bool lightmaps = std::ranges::any_of(draws.items, [](const DrawItem& item) {
         return item.variant.get(gpu::FEATURE_lightmap_texture) != 0;
     });
-    if (lightmaps || lights.ambient != glm::vec3(0) || objects_.features() > gpu::OBJECT_LIGHTS_LISTS ||
-        multiscatter != Multiscatter::off)
+    if (lightmaps || lights.environment || lights.ambient != glm::vec3(0) ||
+        objects_.features() > gpu::OBJECT_LIGHTS_LISTS || multiscatter != Multiscatter::off)
         albedo = directionalAlbedoTable();
     albedo_ = makeBuffer<glm::vec2>(device, uploader, "directional albedo", albedo,
                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);

@@ -118,4 +118,11 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
     };
 }
 
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline) {
+    return [&inputs, pipeline](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, {}, nullptr);
+        recordTriangle(commands, pipeline);
+    };
+}
+
 }  // namespace diptych

@@ -28,5 +28,7 @@ void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
 // What records it with the sets of deferred lighting: frame, G-buffer, partial sums.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       DescriptorSets gbuffer, const LightBatch& batch);
+// The same of a shader that reads the frame's set alone.
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline);
 
 }  // namespace diptych

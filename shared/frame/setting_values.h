@@ -78,6 +78,17 @@ inline constexpr auto enum_names<Multiscatter> =
                                            {Multiscatter::fdez, "fdez"},
                                            {Multiscatter::walk, "walk"}});
 
+// How the specular lobe takes light of an environment.
+enum class Ibl { split, sampled };
+template <>
+inline constexpr auto enum_names<Ibl> = std::to_array<EnumName<Ibl>>({{Ibl::split, "split"},
+                                                                      {Ibl::sampled, "sampled"}});
+
+enum class IblDiffuse { sh, sh_windowed, map };
+template <>
+inline constexpr auto enum_names<IblDiffuse> = std::to_array<EnumName<IblDiffuse>>(
+    {{IblDiffuse::sh, "sh"}, {IblDiffuse::sh_windowed, "sh-windowed"}, {IblDiffuse::map, "map"}});
+
 enum class Shadows { off, pcf, evsm, evsm4, msm4, pcss, clipmap };
 template <>
 inline constexpr auto enum_names<Shadows> = std::to_array<EnumName<Shadows>>({{Shadows::off, "off"},

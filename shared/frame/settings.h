@@ -25,10 +25,15 @@ struct Settings {
     Size size;
     std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
     double time = 0.0;   // s
-    std::string env = "none";  // file of a lat-long environment
+    std::string env = "none";   // file of a lat-long environment
+    float env_rotation = 0.0f;  // degrees about +Y
     float ibl_intensity = 1.0f;
-    Rgb ambient;         // W/(sr m^2)
-    std::string lights;  // "" none, "point:64,spot:16", or a file's name
+    Ibl ibl = Ibl::split;
+    IblDiffuse ibl_diffuse = IblDiffuse::sh;
+    int ibl_samples = 256;
+    float ibl_bias = 1.0f;  // mip levels
+    Rgb ambient;            // W/(sr m^2)
+    std::string lights;     // "" none, "point:64,spot:16", or a file's name
     std::uint32_t seed = 0;
     float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
@@ -157,6 +162,11 @@ inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulk
 inline constexpr int most_pages = 16384;
 inline constexpr int most_samples = 65536;  // more take a day for a small picture
 
+inline constexpr std::string_view needs_env = "has no meaning without --env";
+inline constexpr std::string_view integrates_env = "the reference integrates the environment";
+inline bool hasEnv(const Settings& s) {
+    return s.env != Settings().env;
+}
 constexpr bool isSide(int pixels) {
     return pixels >= 1 && pixels <= largest_side;
 }
@@ -251,14 +261,51 @@ void Settings::rows(Visit&& visit) {
                 .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
                 .for_surfaces = "none"},
           &Settings::env);
+    visit(Field{.option = "env-rotation",
+                .help = "turns the environment about +Y, counter-clockwise seen from above, degrees",
+                .valid = {"is finite", [](const Settings& s) { return std::isfinite(s.env_rotation); }},
+                .default_only = {row::needs_env, row::hasEnv},
+                .for_surfaces = "0"},
+          &Settings::env_rotation);
     visit(Field{.option = "ibl-intensity",
                 .help = "factor on the environment's radiance",
                 .valid = {"is finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(s.ibl_intensity); }},
-                .default_only = {"has no meaning without --env",
-                                 [](const Settings& s) { return s.env != Settings().env; }},
-                .for_surfaces = "1"},
+                .default_only = {row::needs_env, row::hasEnv},
+                .for_surfaces = "0"},
           &Settings::ibl_intensity);
+    visit(Field{.option = "ibl",
+                .help = "light of the environment on the specular lobe: filtered and a table, or samples at "
+                        "every pixel",
+                .default_only = {row::needs_env, row::hasEnv},
+                .ignored = {.reference = row::integrates_env},
+                .sweep = "all",
+                .sweep_with = "ibl-samples"},
+          &Settings::ibl);
+    visit(Field{.option = "ibl-diffuse",
+                .help = "irradiance of the environment: spherical harmonics as they are or so that none is "
+                        "negative, or a map",
+                .default_only = {row::needs_env, row::hasEnv},
+                .ignored = {.reference = row::integrates_env},
+                .sweep = "all"},
+          &Settings::ibl_diffuse);
+    visit(Field{.option = "ibl-samples",
+                .help = "directions a texel of the filtered environment, or with --ibl sampled a pixel",
+                .valid = {"is 1 to 4096",
+                          [](const Settings& s) { return s.ibl_samples >= 1 && s.ibl_samples <= 4096; }},
+                .default_only = {row::needs_env, row::hasEnv},
+                .ignored = {.reference = row::integrates_env},
+                .sweep = "16,32,64,256,1024",
+                .sweep_with = "ibl-bias"},
+          &Settings::ibl_samples);
+    visit(
+        Field{.option = "ibl-bias",
+              .help = "mip levels by which each of these directions is widened",
+              .valid = {"is 0 to 16", [](const Settings& s) { return s.ibl_bias >= 0 && s.ibl_bias <= 16; }},
+              .default_only = {row::needs_env, row::hasEnv},
+              .ignored = {.reference = row::integrates_env},
+              .sweep = "0,1,2"},
+        &Settings::ibl_bias);
     visit(Field{.option = "ambient",
                 .help = "constant ambient radiance R,G,B",
                 .off = "0,0,0",

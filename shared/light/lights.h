@@ -18,6 +18,7 @@ struct GpuLights {
     std::vector<gpu::AreaLight> area_lights;  // and the null light's
     std::vector<Importance> importance;       // of all but the null light
     std::vector<std::size_t> sources;         // of the same: its place among the lights it was made of
+    bool environment = false;                 // an environment lights the scene beside them
     glm::vec3 ambient{0};                     // W/(sr m^2), from everywhere
     std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;
     std::uint32_t casting_points = 0, casting_spots = 0;  // the first of their kind

@@ -163,10 +163,8 @@ std::vector<Requirements::Line> Requirements::lines() const {
     result.push_back({false, "suns' discs",
                       sun_discs > 0 ? fmt::format("{} in the scene: {}", sun_discs, notYet)
                                     : "no directional light has an angle"});
-    result.push_back({false, "environment",
-                      environment.empty()
-                          ? "none in the scene"
-                          : fmt::format("{}: no path draws it yet; the reference does", environment)});
+    say(!environment.empty(), "environment", environment + ": maps, harmonics, and the background",
+        "none in the scene: no map, no pass");
     return result;
 }
 

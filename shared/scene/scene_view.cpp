@@ -23,6 +23,7 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
     if (!request.lights.empty())
         for (Light& light : makeLights(request.lights, request.seed, boundsAtStart(scene, result.pose)))
             result.lights.push_back(std::move(light));
+    if (scene.environment) result.environment = &*scene.environment;
     result.default_sun = result.lights.empty() && !scene.environment;
     // The default sun stands behind the viewer of the default view, whichever camera is chosen, so that it
     // lights the sides which face that viewer.

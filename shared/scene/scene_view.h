@@ -33,8 +33,9 @@ struct SceneView {
     std::string
         default_view;  // how the camera was chosen, in words; empty where the request or scene has one
     std::vector<Light> lights;  // the scene's own, then those of the rig or file; or the default sun alone
-    bool default_sun = false;   // whether the scene had neither lights nor an environment
-    Requirements needs;         // of the scene under `lights`
+    const Environment* environment = nullptr;  // the scene's, which must outlive this; nullptr: none
+    bool default_sun = false;                  // whether the scene had neither lights nor an environment
+    Requirements needs;                        // of the scene under `lights`
 };
 
 // Throws std::runtime_error naming --camera or --lights if the request is invalid.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is refused, as a whole or for one scene of several, and how scripts learn of it; and what pictures
 // share.
-#include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
@@ -10,21 +9,6 @@ namespace diptych {
 namespace {
 
 using Json = nlohmann::json;
-
-// What no path under test draws is refused by name: two black pictures would be taken for parity.
-TEST(Refusals, AnEnvironmentThatNoPathDrawsIsRefused) {
-    const Folder folder;
-    const Image sky(4, 2, 3, 1.0f);
-    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
-    for (const std::string command :
-         {"compare", "compare --baseline reference", "render --path deferred", "render", "bench", "tradeoff"})
-        EXPECT_TRUE(runTool(folder, command + " builtin:triangle --env sky.exr --size 16x9 --runs 1")
-                        .failedOver("--env sky.exr: neither deferred nor forward_plus draws"))
-            << command;
-    EXPECT_EQ(
-        runTool(folder, "render --path reference builtin:triangle --env sky.exr --size 16x9 -o r.png").code,
-        0);
-}
 
 // One scene that cannot be read does not end a comparison of several.
 TEST(Refusals, OneBadSceneOfSeveralIsAnError) {

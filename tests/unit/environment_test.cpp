@@ -128,7 +128,7 @@ TEST(Environment, RealOnes) {
     if (!std::filesystem::exists(environments))
         GTEST_SKIP() << "NO ASSETS at " << environments << ": real files are not tried";
     const std::pair<const char*, double> files[] = {{"city.exr", 33952},
-                                                    {"quarry_02_1k.exr", 153600},
+                                                    {"quarry_02_1k.exr", 65504},
                                                     {"studio_small_08_1k.exr", 105},
                                                     {"vintage_measuring_lab_1k.exr", 49}};
     for (const auto& [name, largest] : files) {
@@ -138,6 +138,8 @@ TEST(Environment, RealOnes) {
         EXPECT_EQ(environment.radiance.height, 512) << name;
         EXPECT_NEAR(*std::ranges::max_element(environment.radiance.data), largest, 0.5) << name;
         EXPECT_GE(*std::ranges::min_element(environment.radiance.data), 0) << name;
-        EXPECT_EQ(notes.size(), name == std::string("city.exr") ? 1u : 0u) << name << ": DWA undershoots";
+        // DWA undershoots; the sun of the quarry has 153600.
+        const bool noted = name == std::string("city.exr") || name == std::string("quarry_02_1k.exr");
+        EXPECT_EQ(notes.size(), noted ? 1u : 0u) << name;
     }
 }

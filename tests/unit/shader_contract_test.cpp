@@ -58,6 +58,7 @@ constexpr ModuleKind moduleKinds[] = {
     {"surface.vert", gpu::PASS_DEPTH | gpu::PASS_FORWARD | gpu::PASS_GBUFFER},
     {"forward_", gpu::PASS_FORWARD},
     {"gbuffer.frag", gpu::PASS_GBUFFER},
+    {"background.frag", gpu::PASS_BACKGROUND},
     {"deferred_", gpu::PASS_LIGHTING},
     {"light_", gpu::PASS_LISTS},
     {"shadow_", gpu::PASS_SHADOWS},

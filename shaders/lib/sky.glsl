@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The environment of a direction as its lat-long picture has it, and its rotation.
+#ifndef SKY_GLSL
+#define SKY_GLSL
+
+#include "shaders/lib/angles.glsl"
+
+layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT) uniform samplerBuffer environment_texels;
+layout(set = SET_FRAME, binding = BINDING_SKY) uniform sampler2D sky;
+
+// In the environment's own axes. Not changed by what it is rotated by, so each component is one dot product.
+vec3 environmentFromWorld(vec3 d) {
+    vec3 turned =
+        vec3(dot(texelFetch(environment_texels, 0).xyz, d), dot(texelFetch(environment_texels, 1).xyz, d),
+             dot(texelFetch(environment_texels, 2).xyz, d));
+    return turned;
+}
+float environmentFactor() { return texelFetch(environment_texels, 0).w; }
+
+// Columns wrap around; beyond a pole lies the row as far before it, half a turn further.
+vec3 skyTexel(ivec2 p, ivec2 size) {
+    if (p.y < 0 || p.y >= size.y) {
+        p.y = clamp(p.y < 0 ? -1 - p.y : 2 * size.y - 1 - p.y, 0, size.y - 1);
+        p.x += size.x / 2;
+    }
+    p.x = p.x < 0 ? p.x + size.x : p.x;
+    p.x = p.x >= size.x ? p.x - size.x : p.x;
+    return texelFetch(sky, p, 0).rgb;
+}
+
+// W/(sr m^2); `d` unit, in the environment's axes. Bilinear between the pixels' centres.
+vec3 skyRadiance(vec3 d) {
+    ivec2 size = textureSize(sky, 0);
+    float across = lengthOf(d.xz), least = max(across, 1e-30);
+    float azimuth = angleOf(-d.z / least, abs(d.x) / least), polar = angleOf(d.y, across);
+    azimuth = d.x < 0.0 ? -azimuth : azimuth;
+    vec2 at = vec2(azimuth * (0.5 * INVERSE_PI) + 0.5, polar * INVERSE_PI) * vec2(size) - 0.5;
+    vec2 corner = floor(at), f = at - corner;
+    ivec2 c = ivec2(corner);
+    vec3 above = blend(skyTexel(c, size), skyTexel(c + ivec2(1, 0), size), f.x);
+    vec3 below = blend(skyTexel(c + ivec2(0, 1), size), skyTexel(c + ivec2(1, 1), size), f.x);
+    return blend(above, below, f.y);
+}
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/background.h"
+
+#include "shared/contract/debug_mode.h"
+#include "shared/draw/pipeline_parts.h"
+#include "shared/draw/record.h"
+
+#include <algorithm>
+
+namespace diptych {
+
+// The full-screen triangle lies just above the far end of the reversed depth, which only what is cleared has.
+void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit, Load load) {
+    if (inputs.variant.get(gpu::FEATURE_environment) == 0) return;
+    Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_BACKGROUND));
+    if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
+        variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
+    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
+                                                                 .fragment = Shader::background_frag,
+                                                                 .variant = variant,
+                                                                 .input = NO_VERTICES,
+                                                                 .colors = {litFormat},
+                                                                 .depth = depthFormat,
+                                                                 .depth_compare = VK_COMPARE_OP_GREATER,
+                                                                 .depth_write = false});
+    passes.draw("background").color(lit, load).depthTest(depth).record(recordFullScreen(inputs, pipeline));
+}
+
+ImageRef addCaptureBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+                              const CaptureGroup& group) {
+    const bool shown = std::ranges::count(group.modes, static_cast<int>(gpu::DEBUG_lit)) > 0;
+    if (!shown || inputs.variant.get(gpu::FEATURE_environment) == 0) return {};
+    const ImageRef lit = passes.image({.name = "lit",
+                                       .format = litFormat,
+                                       .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                       .life = Life::transient});
+    addBackground(passes, inputs, depth, lit, Load::clear);
+    return lit;
+}
+
+}  // namespace diptych

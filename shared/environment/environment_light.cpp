@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "shared/environment/environment_light.h"
+
+#include "shared/contract/bindings.h"
+#include "shared/contract/features.h"
+#include "shared/environment/map_cache.h"
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+constexpr VkFormat mapFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+GpuImage uploaded(Device& device, Uploader& uploader, const std::string& name, int width, int height,
+                  std::span<const glm::vec4> texels) {
+    GpuImage image(device, {.name = name,
+                            .format = mapFormat,
+                            .width = static_cast<std::uint32_t>(width),
+                            .height = static_cast<std::uint32_t>(height),
+                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    uploader.level(image, 0, std::as_bytes(texels));
+    return image;
+}
+
+EnvironmentRequest requestOf(const Settings& settings) {
+    EnvironmentRequest request{{settings.ibl_samples, settings.ibl_bias}, settings.ibl == Ibl::split};
+    if (!request.prefilter) request.quality = {};  // decides nothing there
+    return request;
+}
+
+}  // namespace
+
+const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environment& environment,
+                                              const EnvironmentRequest& request) {
+    for (const auto& images : made_)
+        if (images->request == request) return *images;
+    const Image& radiance = environment.radiance;
+    const auto most = static_cast<int>(device_.limits().maxImageDimension2D);
+    if (radiance.width > most || radiance.height > most)
+        throw std::runtime_error(fmt::format("environment {}: {} x {} pixels; {} holds {} x {}",
+                                             environment.name, radiance.width, radiance.height,
+                                             device_.info().name, most, most));
+    const auto start = std::chrono::steady_clock::now();
+    bool wasKept = false;
+    const EnvironmentMaps maps = environmentMaps(environment, request, folder_, &wasKept);
+    const EnvironmentAtlas atlas = layOut(maps);
+    const double ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    auto images = std::make_unique<EnvironmentImages>();
+    images->request = request;
+    images->harmonics = maps.harmonics;
+    images->window = leastWindow(maps.harmonics);
+    images->diffuse = atlas.diffuse;
+    images->levels = atlas.levels;
+    images->maps = uploaded(device_, uploader, "environment maps", atlas.width, atlas.height, atlas.texels);
+    std::vector<glm::vec4> sky(radiance.pixels());
+    for (std::size_t i = 0; i < sky.size(); ++i) {
+        const float* p = radiance.pixel(i);
+        sky[i] = {p[0], p[1], p[2], 0};
+    }
+    images->sky = uploaded(device_, uploader, "sky", radiance.width, radiance.height, sky);
+    const TruncationError raw = truncationError(maps, 0), windowed = truncationError(maps, images->window);
+    images->note = fmt::format(
+        "environment: {} maps of up to {} texels a side, {} in {:.0f} ms; of irradiance's peak harmonics are "
+        "off by {:.2g} % on the mean and {:.2g} % at worst, windowed ({:.2g}) by {:.2g} and {:.2g} %",
+        maps.levels.size(), maps.levels.front().side, wasKept ? "read" : "made", ms, 100 * raw.mean,
+        100 * raw.worst, images->window, 100 * windowed.mean, 100 * windowed.worst);
+    made_.push_back(std::move(images));
+    return *made_.back();
+}
+
+std::uint64_t EnvironmentStore::bytes() const {
+    std::uint64_t sum = 0;
+    for (const auto& images : made_) sum += images->maps.bytes() + images->sky.bytes();
+    return sum;
+}
+
+// The environment is turned by `degrees`, so what is seen of it in a direction is what it has that much
+// before it.
+glm::mat3 environmentFromWorld(double degrees) {
+    // Quarter turns are exact.
+    const double quarters = degrees / 90, turn = glm::radians(degrees);
+    double c = std::cos(turn), s = std::sin(turn);
+    if (quarters == std::round(quarters)) c = std::round(c), s = std::round(s);
+    return {glm::vec3(c, 0, s), glm::vec3(0, 1, 0), glm::vec3(-s, 0, c)};
+}
+
+EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
+                                   const Environment* environment, VkImageView black, DescriptorSets& frame,
+                                   const Settings& settings)
+    : nearest_(makeNearestSampler(device)) {
+    std::vector<glm::vec4> texels(1);
+    VkImageView maps = black, sky = black;
+    if (isLit(environment, settings)) {
+        const EnvironmentImages& images = store.at(uploader, *environment, requestOf(settings));
+        feature_ = gpu::ENVIRONMENT_LIT;
+        if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
+        if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;
+        const glm::mat3 turned = environmentFromWorld(double{settings.env_rotation});
+        const glm::vec3 last(settings.ibl_intensity, images.levels.size(), settings.ibl_samples);
+        texels.clear();
+        for (int row = 0; row < 3; ++row)
+            texels.emplace_back(turned[0][row], turned[1][row], turned[2][row], last[row]);
+        const bool windowed = settings.ibl_diffuse == IblDiffuse::sh_windowed;
+        for (const glm::dvec3& c : irradiancePolynomial(images.harmonics, windowed ? images.window : 0))
+            texels.emplace_back(glm::vec3(c), 0);
+        texels.emplace_back(glm::vec3(images.diffuse), settings.ibl_bias);
+        texels.insert(texels.end(), images.levels.begin(), images.levels.end());
+        maps = images.maps.view();
+        sky = images.sky.view();
+        notes_.push_back(images.note);
+    }
+    texels_ = makeBuffer<glm::vec4>(device, uploader, "environment", texels,
+                                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    uploader.flush();
+    texels_view_ = makeTexelView(device, "environment", texels_, mapFormat);
+    frame.texels(0, gpu::BINDING_ENVIRONMENT, texels_view_);
+    frame.image(0, gpu::BINDING_ENVIRONMENT_MAPS, maps, nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    frame.image(0, gpu::BINDING_SKY, sky, nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+}  // namespace diptych

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+// Light of an environment in both paths: against closed forms, ambient light, and the reference.
+#include "compare/reference/environment.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/environment.h"
+#include "tests/image/square.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int lit_diffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
+              lit_specular = static_cast<int>(gpu::DEBUG_lit_specular),
+              lit_ambient = static_cast<int>(gpu::DEBUG_lit_ambient),
+              material_id = static_cast<int>(gpu::DEBUG_material_id);
+const std::vector<int> shown{lit, lit_diffuse, lit_specular, lit_ambient, material_id};
+
+Settings underSky(Size size = {16, 16}) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = size;
+    settings.ibl_samples = 32;
+    return settings;
+}
+
+Environment constantSky(float radiance) {
+    return {"sky", Image(8, 4, 3, radiance)};
+}
+
+// Each of +X, -X, +Y, -Y, +Z, -Z has a colour of its own, within 45 degrees of it.
+const std::array<glm::vec3, 6> painted{{{1, 0, 0}, {0, 1, 1}, {0, 1, 0}, {1, 0, 1}, {0, 0, 1}, {1, 1, 0}}};
+const std::array<glm::vec3, 6> axes{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+std::size_t axisOf(const glm::dvec3& d) {
+    const glm::dvec3 a = glm::abs(d);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    return static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
+}
+Environment paintedSky() {
+    Environment sky{"painted", Image(64, 32, 3)};
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x) {
+            // scene.h: azimuth 0 at -Z, positive towards +X.
+            const double azimuth = 2 * std::numbers::pi * (x + 0.5) / 64 - std::numbers::pi,
+                         polar = std::numbers::pi * (y + 0.5) / 32;
+            const glm::vec3 color = painted[axisOf({std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                                    -std::sin(polar) * std::cos(azimuth)})];
+            for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = color[c];
+        }
+    return sky;
+}
+
+// The square as a smooth metal mirrors what is behind the camera, and the background shows what is before it.
+TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
+    Scene scene = square();
+    scene.environment = paintedSky();
+    scene.materials[0].metallic = 1;
+    scene.materials[0].roughness = 0;
+    scene.materials[0].base_color = {1, 1, 1, 1};
+    Renderer renderer(device(), scene, pipelines());
+    for (const Frame& frame : bothPaths(renderer, underSky({17, 17}), shown))
+        expectColor(colorAt(frame, lit, 8, 8), painted[4], 1e-3f, frame.name + " mirrors +Z");
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        // From before the square, beside whose plane nothing is.
+        Settings settings = underSky({9, 9});
+        const glm::vec3 eye(0, 0, 20), to = eye + axes[i];
+        settings.camera =
+            fmt::format("eye=0,0,{} target={},{},{} fov=5 near=0.1 far=10", eye.z, to.x, to.y, to.z);
+        for (const Frame& frame : bothPaths(renderer, settings, shown)) {
+            expectColor(colorAt(frame, lit, 4, 4), painted[i], 1e-6f, frame.name + " sees axis");
+            EXPECT_EQ(colorAt(frame, material_id, 4, 4).x, -1);
+            for (const int term : {lit_diffuse, lit_specular, lit_ambient})
+                EXPECT_EQ(colorAt(frame, term, 4, 4), glm::vec3(0)) << "the background is no light term";
+        }
+    }
+    // Turned counter-clockwise seen from above, what was at +X comes to -Z.
+    Settings turned = underSky({9, 9});
+    turned.camera = "eye=0,0,20 target=0,0,-1 fov=5 near=0.1 far=10";
+    turned.env_rotation = 90;
+    turned.ibl_intensity = 2;
+    for (const Frame& frame : bothPaths(renderer, turned, shown))
+        expectColor(colorAt(frame, lit, 4, 4), 2.0f * painted[0], 1e-6f, frame.name + " turned");
+    turned.camera.clear();
+    for (const Frame& frame : bothPaths(renderer, turned, shown))
+        expectColor(colorAt(frame, lit, 4, 4), 2.0f * painted[1], 2e-3f, frame.name + " mirrors what was -X");
+}
+
+// Radiance 1 from everywhere is what --ambient is, for each way of making light of it but samples.
+TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
+    Scene scene = loadScene("builtin:dielectrics");
+    scene.environment = constantSky(0.75f);
+    scene.lights.clear();
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = underSky({64, 36});
+    settings.ambient = {0.75f, 0.75f, 0.75f};
+    for (const IblDiffuse diffuse : {IblDiffuse::sh, IblDiffuse::sh_windowed, IblDiffuse::map}) {
+        settings.ibl_diffuse = diffuse;
+        for (const Frame& frame : bothPaths(renderer, settings, shown)) {
+            double worst = 0;
+            int covered = 0;
+            for (int y = 0; y < 36; ++y)
+                for (int x = 0; x < 64; ++x) {
+                    if (colorAt(frame, material_id, x, y).x < 0) continue;
+                    ++covered;
+                    const glm::vec3 sum = colorAt(frame, lit_diffuse, x, y) +
+                                          colorAt(frame, lit_specular, x, y),
+                                    off = glm::abs(sum - colorAt(frame, lit_ambient, x, y));
+                    worst = std::max({worst, double{off.x}, double{off.y}, double{off.z}});
+                }
+            EXPECT_GT(covered, 200);
+            EXPECT_LT(worst, 2e-6) << frame.name << " " << nameOf(diffuse);
+        }
+    }
+}
+
+// The samples estimate the same integral: of a metal at every angle that the square shows.
+TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
+    Scene scene = square();
+    scene.environment = constantSky(1);
+    scene.materials[0].metallic = 1;
+    scene.materials[0].base_color = {1, 1, 1, 1};
+    for (const float roughness : {0.1f, 0.5f, 1.0f}) {
+        scene.materials[0].roughness = roughness;
+        Settings settings = underSky({17, 17});
+        settings.ibl = Ibl::sampled;
+        settings.ibl_samples = 1024;
+        settings.ambient = {1, 1, 1};
+        for (const Frame& frame : bothPaths(scene, settings, shown))
+            for (const int x : {0, 4, 8})
+                EXPECT_NEAR(colorAt(frame, lit_specular, x, 8).x, colorAt(frame, lit_ambient, x, 8).x, 3e-3f)
+                    << frame.name << " " << roughness << " " << x;
+    }
+}
+
+TEST(EnvironmentLight, OcclusionTexturesDimIt) {
+    Scene scene = square();
+    scene.environment = constantSky(1);
+    Material& m = scene.materials[0];
+    m.metallic = 0;
+    m.base_color = {0.5f, 0.5f, 0.5f, 1};
+    const std::vector<Frame> open = bothPaths(scene, underSky({4, 4}), shown);
+    m.occlusion_texture.texture = 0;  // 1 and 0 above, 0 and 0.2 below; red
+    m.occlusion_strength = 0.75f;
+    const std::vector<Frame> dimmed = bothPaths(scene, underSky({4, 4}), shown);
+    for (std::size_t i = 0; i < 2; ++i)
+        for (const int term : {lit_diffuse, lit_specular}) {
+            expectColor(colorAt(dimmed[i], term, 0, 0), colorAt(open[i], term, 0, 0), 1e-6f, "open");
+            expectColor(colorAt(dimmed[i], term, 3, 0), 0.25f * colorAt(open[i], term, 3, 0), 1e-6f,
+                        "a quarter");
+            EXPECT_GT(colorAt(open[i], term, 3, 0).x, 0.01f);
+        }
+}
+
+// No pass, and no feature, where there is no environment or its intensity is 0.
+TEST(EnvironmentLight, NothingIsAddedWhereThereIsNone) {
+    const auto isDrawn = [](const Scene& scene, const Settings& settings) {
+        SharedResources shared(device(), scene, pipelines());
+        SceneViews views(scene);
+        const PreparedFrame frame(device(), shared, views.at(viewRequest(settings)), settings);
+        const auto names = frame.passes.names();
+        const bool background = std::ranges::count(names, "background") > 0;
+        EXPECT_EQ(background, frame.view.inputs.variant.get(gpu::FEATURE_environment) != 0);
+        EXPECT_EQ(background, shared.environments.bytes() > 0);
+        return background;
+    };
+    Scene scene = square();
+    for (const Path path : drawn_paths) {
+        Settings settings = underSky();
+        settings.path = path;
+        scene.environment.reset();
+        EXPECT_FALSE(isDrawn(scene, settings)) << nameOf(path);
+        scene.environment = constantSky(1);
+        EXPECT_TRUE(isDrawn(scene, settings)) << nameOf(path);
+        settings.ibl_intensity = 0;
+        EXPECT_FALSE(isDrawn(scene, settings)) << nameOf(path);
+    }
+}
+
+// With --gbuffer full nothing is lost between the two, whatever way the environment is taken.
+TEST(EnvironmentLight, BothPathsAreEqualBitForBit) {
+    Scene scene = loadScene("builtin:gallery");
+    scene.environment = paintedSky();
+    Renderer renderer(device(), scene, pipelines());
+    for (const Ibl ibl : {Ibl::split, Ibl::sampled}) {
+        Settings settings = underSky({96, 54});
+        settings.lights = "point:8,spot:4";
+        settings.env_rotation = 33;
+        settings.ibl = ibl;
+        settings.ibl_diffuse = ibl == Ibl::split ? IblDiffuse::sh : IblDiffuse::map;
+        const std::vector<Frame> frames = bothPaths(renderer, settings, shown);
+        for (const int mode : shown)
+            EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+                << nameOf(ibl) << " " << debugMode(mode).name;
+        for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name;
+    }
+}
+
+// The background is the picture itself; what is left of it in float32 is an angle of 1e-6.
+TEST(EnvironmentLight, TheBackgroundIsThePicture) {
+    Scene scene = square();
+    scene.environment = paintedSky();
+    for (std::size_t i = 0; i < scene.environment->radiance.data.size(); ++i)
+        scene.environment->radiance.data[i] += static_cast<float>(i % 11) / 11;
+    const reference::EnvironmentLight light(*scene.environment, 1.5, glm::radians(40.0));
+    Settings settings = underSky({32, 32});
+    settings.camera = "eye=0,0,5 target=1,3,9 fov=120 near=0.1 far=100";
+    settings.env_rotation = 40;
+    settings.ibl_intensity = 1.5f;
+    SceneViews views(scene);
+    const View& view = views.at(viewRequest(settings)).view;
+    const auto gpuView = view.gpuView();
+    for (const Frame& frame : bothPaths(scene, settings, shown))
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 32; ++x) {
+                if (colorAt(frame, material_id, x, y).x >= 0) continue;
+                const glm::dvec3 d = glm::normalize(glm::dvec3(gpuView.direction_0) +
+                                                    glm::dvec3(gpuView.direction_x) * (x + 0.5) +
+                                                    glm::dvec3(gpuView.direction_y) * (y + 0.5));
+                expectColor(colorAt(frame, lit, x, y), glm::vec3(light.radiance(d)), 2e-4f, frame.name);
+            }
+}
+
+}  // namespace
+}  // namespace diptych::tests
