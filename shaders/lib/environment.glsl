@@ -121,7 +121,7 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     return sum / count;
 }
 
-// Adds what the surface sends to `v`. Occlusion dims it; a lightmap holds what the base would reflect.
+// Adds what the surface sends to `v`. Occlusion dims it. A surface with a lightmap gets the base's share too.
 void addEnvironment(Surface s, Brdf b, vec3 v, inout vec3 diffuse, inout vec3 specular) {
     float factor = environmentFactor() * s.occlusion;
     vec3 n = environmentFromWorld(s.normal), r = environmentFromWorld(reflection(-v, s.normal));

@@ -18,11 +18,11 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int lit_diffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
-              lit_specular = static_cast<int>(gpu::DEBUG_lit_specular),
-              lit_ambient = static_cast<int>(gpu::DEBUG_lit_ambient),
-              material_id = static_cast<int>(gpu::DEBUG_material_id);
-const std::vector<int> shown{lit, lit_diffuse, lit_specular, lit_ambient, material_id};
+constexpr int skyDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
+              skySpecular = static_cast<int>(gpu::DEBUG_lit_specular),
+              skyAmbient = static_cast<int>(gpu::DEBUG_lit_ambient),
+              skyIds = static_cast<int>(gpu::DEBUG_material_id);
+const std::vector<int> shown{lit, skyDiffuse, skySpecular, skyAmbient, skyIds};
 
 Settings underSky(Size size = {16, 16}) {
     Settings settings = smallPicture(GBufferEncoding::full);
@@ -75,8 +75,8 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
             fmt::format("eye=0,0,{} target={},{},{} fov=5 near=0.1 far=10", eye.z, to.x, to.y, to.z);
         for (const Frame& frame : bothPaths(renderer, settings, shown)) {
             expectColor(colorAt(frame, lit, 4, 4), painted[i], 1e-6f, frame.name + " sees axis");
-            EXPECT_EQ(colorAt(frame, material_id, 4, 4).x, -1);
-            for (const int term : {lit_diffuse, lit_specular, lit_ambient})
+            EXPECT_EQ(colorAt(frame, skyIds, 4, 4).x, -1);
+            for (const int term : {skyDiffuse, skySpecular, skyAmbient})
                 EXPECT_EQ(colorAt(frame, term, 4, 4), glm::vec3(0)) << "the background is no light term";
         }
     }
@@ -107,11 +107,11 @@ TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
             int covered = 0;
             for (int y = 0; y < 36; ++y)
                 for (int x = 0; x < 64; ++x) {
-                    if (colorAt(frame, material_id, x, y).x < 0) continue;
+                    if (colorAt(frame, skyIds, x, y).x < 0) continue;
                     ++covered;
-                    const glm::vec3 sum = colorAt(frame, lit_diffuse, x, y) +
-                                          colorAt(frame, lit_specular, x, y),
-                                    off = glm::abs(sum - colorAt(frame, lit_ambient, x, y));
+                    const glm::vec3 sum =
+                                        colorAt(frame, skyDiffuse, x, y) + colorAt(frame, skySpecular, x, y),
+                                    off = glm::abs(sum - colorAt(frame, skyAmbient, x, y));
                     worst = std::max({worst, double{off.x}, double{off.y}, double{off.z}});
                 }
             EXPECT_GT(covered, 200);
@@ -134,7 +134,7 @@ TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
         settings.ambient = {1, 1, 1};
         for (const Frame& frame : bothPaths(scene, settings, shown))
             for (const int x : {0, 4, 8})
-                EXPECT_NEAR(colorAt(frame, lit_specular, x, 8).x, colorAt(frame, lit_ambient, x, 8).x, 3e-3f)
+                EXPECT_NEAR(colorAt(frame, skySpecular, x, 8).x, colorAt(frame, skyAmbient, x, 8).x, 3e-3f)
                     << frame.name << " " << roughness << " " << x;
     }
 }
@@ -150,7 +150,7 @@ TEST(EnvironmentLight, OcclusionTexturesDimIt) {
     m.occlusion_strength = 0.75f;
     const std::vector<Frame> dimmed = bothPaths(scene, underSky({4, 4}), shown);
     for (std::size_t i = 0; i < 2; ++i)
-        for (const int term : {lit_diffuse, lit_specular}) {
+        for (const int term : {skyDiffuse, skySpecular}) {
             expectColor(colorAt(dimmed[i], term, 0, 0), colorAt(open[i], term, 0, 0), 1e-6f, "open");
             expectColor(colorAt(dimmed[i], term, 3, 0), 0.25f * colorAt(open[i], term, 3, 0), 1e-6f,
                         "a quarter");
@@ -219,7 +219,7 @@ TEST(EnvironmentLight, TheBackgroundIsThePicture) {
     for (const Frame& frame : bothPaths(scene, settings, shown))
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {
-                if (colorAt(frame, material_id, x, y).x >= 0) continue;
+                if (colorAt(frame, skyIds, x, y).x >= 0) continue;
                 const glm::dvec3 d = glm::normalize(glm::dvec3(gpuView.direction_0) +
                                                     glm::dvec3(gpuView.direction_x) * (x + 0.5) +
                                                     glm::dvec3(gpuView.direction_y) * (y + 0.5));

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace diptych::tests {
 namespace {
@@ -54,17 +55,18 @@ Seen seenWhere(const Frame& frame, const Where& where) {
 class ShadowPaths : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShadowPaths, SeeTheSame) {
-    for (const GBufferEncoding encoding :
-         {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full})
-        for (const int kernel : {1, 7}) {
-            const Settings settings = shadowed(smallPicture(encoding), 256, kernel);
-            const std::vector<Frame> frames =
-                bothPaths(uploaded(GetParam()).renderer, settings, {visibility, cascade, lit});
-            for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
-            for (const int mode : {visibility, cascade})
-                EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
-                    << debugMode(mode).name << " " << kernel;
-        }
+    // Every pair of both would compile twice the pipelines.
+    const std::pair<GBufferEncoding, int> kernels[] = {
+        {GBufferEncoding::compact, 1}, {GBufferEncoding::standard, 5}, {GBufferEncoding::full, 7}};
+    for (const auto& [encoding, kernel] : kernels) {
+        const Settings settings = shadowed(smallPicture(encoding), 256, kernel);
+        const std::vector<Frame> frames =
+            bothPaths(uploaded(GetParam()).renderer, settings, {visibility, cascade, lit});
+        for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
+        for (const int mode : {visibility, cascade})
+            EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+                << debugMode(mode).name << " " << kernel;
+    }
 }
 
 // A path's picture against rays: beyond the filter's reach and a texel from an edge, what is shown lit is
