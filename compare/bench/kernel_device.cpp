@@ -73,27 +73,23 @@ public:
     }
 
 private:
-    static bool isArray(std::uint32_t binding) {
-        return binding == gpu::BINDING_SHADOW_MAP || binding == gpu::BINDING_LOCAL_SHADOW_MAP;
-    }
-
     // Every binding that a shader names holds something, though only lights and lists are read.
     void bind() {
         const std::span<const VkDescriptorType> types = frameBindings();
         for (std::uint32_t i = 0; i < types.size(); ++i) {
             // Lights are texels of floats, whatever their kind; lists and the packed view are of integers.
-            const bool floats = i == gpu::BINDING_LIGHTS || i == gpu::BINDING_SPOT_CONES ||
-                                i == gpu::BINDING_AREA_LIGHTS || i == gpu::BINDING_SHADOW_LIGHT ||
-                                i == gpu::BINDING_LOCAL_SHADOW_LIGHTS;
+            const bool floats =
+                i == gpu::BINDING_LIGHTS || i == gpu::BINDING_SPOT_CONES || i == gpu::BINDING_AREA_LIGHTS;
             if (types[i] == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER)
                 frameSets_.texels(0, i, floats ? lightsView_ : indicesView_);
             else if (types[i] == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
                      types[i] == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)
                 frameSets_.buffer(0, i, unread_.handle());
             else
-                frameSets_.image(0, i, isArray(i) ? nothing_.arrayTexel() : nothing_.texel(),
-                                 layouts_.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+                frameSets_.image(0, i, nothing_.texel(), layouts_.nearest,
+                                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
+        nothing_.bindFrame(frameSets_);
         for (std::uint32_t i = 0; i < lightTypes.size(); ++i) lightSets_.buffer(0, i, lights_.handle());
     }
 

@@ -177,7 +177,7 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const Pictur
     for (std::size_t i = 0; i < frames.size(); ++i) {
         progress.at(static_cast<double>(i) / static_cast<double>(frames.size()), "write");
         const std::string inner = frames.size() > 1 ? std::to_string(i + 1) : "";
-        if (!inner.empty()) std::filesystem::create_directory(folder / inner);
+        if (!inner.empty()) folder.makeFolders({inner + "/lit.exr"});
         for (const std::string& name : writeFrameFolder(frames[i], device, folder / inner, shown, picture))
             files.push_back(inner.empty() ? name : inner + "/" + name);
         places.push_back(inner.empty() ? output.path : output.path / inner);

@@ -110,7 +110,9 @@ OutputFolder::OutputFolder(const fs::path& folder) : folder_(nameOf(folder)) {
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
 }
 
+// Not while an interruption removes the folder: it would make it anew.
 void OutputFolder::makeFolders(const std::vector<std::string>& files) const {
+    const auto held = holdTemporaries();
     for (const std::string& name : files) {
         const fs::path inner = path() / fs::path(name).parent_path();
         std::error_code error;

@@ -96,10 +96,9 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings), settings.multiscatter),
-      environment(device, shared.uploader, shared.environments, scene.environment,
-                  buffers.placeholders().texel(), buffers.sets(), settings),
+      environment(device, shared.uploader, shared.environments, scene.environment, buffers.sets(), settings),
       shadow(device, shared.uploader, scene.pose, shared.geometry, shared.materials, scene.view, draws,
-             lights, scene.lights, buffers.placeholders(), buffers.sets(), settings),
+             lights, scene.lights, buffers.sets(), settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
       inputs{
           .device = device,

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 // Copies a kept picture to its final name in the folder.
 void copyPicture(const fs::path& from, const fs::path& to) {
+    const auto held = holdTemporaries();  // or an interruption could not remove the folder
     std::error_code error;
     fs::copy_file(from, to, error);
     if (error) throw std::runtime_error(writingFailed(finalName(to), error.value()));

@@ -109,7 +109,7 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
         step(walk);                                                                                     \
     }
 
-// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments alone.
+// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments.
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, shadedBrdf(s, v));

@@ -52,6 +52,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     albedo_ = makeBuffer<glm::vec2>(device, uploader, "directional albedo", albedo,
                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     uploader.flush();
+    placeholders_.bindFrame(sets_);
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
     sets_.texels(0, gpu::BINDING_VIEW_TEXELS, packed_view_texels_);
     sets_.texels(0, gpu::BINDING_LIGHTS, lights_view_);

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace diptych {
 
@@ -47,15 +48,29 @@ Placeholders::Placeholders(Device& device, Uploader& uploader, const Layouts& la
                       .format = VK_FORMAT_R32G32B32A32_SFLOAT,
                       .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                       .array = true}),
+      nearest_(makeNearestSampler(device)),
       partial_sums_(device, layouts.partial_sums, partialSumTypes, 1),
       gbuffer_(device, layouts.gbuffer, gbufferTypes, 1) {
     constexpr std::array<float, 4> black{};
     for (const GpuImage* const image : {&image_, &array_})
         uploader.level(*image, 0, std::as_bytes(std::span(black)));
+    texels_ = makeBuffer<glm::vec4>(device, uploader, "black texels", std::vector<glm::vec4>(1),
+                                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     uploader.flush();
+    texels_view_ = makeTexelView(device, "black texels", texels_, VK_FORMAT_R32G32B32A32_SFLOAT);
     for (DescriptorSets* const sets : {&partial_sums_, &gbuffer_})
         for (gpu::uint i = 0; i < sets->bindings(); ++i)
             sets->image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+void Placeholders::bindFrame(DescriptorSets& frame) const {
+    for (const gpu::uint binding :
+         {gpu::BINDING_SHADOW_LIGHT, gpu::BINDING_LOCAL_SHADOW_LIGHTS, gpu::BINDING_ENVIRONMENT})
+        frame.texels(0, binding, texels_view_);
+    for (const gpu::uint binding : {gpu::BINDING_SHADOW_MAP, gpu::BINDING_LOCAL_SHADOW_MAP})
+        frame.image(0, binding, array_.view(), nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    for (const gpu::uint binding : {gpu::BINDING_ENVIRONMENT_MAPS, gpu::BINDING_SKY})
+        frame.image(0, binding, image_.view(), nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 }  // namespace diptych

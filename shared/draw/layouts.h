@@ -29,7 +29,7 @@ std::span<const VkDescriptorType> frameBindings();
 std::span<const VkDescriptorType> gbufferBindings();
 std::span<const VkDescriptorType> partialSumBindings();
 
-// Sets that shaders declare and do not read, of black texels: lavapipe and the validation layers follow every
+// What shaders declare and do not read, of black texels: lavapipe and the validation layers follow every
 // descriptor.
 class Placeholders {
 public:
@@ -37,10 +37,14 @@ public:
     VkDescriptorSet partialSums() const { return partial_sums_[0]; }  // of draws that continue no sums
     VkDescriptorSet gbuffer() const { return gbuffer_[0]; }           // of draws that read no stored depth
     VkImageView texel() const { return image_.view(); }
-    VkImageView arrayTexel() const { return array_.view(); }
+    // Writes the bindings of SET_FRAME that only some scenes and Settings fill: shadows, an environment.
+    void bindFrame(DescriptorSets& frame) const;
 
 private:
     GpuImage image_, array_;
+    GpuBuffer texels_;
+    OwnedBufferView texels_view_;
+    OwnedSampler nearest_;
     DescriptorSets partial_sums_, gbuffer_;
 };
 

@@ -95,37 +95,33 @@ glm::mat3 environmentFromWorld(double degrees) {
 }
 
 EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
-                                   const Environment* environment, VkImageView black, DescriptorSets& frame,
+                                   const Environment* environment, DescriptorSets& frame,
                                    const Settings& settings)
     : nearest_(makeNearestSampler(device)) {
-    std::vector<glm::vec4> texels(1);
-    VkImageView maps = black, sky = black;
-    if (isLit(environment, settings)) {
-        const EnvironmentImages& images = store.at(uploader, *environment, requestOf(settings));
-        feature_ = gpu::ENVIRONMENT_LIT;
-        if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
-        if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;
-        const glm::mat3 turned = environmentFromWorld(double{settings.env_rotation});
-        const glm::vec3 last(settings.ibl_intensity, images.levels.size(), settings.ibl_samples);
-        texels.clear();
-        for (int row = 0; row < 3; ++row)
-            texels.emplace_back(turned[0][row], turned[1][row], turned[2][row], last[row]);
-        const bool windowed = settings.ibl_diffuse == IblDiffuse::sh_windowed;
-        for (const glm::dvec3& c : irradiancePolynomial(images.harmonics, windowed ? images.window : 0))
-            texels.emplace_back(glm::vec3(c), 0);
-        texels.emplace_back(glm::vec3(images.diffuse), settings.ibl_bias);
-        texels.insert(texels.end(), images.levels.begin(), images.levels.end());
-        maps = images.maps.view();
-        sky = images.sky.view();
-        notes_.push_back(images.note);
-    }
+    if (!isLit(environment, settings)) return;
+    const EnvironmentImages& images = store.at(uploader, *environment, requestOf(settings));
+    feature_ = gpu::ENVIRONMENT_LIT;
+    if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
+    if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;
+    notes_.push_back(images.note);
+    const glm::mat3 turned = environmentFromWorld(double{settings.env_rotation});
+    const glm::vec3 last(settings.ibl_intensity, images.levels.size(), settings.ibl_samples);
+    std::vector<glm::vec4> texels;
+    for (int row = 0; row < 3; ++row)
+        texels.emplace_back(turned[0][row], turned[1][row], turned[2][row], last[row]);
+    const bool windowed = settings.ibl_diffuse == IblDiffuse::sh_windowed;
+    for (const glm::dvec3& c : irradiancePolynomial(images.harmonics, windowed ? images.window : 0))
+        texels.emplace_back(glm::vec3(c), 0);
+    texels.emplace_back(glm::vec3(images.diffuse), settings.ibl_bias);
+    texels.insert(texels.end(), images.levels.begin(), images.levels.end());
     texels_ = makeBuffer<glm::vec4>(device, uploader, "environment", texels,
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     uploader.flush();
     texels_view_ = makeTexelView(device, "environment", texels_, mapFormat);
     frame.texels(0, gpu::BINDING_ENVIRONMENT, texels_view_);
-    frame.image(0, gpu::BINDING_ENVIRONMENT_MAPS, maps, nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    frame.image(0, gpu::BINDING_SKY, sky, nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    for (const auto& [binding, image] :
+         {std::pair{gpu::BINDING_ENVIRONMENT_MAPS, &images.maps}, {gpu::BINDING_SKY, &images.sky}})
+        frame.image(0, binding, image->view(), nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 }  // namespace diptych

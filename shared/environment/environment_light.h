@@ -47,13 +47,13 @@ private:
     std::vector<std::unique_ptr<EnvironmentImages>> made_;
 };
 
-// One view's. Without an environment, or where its intensity is 0, the bindings hold nothing that is read.
+// One view's. Without an environment, or where its intensity is 0, it changes nothing.
 class EnvironmentLight {
 public:
-    // `environment`: of the scene, or nullptr. `black`: a texel, bound where there is none. Binds to `frame`.
+    // `environment`: of the scene, or nullptr. `frame`: the sets of SET_FRAME, to which it writes its
+    // bindings.
     EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
-                     const Environment* environment, VkImageView black, DescriptorSets& frame,
-                     const Settings& settings);
+                     const Environment* environment, DescriptorSets& frame, const Settings& settings);
 
     static bool isLit(const Environment* environment, const Settings& settings) {
         return environment != nullptr && settings.ibl_intensity > 0;

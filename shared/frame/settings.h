@@ -272,7 +272,7 @@ void Settings::rows(Visit&& visit) {
                 .valid = {"is finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(s.ibl_intensity); }},
                 .default_only = {row::needs_env, row::hasEnv},
-                .for_surfaces = "0"},
+                .for_surfaces = "1"},
           &Settings::ibl_intensity);
     visit(Field{.option = "ibl",
                 .help = "light of the environment on the specular lobe: filtered and a table, or samples at "

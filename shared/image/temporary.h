@@ -34,8 +34,8 @@ private:
     int lock_ = -1;  // of a folder
 };
 
-// While the returned lock is held, an interruption waits: for steps that must be done together. Milliseconds
-// at most.
+// While the returned lock is held, an interruption waits: for steps that must be done together, and for what
+// is made inside a temporary folder by other means than createFile(). Milliseconds at most.
 std::unique_lock<std::recursive_mutex> holdTemporaries();
 
 // Removes all temporaries, and prevents that another one is created or committed: the caller ends the

@@ -104,15 +104,13 @@ std::optional<DepthRange> shownDepths(const FrameInputs& inputs, const View& vie
 }
 
 DepthVariation depthVariation(const FrameInputs& inputs, Uploader& uploader, const Pose& pose,
-                              const View& view, double step, int steps,
-                              const std::function<void(DescriptorSets&)>& bind) {
+                              const View& view, double step, int steps) {
     std::vector<double> near, far;
     for (int i = 0; i < steps; ++i) {
         View moved = view;
         moved.camera.world_from_camera[3] += glm::dvec4(view.right() * (step * i), 0);
         const DrawList draws = makeDrawList(pose, inputs.geometry, inputs.materials, moved);
         FrameBuffers buffers(inputs.device, uploader, inputs.layouts, moved, draws, inputs.lights, {});
-        bind(buffers.sets());
         const FrameInputs there{.device = inputs.device,
                                 .layouts = inputs.layouts,
                                 .pipelines = inputs.pipelines,

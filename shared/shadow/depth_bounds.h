@@ -9,7 +9,6 @@
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 
-#include <functional>
 #include <optional>
 
 namespace diptych {
@@ -42,9 +41,8 @@ std::optional<DepthRange> shownDepths(const FrameInputs& inputs, const View& vie
 struct DepthVariation {
     double near = 0, far = 0;
 };
-// `inputs` of `view`. `bind` writes what SET_FRAME has of shadows.
+// `inputs` of `view`.
 DepthVariation depthVariation(const FrameInputs& inputs, Uploader& uploader, const Pose& pose,
-                              const View& view, double step, int steps,
-                              const std::function<void(DescriptorSets&)>& bind);
+                              const View& view, double step, int steps);
 
 }  // namespace diptych

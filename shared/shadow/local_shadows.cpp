@@ -73,10 +73,9 @@ std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std
 
 LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
                            const Materials& materials, const View& view, const DrawList& seen,
-                           const GpuLights& lights, std::span<const Light> sources,
-                           const Placeholders& placeholders, DescriptorSets& frame, const Settings& settings)
+                           const GpuLights& lights, std::span<const Light> sources, DescriptorSets& frame,
+                           const Settings& settings)
     : frame_(frame),
-      placeholders_(placeholders),
       request_{settings.shadow_size, settings.shadow_kernel, double{settings.shadow_bias}},
       nearest_(makeNearestSampler(device)) {
     // In the order of the buffer: points, then spots.
@@ -128,13 +127,7 @@ LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose,
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     uploader.flush();
     texels_view_ = makeTexelView(device, "local shadow lights", texels_, VK_FORMAT_R32G32B32A32_SFLOAT);
-    bindNothing(frame_);
-}
-
-void LocalShadows::bindNothing(DescriptorSets& frame) const {
-    frame.texels(0, gpu::BINDING_LOCAL_SHADOW_LIGHTS, texels_view_);
-    frame.image(0, gpu::BINDING_LOCAL_SHADOW_MAP, placeholders_.arrayTexel(), nearest_,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    frame_.texels(0, gpu::BINDING_LOCAL_SHADOW_LIGHTS, texels_view_);
 }
 
 void LocalShadows::specialise(Variant& variant) const {

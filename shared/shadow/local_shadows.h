@@ -17,15 +17,14 @@
 namespace diptych {
 
 // Everything that one view of a scene needs for the shadows of the points and spots that cast. Where none
-// does, or nothing is there to be seen or to cast, it has no pass and only something to bind.
+// does, or nothing is there to be seen or to cast, it has no pass.
 class LocalShadows {
 public:
     // Writes its bindings to `frame`, the sets of SET_FRAME. `seen`: what the picture draws. `sources`: what
     // `lights` was made of, in world space.
     LocalShadows(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
                  const Materials& materials, const View& view, const DrawList& seen, const GpuLights& lights,
-                 std::span<const Light> sources, const Placeholders& placeholders, DescriptorSets& frame,
-                 const Settings& settings);
+                 std::span<const Light> sources, DescriptorSets& frame, const Settings& settings);
     LocalShadows(const LocalShadows&) = delete;
     LocalShadows& operator=(const LocalShadows&) = delete;
 
@@ -40,7 +39,6 @@ public:
     void read(Pass& pass) const;
 
     // Something to bind to the sets of SET_FRAME of draws that read no shadow.
-    void bindNothing(DescriptorSets& frame) const;
 
     std::uint64_t bytes() const;  // of buffers; the atlas is the pass list's
     // How far across a light's rays something is read for a surface, a share of the distance from the light:
@@ -57,7 +55,6 @@ private:
         GpuBuffer draws;
     };
     DescriptorSets& frame_;
-    const Placeholders& placeholders_;
     AtlasRequest request_;
     LocalAtlas atlas_;
     gpu::uint kinds_ = 0;    // LOCAL_SHADOWS_*

@@ -15,11 +15,9 @@ public:
     // As of SunShadow and LocalShadows.
     ShadowMaps(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
                const Materials& materials, const View& view, const DrawList& seen, const GpuLights& lights,
-               std::span<const Light> sources, const Placeholders& placeholders, DescriptorSets& frame,
-               const Settings& settings)
-        : sun(device, uploader, placeholders, frame, settings),
-          local(device, uploader, pose, geometry, materials, view, seen, lights, sources, placeholders, frame,
-                settings) {}
+               std::span<const Light> sources, DescriptorSets& frame, const Settings& settings)
+        : sun(device, frame, settings),
+          local(device, uploader, pose, geometry, materials, view, seen, lights, sources, frame, settings) {}
 
     void specialise(Variant& variant) const {
         sun.specialise(variant);
@@ -28,8 +26,7 @@ public:
     // As of SunShadow: before all that follows, and once `inputs` are complete.
     void prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
                  const View& view, const std::optional<CastingSun>& casting) {
-        sun.prepare(inputs, uploader, atlases, pose, view, casting,
-                    [this](DescriptorSets& sets) { local.bindNothing(sets); });
+        sun.prepare(inputs, uploader, atlases, pose, view, casting);
     }
     void choosePages(const FrameInputs& inputs) { sun.choosePages(inputs); }
     // Passes before the first that reads what they draw.

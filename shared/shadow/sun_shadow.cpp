@@ -121,35 +121,24 @@ std::vector<ShadowReach> reachOf(const Cascades& cascades, const std::function<d
 
 }  // namespace
 
-SunShadow::SunShadow(Device& device, Uploader& uploader, const Placeholders& placeholders,
-                     DescriptorSets& frame, const Settings& settings)
+SunShadow::SunShadow(Device& device, DescriptorSets& frame, const Settings& settings)
     : frame_(frame),
-      placeholders_(placeholders),
       settings_(settings),
       request_(requestOf(settings)),
       filter_(featureOf(settings.shadows)),
       nearest_(makeNearestSampler(device)),
-      linear_(makeLinearSampler(device)) {
-    setLight(device, uploader, std::vector<glm::vec4>(1));
-    bindNothing(frame_);
-}
+      linear_(makeLinearSampler(device)) {}
 
 void SunShadow::setLight(Device& device, Uploader& uploader, const std::vector<glm::vec4>& texels) {
     light_ = makeBuffer<glm::vec4>(device, uploader, "shadow light", texels,
                                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     uploader.flush();
     light_view_ = makeTexelView(device, "shadow light", light_, VK_FORMAT_R32G32B32A32_SFLOAT);
-}
-
-void SunShadow::bindNothing(DescriptorSets& frame) const {
-    frame.texels(0, gpu::BINDING_SHADOW_LIGHT, light_view_);
-    frame.image(0, gpu::BINDING_SHADOW_MAP, placeholders_.arrayTexel(), nearest_,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    frame_.texels(0, gpu::BINDING_SHADOW_LIGHT, light_view_);
 }
 
 void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases,
-                        const Pose& pose, const View& view, const std::optional<CastingSun>& sun,
-                        const std::function<void(DescriptorSets&)>& bind) {
+                        const Pose& pose, const View& view, const std::optional<CastingSun>& sun) {
     casts_ = sun && !inputs.draws.items.empty();
     if (!casts_) return;
     view_ = &view;
@@ -165,7 +154,6 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
         none.areas.clear();
         sun_ = gpuShadowLight(none, view, sun->light);
         setLight(device, uploader, clipmapTexels());
-        bindNothing(frame_);
         return;
     }
     const Bounds bounds = boundsOf(pose, inputs.geometry);
@@ -175,8 +163,7 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
     }
     if (filter_ == gpu::SHADOWS_PCSS)
         request_.kernel = std::max(request_.kernel, request_.size / mapOfWidest);
-    if (settings_.shadow_fit == ShadowFit::depth)
-        fitToDepth(inputs, uploader, pose, view, bounds, to_light, bind);
+    if (settings_.shadow_fit == ShadowFit::depth) fitToDepth(inputs, uploader, pose, view, bounds, to_light);
     Cascades cascades = fitCascades(view, bounds, to_light, request_);
     leaveOutUnseen(cascades, inputs.draws, notes_);
     addCascades(inputs, uploader, pose, view, cascades);
@@ -188,7 +175,6 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
     std::memcpy(texels.data(), &light, sizeof light);
     std::memcpy(texels.data() + gpu::SHADOW_LIGHT_TEXELS, areas.data(), areas.size() * sizeof(gpu::Cascade));
     setLight(device, uploader, texels);
-    bindNothing(frame_);
 }
 
 // None where nothing casts into any.
@@ -222,8 +208,7 @@ void SunShadow::addCascades(const FrameInputs& inputs, Uploader& uploader, const
 }
 
 void SunShadow::fitToDepth(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
-                           const Bounds& bounds, const glm::dvec3& to_light,
-                           const std::function<void(DescriptorSets&)>& bind) {
+                           const Bounds& bounds, const glm::dvec3& to_light) {
     constexpr int steps = 8;
     depth_bounds_.emplace(inputs.device);
     request_.shown = shownDepths(inputs, view);
@@ -232,11 +217,7 @@ void SunShadow::fitToDepth(const FrameInputs& inputs, Uploader& uploader, const 
         return;
     }
     const double texel = fitCascades(view, bounds, to_light, request_).areas.front().texel;
-    const DepthVariation varies =
-        depthVariation(inputs, uploader, pose, view, texel, steps, [&](DescriptorSets& frame) {
-            bindNothing(frame);
-            bind(frame);
-        });
+    const DepthVariation varies = depthVariation(inputs, uploader, pose, view, texel, steps);
     notes_.push_back(fmt::format(
         "--shadow-fit depth: cascades cover the shown view depths, {:.6g} to {:.6g} m; over {} "
         "steps of a texel ({:.3g} m) to the right these vary by {:.2g} % and {:.2g} % (standard "

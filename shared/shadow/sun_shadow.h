@@ -14,7 +14,6 @@
 #include "shared/vulkan/pass_list.h"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,21 +27,18 @@ struct CastingSun {
 };
 
 // Everything that one view of a scene needs for the shadow of its brightest directional light. Where the
-// Settings ask for none, or no light casts, or nothing is there to cast or to be seen, it has no pass and
-// only something to bind.
+// Settings ask for none, or no light casts, or nothing is there to cast or to be seen, it has no pass.
 class SunShadow {
 public:
-    // Writes its bindings to `frame`, the sets of SET_FRAME.
-    SunShadow(Device& device, Uploader& uploader, const Placeholders& placeholders, DescriptorSets& frame,
-              const Settings& settings);
+    // `frame`: the sets of SET_FRAME, to which it writes its bindings.
+    SunShadow(Device& device, DescriptorSets& frame, const Settings& settings);
     SunShadow(const SunShadow&) = delete;
     SunShadow& operator=(const SunShadow&) = delete;
 
     // Once, before all that follows: lays the cascades, for which --shadow-fit depth draws what `inputs`
-    // shows of `view`. `bind`: what else the sets of SET_FRAME need.
+    // shows of `view`.
     void prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
-                 const View& view, const std::optional<CastingSun>& sun,
-                 const std::function<void(DescriptorSets&)>& bind);
+                 const View& view, const std::optional<CastingSun>& sun);
     // Once `inputs` are complete: chooses the clipmap's pages by what the view shows.
     void choosePages(const FrameInputs& inputs);
 
@@ -79,17 +75,14 @@ private:
         GpuBuffer draws;
     };
     void setLight(Device& device, Uploader& uploader, const std::vector<glm::vec4>& texels);
-    void bindNothing(DescriptorSets& frame) const;
     void addCascades(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
                      const Cascades& cascades);
     void fitToDepth(const FrameInputs& inputs, Uploader& uploader, const Pose& pose, const View& view,
-                    const Bounds& bounds, const glm::dvec3& to_light,
-                    const std::function<void(DescriptorSets&)>& bind);
+                    const Bounds& bounds, const glm::dvec3& to_light);
     std::vector<glm::vec4> clipmapTexels() const;
     void setFilter(gpu::ShadowLight& light, const Cascades& cascades, double angle, Device& device);
 
     DescriptorSets& frame_;
-    const Placeholders& placeholders_;
     const Settings settings_;
     CascadeRequest request_;
     gpu::uint filter_;                            // SHADOWS_*

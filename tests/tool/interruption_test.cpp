@@ -53,7 +53,7 @@ TEST(Interruption, WritingLeavesAllOrNothing) {
         ASSERT_TRUE(soon([&] { return tool.ended(); }));
         const bool died = WIFSIGNALED(tool.wait());
         cut += died;
-        EXPECT_TRUE(leftoversIn(folder.path()).empty()) << attempt;
+        ASSERT_EQ(leftoversIn(folder.path()), std::vector<std::string>()) << attempt;
         if (!died) {
             EXPECT_EQ(WEXITSTATUS(tool.wait()), 0) << tool.err();
         }

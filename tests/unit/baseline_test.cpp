@@ -133,10 +133,11 @@ TEST(BaselineMismatches, EverySettingIsNamed) {
     for (const Field& field : settingFields()) {
         if (field.option == "path" || field.option == "size") continue;
         Frame now = then;
-        for (const char* value :
-             {"1", "2", "3", "0.5", "on", "off", "compact", "tiled", "scatter", "pcf", "fp32", "0..1",
-              "representative", "scene", "depth", "point:2", "0.5,0.5,0.5", "b.exr"})
-            try {
+        std::vector<std::string> values = sweptValues(then.settings, field.option);
+        for (const char* value : {"1", "2", "3", "0.5", "on", "all", "fp32", "0..1", "depth", "scene",
+                                  "point:2", "0.5,0.5,0.5", "b.exr"})
+            values.emplace_back(value);
+        for (const std::string& value : values) try {
                 now.settings.set(field.option, value);
                 if (now.settings != then.settings) break;
             } catch (const std::runtime_error&) {

@@ -359,10 +359,11 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
         return parseCommandLine({command, "--help"}).help.find("--" + option + " ") != std::string::npos;
     };
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
-        for (const char* option : {"env", "ibl-intensity", "time", "msaa", "sort", "haze"})
+        for (const char* option : {"time", "msaa", "sort", "haze"})
             EXPECT_FALSE(shows(command, option)) << command << " " << option;
         for (const char* option : {"gbuffer", "pixel-lights", "spp", "reference-mode", "ambient", "camera",
-                                   "shadows", "shadow-kernel", "shadow-lights", "evsm-exponent"})
+                                   "shadows", "shadow-kernel", "shadow-lights", "evsm-exponent", "env",
+                                   "env-rotation", "ibl-intensity", "ibl", "ibl-diffuse"})
             EXPECT_TRUE(shows(command, option)) << command << " " << option;
     }
     for (const char* option : {"env", "ibl-intensity", "shadows", "time", "gbuffer", "spp"})

@@ -30,7 +30,12 @@ Settings everythingChanged() {
     s.camera = "eye=1,2,3 target=0,0,0 \"quoted\"";
     s.time = 1.0 / 3.0;
     s.env = "sky \\ \xc3\xa9.exr";
+    s.env_rotation = -30.5f;
     s.ibl_intensity = 0.1f;
+    s.ibl = Ibl::sampled;
+    s.ibl_diffuse = IblDiffuse::map;
+    s.ibl_samples = 31;
+    s.ibl_bias = 0.5f;
     s.ambient = {1e-30f, 0.3f, 16777217.0f};
     s.lights = "point:64,spot:16";
     s.seed = 4294967295u;
