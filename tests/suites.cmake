@@ -3,10 +3,12 @@
 # is one process, so that its tests share one device, what was uploaded to it and the pipelines that were compiled.
 # For the same reason suites that are instantiated once a scene, under the prefix Builtin or Asset, are run scene by
 # scene: these are dealt out to four tests each, FOLDER.Builtin.N and FOLDER.Asset.N, since scenes share pipelines.
+# Those of suites without the validation layers are tests of their own, FOLDER.PlainBuiltin.N.
 #
 # Variables that this file reads: program; folder, its label and the first part of every name; seconds, how long a
 # test may take; results, the folder that JUnit files are written to; costs, names and seconds of the longest, which
-# start first; campaigns, those of which a slice is run where DIPTYCH_CAMPAIGN is not set (campaign.h).
+# start first; campaigns, those of which a slice is run where DIPTYCH_CAMPAIGN is not set (campaign.h); plain, suites
+# that are run without the validation layers then.
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
   set_tests_properties(${folder}.NOT_BUILT PROPERTIES LABELS ${folder})
@@ -20,10 +22,12 @@ string(REPLACE ";" "," lines "${lines}")
 string(REPLACE "\n" ";" lines "${lines}")
 
 set(groups "")
+set(plain_groups "")
 foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.( |$)")
     set(suite ${CMAKE_MATCH_1})
     string(REGEX REPLACE "^.*/" "" short ${suite})
+    list(FIND plain ${folder}.${short} is_plain)
   elseif(line MATCHES "^  ([^ ]+)")
     set(name ${CMAKE_MATCH_1})
     if(suite MATCHES "^(Builtin|Asset)/" AND name MATCHES "/(.+)$")
@@ -34,12 +38,18 @@ foreach(line IN LISTS lines)
       list(FIND ${prefix}_scenes ${scene} at)
       math(EXPR at "${at} % 4 + 1")
       set(group ${folder}.${prefix}.${at})
+      if(is_plain GREATER -1)
+        set(group ${folder}.Plain${prefix}.${at})
+      endif()
       list(APPEND filter_${group} ${suite}.${name})
     else()
       set(group ${folder}.${short})
       list(APPEND filter_${group} ${suite}.*)
     endif()
     list(APPEND groups ${group})
+    if(is_plain GREATER -1)
+      list(APPEND plain_groups ${group})
+    endif()
   endif()
 endforeach()
 list(REMOVE_DUPLICATES groups)
@@ -60,4 +70,8 @@ foreach(group IN LISTS groups)
     set(campaign ";campaign")
   endif()
   set_tests_properties(${group} PROPERTIES LABELS "${folder}${campaign}" TIMEOUT ${seconds} COST ${cost})
+  list(FIND plain_groups ${group} at)
+  if(at GREATER -1)
+    set_tests_properties(${group} PROPERTIES ENVIRONMENT DIPTYCH_VALIDATE=0)
+  endif()
 endforeach()

@@ -10,7 +10,9 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace diptych::tests {
@@ -57,7 +59,9 @@ TEST_P(ShadowFilters, SeeTheSameInBothPaths) {
                                                            {Shadows::evsm4, GBufferEncoding::standard},
                                                            {Shadows::msm4, GBufferEncoding::full},
                                                            {Shadows::pcss, GBufferEncoding::standard}};
-    for (const auto& [shadows, encoding] : filters) {
+    // Every filter of the gallery would compile the pipelines of its many materials four times over.
+    const std::size_t count = GetParam() == "builtin:gallery" ? 1 : std::size(filters);
+    for (const auto& [shadows, encoding] : std::span(filters).first(count)) {
         const std::vector<Frame> frames = bothPaths(renderer, filteredBy(shadows, encoding), {lit, sunSeen});
         const Image& seen = frames[0].channels.at(sunSeen);
         EXPECT_EQ(differingPixels(seen, frames[1].channels.at(sunSeen)), 0u) << nameOf(shadows);
