@@ -78,8 +78,8 @@ private:
         const std::span<const VkDescriptorType> types = frameBindings();
         for (std::uint32_t i = 0; i < types.size(); ++i) {
             // Lights are texels of floats, whatever their kind; lists and the packed view are of integers.
-            const bool floats =
-                i == gpu::BINDING_LIGHTS || i == gpu::BINDING_SPOT_CONES || i == gpu::BINDING_AREA_LIGHTS;
+            const bool floats = i == gpu::BINDING_LIGHTS || i == gpu::BINDING_SPOT_CONES ||
+                                i == gpu::BINDING_AREA_LIGHTS || i == gpu::BINDING_ALBEDO;
             if (types[i] == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER)
                 frameSets_.texels(0, i, floats ? lightsView_ : indicesView_);
             else if (types[i] == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||

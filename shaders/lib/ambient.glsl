@@ -7,9 +7,8 @@
 #include "shaders/lib/brdf.glsl"
 #include "shared/contract/albedo.h"
 
-layout(set = SET_FRAME, binding = BINDING_ALBEDO, scalar) readonly buffer AlbedoTable {
-    vec2 albedo_table[];
-};
+// Each sample of the table with the next one.
+layout(set = SET_FRAME, binding = BINDING_ALBEDO) uniform samplerBuffer albedo_pairs;
 
 // Lagrange's polynomial through samples at 0, 1, 2 and 3.
 vec4 cubicWeights(float t) {
@@ -27,8 +26,8 @@ uint cubicFirst(float x, uint count, out float t) {
 }
 
 vec2 cubicRow(uint first, vec4 w) {
-    vec2 sum = albedo_table[first] * w.x + albedo_table[first + 1u] * w.y +
-               albedo_table[first + 2u] * w.z + albedo_table[first + 3u] * w.w;
+    vec4 lower = texelFetch(albedo_pairs, int(first)), upper = texelFetch(albedo_pairs, int(first) + 2);
+    vec2 sum = lower.xy * w.x + lower.zw * w.y + upper.xy * w.z + upper.zw * w.w;
     return sum;
 }
 

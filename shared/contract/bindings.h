@@ -29,7 +29,7 @@ CONTRACT_END
     X(6,  LIST_HEADS,   texel_buffer,   "LightListHead[lists], a texel each")                 \
     X(7,  LIST_INDICES, texel_buffer,   "uint[]: numbers of lights, a packet a texel")        \
     X(8,  LIST_COUNTS,  storage_buffer, "uint[lists]")                                        \
-    X(9,  ALBEDO,       storage_buffer, "vec2[], see albedo.h")                               \
+    X(9,  ALBEDO,       texel_buffer,   "vec4[]: each sample of albedo.h with the next one")      \
     X(10, OBJECT_LIST,  storage_buffer, "ObjectLight[]")                                      \
     X(11, OBJECTS,      storage_buffer, "ObjectLights[draws]")                                \
     X(12, VIEW_TEXELS,  texel_buffer,   "PACKED_VIEW")                                        \

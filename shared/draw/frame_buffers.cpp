@@ -7,6 +7,7 @@
 #include "shared/environment/directional_albedo.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace diptych {
 
@@ -42,15 +43,16 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     area_lights_view_ = makeTexelView(device, "area lights", area_lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
     ltc_ = LtcImage(device, uploader, lights.area() > 0);
-    std::span<const glm::vec2> albedo;
+    std::vector<glm::vec4> albedo;
     const bool lightmaps = std::ranges::any_of(draws.items, [](const DrawItem& item) {
         return item.variant.get(gpu::FEATURE_lightmap_texture) != 0;
     });
     if (lightmaps || lights.environment || lights.ambient != glm::vec3(0) ||
         objects_.features() > gpu::OBJECT_LIGHTS_LISTS || multiscatter != Multiscatter::off)
-        albedo = directionalAlbedoTable();
-    albedo_ = makeBuffer<glm::vec2>(device, uploader, "directional albedo", albedo,
-                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        albedo = directionalAlbedoPairs();
+    albedo_ = makeBuffer<glm::vec4>(device, uploader, "directional albedo", albedo,
+                                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    albedo_view_ = makeTexelView(device, "directional albedo", albedo_, VK_FORMAT_R32G32B32A32_SFLOAT);
     uploader.flush();
     placeholders_.bindFrame(sets_);
     sets_.buffer(0, gpu::BINDING_VIEW, view_.handle());
@@ -60,7 +62,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     sets_.texels(0, gpu::BINDING_AREA_LIGHTS, area_lights_view_);
     sets_.image(0, gpu::BINDING_LTC_TABLE, ltc_.view(), ltc_.sampler(),
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    sets_.buffer(0, gpu::BINDING_ALBEDO, albedo_.handle());
+    sets_.texels(0, gpu::BINDING_ALBEDO, albedo_view_);
     lists_.bind(sets_);
     objects_.bind(sets_);
 }

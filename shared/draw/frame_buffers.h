@@ -35,7 +35,7 @@ public:
 
 private:
     GpuBuffer view_, packed_view_, draws_, lights_, spot_cones_, area_lights_, albedo_;
-    OwnedBufferView packed_view_texels_, lights_view_, spot_cones_view_, area_lights_view_;
+    OwnedBufferView packed_view_texels_, lights_view_, spot_cones_view_, area_lights_view_, albedo_view_;
     LtcImage ltc_;
     LightLists lists_;
     ObjectLightBuffers objects_;

@@ -162,4 +162,12 @@ const std::vector<glm::vec2>& directionalAlbedoTable() {
     return table;
 }
 
+std::vector<glm::vec4> directionalAlbedoPairs() {
+    const std::vector<glm::vec2>& table = directionalAlbedoTable();
+    std::vector<glm::vec4> pairs;
+    for (std::size_t i = 0; i < table.size(); ++i)
+        pairs.emplace_back(table[i], table[std::min(i + 1, table.size() - 1)]);
+    return pairs;
+}
+
 }  // namespace diptych

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include <vector>
 
@@ -20,5 +21,7 @@ double meanSchlickWeight(double n_dot_v);
 
 // The table of shared/contract/albedo.h, row after row; made on all cores when it is first asked for.
 const std::vector<glm::vec2>& directionalAlbedoTable();
+// As shaders read it: each sample with the next one, the last with itself.
+std::vector<glm::vec4> directionalAlbedoPairs();
 
 }  // namespace diptych
