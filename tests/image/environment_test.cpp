@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <array>
 #include <cmath>
@@ -199,6 +201,60 @@ TEST(EnvironmentLight, BothPathsAreEqualBitForBit) {
             EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                 << nameOf(ibl) << " " << debugMode(mode).name;
         for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name;
+    }
+}
+
+class AssetEnvironment : public testing::TestWithParam<std::string> {};
+
+// The same of real scenes under 256 lights.
+TEST_P(AssetEnvironment, IsEqualBitForBit) {
+    const std::filesystem::path file = assets() / GetParam();
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the gallery proves it";
+    Scene scene = loadScene(file.string());
+    scene.environment = paintedSky();
+    Settings settings = underSky({128, 72});
+    settings.lights = "point:192,spot:64";
+    const std::vector<Frame> frames = bothPaths(scene, settings, shown);
+    for (const int mode : shown)
+        EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+            << debugMode(mode).name;
+    for (const Frame& frame : frames) {
+        EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name;
+        EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Asset, AssetEnvironment, testing::ValuesIn(assetScenes()), [](const auto& scene) {
+    return testName(std::filesystem::path(scene.param).stem().string());
+});
+
+// Turned with everything in it, a scene looks the same: maps have no direction of their own.
+TEST(EnvironmentLight, TurnsWithTheScene) {
+    constexpr float degrees = 37;
+    Scene scene = loadScene("builtin:gallery");
+    scene.environment = paintedSky();
+    scene.lights.clear();
+    Scene turned = scene;
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(double{degrees}), {0, 1, 0});
+    const auto root = static_cast<int>(turned.nodes.size());
+    for (Node& node : turned.nodes)
+        if (node.parent < 0) node.parent = root;
+    turned.nodes.push_back({.name = "turn", .parent_from_node = turn});
+    for (Camera& camera : turned.cameras) camera.world_from_camera = turn * camera.world_from_camera;
+    Settings settings = underSky({160, 90});
+    ASSERT_FALSE(scene.cameras.empty());
+    const std::vector<Frame> still = bothPaths(scene, settings, shown);
+    settings.env_rotation = degrees;
+    const std::vector<Frame> moved = bothPaths(turned, settings, shown);
+    for (std::size_t path = 0; path < 2; ++path) {
+        std::size_t off = 0;
+        for (int y = 0; y < 90; ++y)
+            for (int x = 0; x < 160; ++x)
+                off += glm::any(glm::greaterThan(
+                    glm::abs(colorAt(moved[path], lit, x, y) - colorAt(still[path], lit, x, y)),
+                    glm::vec3(1e-3f)));
+        EXPECT_LE(off, 14u) << still[path].name;  // 0.1 %
     }
 }
 
