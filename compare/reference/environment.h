@@ -20,6 +20,10 @@ public:
 
     bool black() const { return !(brightness_ > 0) || factor_ == 0; }
     glm::dvec3 radiance(const glm::dvec3& direction) const;  // W/(sr m^2); direction unit
+    // The picture's sides, and the direction of a place in it, in pixels.
+    int width() const { return image_.width; }
+    int height() const { return image_.height; }
+    glm::dvec3 directionOf(double x, double y) const;
 
     // Samples directions with a density proportional to brightness times a weight for each block of the
     // picture, which describes how the surface reflects it. (After Clarberg et al. 2005, "Wavelet Importance
@@ -54,7 +58,6 @@ private:
     };
     double column(const glm::dvec3& direction) const;  // in pixels, from 0 to the width
     glm::dvec3 texel(int x, int y) const;
-    glm::dvec3 directionOf(double x, double y) const;  // x, y in pixels
     Pixel pixelOf(const glm::dvec3& direction) const;
     std::size_t blockOf(Pixel pixel) const;
 

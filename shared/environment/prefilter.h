@@ -12,7 +12,7 @@ namespace diptych {
 
 struct FilterQuality {
     int samples = 256;  // directions a texel of a level
-    float bias = 1;     // mip levels by which what a direction stands for is widened
+    float bias = 0;     // mip levels by which what a direction stands for is widened
     bool operator==(const FilterQuality&) const = default;
 };
 
@@ -28,7 +28,7 @@ struct BrightTexel {
     glm::vec3 direction;
     Texel power;  // radiance times solid angle, W/m^2
 };
-// Takes from the map what its brightest texels, mostBrightTexels at most, have above 16 times its mean.
+// Takes from the map what its brightest texels, mostBrightTexels at most, have above 8 times its mean.
 std::vector<BrightTexel> takeBrightTexels(OctahedralMap& map);
 inline constexpr std::size_t mostBrightTexels = 256;
 // Adds what they are under the same lobe.

@@ -31,7 +31,7 @@ struct Settings {
     Ibl ibl = Ibl::split;
     IblDiffuse ibl_diffuse = IblDiffuse::sh;
     int ibl_samples = 256;
-    float ibl_bias = 1.0f;  // mip levels
+    float ibl_bias = 0.0f;  // mip levels
     Rgb ambient;            // W/(sr m^2)
     std::string lights;     // "" none, "point:64,spot:16", or a file's name
     std::uint32_t seed = 0;
