@@ -107,7 +107,7 @@ public:
         stage.at(loading, "upload");
         SceneViews views(scene);
         if (options_.grid.empty())
-            sweep_ = rowsThatAreFelt(sweep_, views.at(viewRequest(options_.settings)).lights);
+            sweep_ = rowsThatAreFelt(sweep_, views.at(viewRequest(options_.settings)).lights, &views.scene());
         tradeoff_.skips = sweep_.skips;
         Renderer renderer(device_, views);
         tradeoff_.cost.reading = msSince(start_);

@@ -170,7 +170,7 @@ Frame describedFrame(const PreparedFrame& prepared, const SharedResources& share
 
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
     return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
-                shared.environments.bytes(),
+                prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
                 prepared.view.shadow.bytes() + prepared.view.environment.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/felt.h"
 
+#include "shared/environment/harmonics.h"
 #include "shared/scene/lights/casters.h"
 
 #include <algorithm>
@@ -18,10 +19,32 @@ bool hasPlace(const Light& light) {
     return light.kind != LightKind::directional;
 }
 
+// What a scene's surfaces reflect by, and whether its environment's harmonics are windowed.
+struct Reflectors {
+    bool base = true, specular = true, windowed = true;
+};
+Reflectors reflectorsOf(const Scene* scene) {
+    if (!scene) return {};
+    Reflectors found{false, false, true};
+    for (const Mesh& mesh : scene->meshes)
+        for (const Primitive& primitive : mesh.primitives) {
+            // glTF's default material is a metal.
+            const Material material = primitive.material < 0
+                                          ? Material{}
+                                          : scene->materials[static_cast<std::size_t>(primitive.material)];
+            if (material.unlit) continue;
+            const bool textured = material.metallic_roughness_texture.texture >= 0;
+            found.base = found.base || material.metallic < 1 || textured;
+            found.specular = found.specular || material.metallic > 0 || material.specular > 0;
+        }
+    if (scene->environment) found.windowed = leastWindow(project(LatLong(*scene->environment))) > 0;
+    return found;
+}
+
 // Sets what a row cannot feel to one value and says why, so that rows of one picture become equal.
 class Unfelt {
 public:
-    Unfelt(Settings row, std::span<const Light> lights) : row_(std::move(row)) {
+    Unfelt(Settings row, std::span<const Light> lights, const Reflectors& surfaces) : row_(std::move(row)) {
         const auto any = [&](const auto& of) { return std::ranges::any_of(lights, of); };
         if (!any(hasPlace)) {
             constexpr std::string_view why = "no light has a place: each reaches every pixel";
@@ -37,11 +60,28 @@ public:
         if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
             reset("shadow-lights", "there is no point or spot light");
         noteShadows(lights);
+        noteEnvironment(surfaces);
     }
     const Settings& row() const { return row_; }
     const Reasons& reasons() const { return reasons_; }
 
 private:
+    void noteEnvironment(const Reflectors& surfaces) {
+        constexpr std::string_view none = "nothing of the environment is drawn", dull = "nothing is specular";
+        if (row_.ibl_intensity == 0)
+            for (const std::string_view option : {"ibl", "ibl-diffuse", "ibl-samples", "ibl-bias"})
+                reset(option, none);
+        if (!surfaces.specular)
+            for (const std::string_view option : {"ibl", "ibl-samples", "ibl-bias", "multiscatter"})
+                reset(option, dull);
+        // Between facets irradiance is reflected too.
+        if (!surfaces.base && row_.multiscatter != Multiscatter::fdez)
+            reset("ibl-diffuse", "every surface is a metal: none reflects irradiance");
+        if (!surfaces.windowed && row_.ibl_diffuse == IblDiffuse::sh_windowed) {
+            row_.ibl_diffuse = IblDiffuse::sh;
+            reasons_.emplace("ibl-diffuse", "no harmonic irradiance is negative: there is no window");
+        }
+    }
     void noteShadows(std::span<const Light> lights) {
         const std::optional<std::size_t> sun = brightestSun(lights);
         if (castingLights(lights, row_.shadow_lights).empty()) {
@@ -67,11 +107,12 @@ private:
 
 }  // namespace
 
-SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights) {
+SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights, const Scene* scene) {
+    const Reflectors surfaces = reflectorsOf(scene);
     SweepRows result{{}, sweep.skips};
     std::vector<Settings> drawn;  // the rows of the result without what is not felt
     for (const Settings& row : sweep.rows) {
-        const Unfelt unfelt(row, lights);
+        const Unfelt unfelt(row, lights, surfaces);
         const auto same = std::ranges::find(drawn, unfelt.row());
         if (same == drawn.end()) {
             drawn.push_back(unfelt.row());

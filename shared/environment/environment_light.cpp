@@ -104,6 +104,7 @@ EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, Environme
     if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
     if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;
     notes_.push_back(images.note);
+    image_bytes_ = images.maps.bytes() + images.sky.bytes();
     const glm::mat3 turned = environmentFromWorld(double{settings.env_rotation});
     const glm::vec3 last(settings.ibl_intensity, images.levels.size(), settings.ibl_samples);
     std::vector<glm::vec4> texels;

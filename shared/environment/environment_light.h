@@ -61,9 +61,11 @@ public:
     void specialise(Variant& variant) const { variant.set(gpu::FEATURE_environment, feature_); }
     const std::vector<std::string>& notes() const { return notes_; }
     std::uint64_t bytes() const { return texels_.size(); }
+    std::uint64_t imageBytes() const { return image_bytes_; }  // of its maps, which views may share
 
 private:
     gpu::uint feature_ = 0;
+    std::uint64_t image_bytes_ = 0;
     GpuBuffer texels_;
     OwnedBufferView texels_view_;
     OwnedSampler nearest_;

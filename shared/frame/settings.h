@@ -268,10 +268,11 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "0"},
           &Settings::env_rotation);
     visit(Field{.option = "ibl-intensity",
-                .help = "factor on the environment's radiance",
+                .help = "factor on the environment's radiance; 0: none of it is drawn",
                 .valid = {"is finite and at least 0",
                           [](const Settings& s) { return row::isFiniteFrom0(s.ibl_intensity); }},
                 .default_only = {row::needs_env, row::hasEnv},
+                .sweep = "0",
                 .for_surfaces = "1"},
           &Settings::ibl_intensity);
     visit(Field{.option = "ibl",

@@ -81,6 +81,56 @@ TEST(TradeoffFelt, ShadowsAreVariedWhereSomethingCasts) {
     EXPECT_GT(valuesOf(feltBy({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
 }
 
+// A square of one material under an environment: half of it black and a sun, or the same from everywhere.
+SweepRows feltUnder(const Material& material, bool even) {
+    Scene scene;
+    scene.materials = {material};
+    scene.meshes.resize(1);
+    scene.meshes[0].primitives.resize(1);
+    scene.meshes[0].primitives[0].material = 0;
+    scene.environment = Environment{"sky", Image(16, 8, 3, even ? 1.0f : 0.0f)};
+    if (!even) scene.environment->radiance.at(5, 2, 1) = 100;
+    Settings given;
+    given.env = "sky.exr";
+    given.multiscatter = Multiscatter::energy;
+    return rowsThatAreFelt(makeSweepRows(given, usualGrids(given)), {}, &scene);
+}
+
+TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
+    Material mixed, metal, matte;
+    mixed.metallic = 0.5f;
+    metal.metallic = 1;
+    matte.metallic = matte.specular = 0;
+    const SweepRows all = feltUnder(mixed, false);
+    EXPECT_EQ(valuesOf(all, "ibl-diffuse"), (std::set<std::string>{"sh", "sh-windowed", "map"}));
+    EXPECT_EQ(valuesOf(all, "ibl-intensity"), (std::set<std::string>{"0", "1"})) << "without its light";
+    for (const char* option : {"ibl", "multiscatter"}) EXPECT_GT(valuesOf(all, option).size(), 1u) << option;
+    for (const Ibl ibl : {Ibl::split, Ibl::sampled})
+        for (const int samples : {32, 256, 1024})
+            for (const float bias : {0.0f, 1.0f, 2.0f})
+                EXPECT_TRUE(std::ranges::any_of(all.rows,
+                                                [&](const Settings& row) {
+                                                    return row.ibl == ibl && row.ibl_samples == samples &&
+                                                           row.ibl_bias == bias;
+                                                }) ||
+                            (ibl == Ibl::sampled && bias != 0))
+                    << nameOf(ibl) << " " << samples << " " << bias;
+    EXPECT_EQ(reasonOf(feltUnder(mixed, true), "ibl-diffuse"),
+              "no harmonic irradiance is negative: there is no window");
+    const SweepRows of_matte = feltUnder(matte, false);
+    for (const char* option : {"ibl", "ibl-samples", "ibl-bias", "multiscatter"}) {
+        EXPECT_EQ(valuesOf(of_matte, option).size(), 1u) << option;
+        EXPECT_EQ(reasonOf(of_matte, option), "nothing is specular") << option;
+    }
+    EXPECT_EQ(valuesOf(of_matte, "ibl-diffuse").size(), 3u);
+    // But for rows in which light between facets is irradiance.
+    const SweepRows of_metal = feltUnder(metal, false);
+    for (const Settings& row : of_metal.rows)
+        EXPECT_TRUE(row.ibl_diffuse == IblDiffuse::sh || row.multiscatter == Multiscatter::fdez);
+    metal.metallic_roughness_texture.texture = 0;
+    EXPECT_EQ(valuesOf(feltUnder(metal, false), "ibl-diffuse").size(), 3u) << "a texture darkens it";
+}
+
 // Whatever is left out, each skip names its path, and no two rows are one picture.
 TEST(TradeoffFelt, NothingIsDrawnTwiceNorLostInSilence) {
     const SweepRows all = makeSweepRows({}, usualGrids({}));
