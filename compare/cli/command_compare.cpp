@@ -57,6 +57,7 @@ RenderOptions bothOptions(const Options& options, bool traced) {
     RenderOptions render = renderOptions(options);
     render.through_gbuffer = true;
     render.twice = true;
+    render.environment_errors = true;
     // Channels that nobody asked for: which tells the background, and that is outside every mean; and by
     // which light is judged.
     std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};

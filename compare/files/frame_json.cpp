@@ -53,6 +53,11 @@ Json jsonOf(const Frame& frame) {
         noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
     const FrameTime& time = frame.time;
     const FrameCounters& counters = frame.counters;
+    Json hidden = nullptr;
+    if (frame.hidden_light)
+        hidden = {{"mean", frame.hidden_light->mean},
+                  {"p99", frame.hidden_light->p99},
+                  {"pixels_above_a_tenth", frame.hidden_light->pixels}};
     return {{"name", frame.name},
             {"path", isUnknown ? Json(nullptr) : Json(nameOf(frame.settings.path))},
             {"scene", frame.scene},
@@ -63,6 +68,7 @@ Json jsonOf(const Frame& frame) {
             {"host_ms", {{"record", time.record}, {"object_lists", time.object_lists}}},
             {"made_in_ms", frame.made_in_ms},
             {"uncertainty", frame.relative_uncertainty},
+            {"hidden_light", hidden},
             {"passes", passes},
             {"bytes",
              {{"images", frame.bytes.images},

@@ -2,10 +2,10 @@
 #include "compare/reference/lighting.h"
 
 #include "compare/reference/ambient.h"
+#include "compare/reference/lobe_sampler.h"
 #include "compare/reference/microsurface.h"
 #include "compare/reference/punctual.h"
-#include "compare/reference/sampling.h"
-#include "shared/scene/model/axes.h"
+#include "compare/reference/until_confident.h"
 
 #include <glm/geometric.hpp>
 
@@ -54,6 +54,8 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
 
 // The stream of a surface's walks, which no light has.
 constexpr std::uint64_t betweenStream = ~std::uint64_t{1};
+// And those of what is told of an environment beside its light.
+constexpr std::uint64_t costsStream = ~std::uint64_t{2}, surroundingsStream = ~std::uint64_t{3};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -114,63 +116,6 @@ private:
     const Visibility& visible_;
 };
 
-// Eight independent estimates (estimate(round, index)), whose number of samples is doubled until their means
-// agree. `whole`: what the confidence is relative to if the mean is smaller. `piece`: the largest
-// contribution of one sample; if N samples all agree, what they may have missed is, with 95 % confidence,
-// less than 3 / N of it (Hanley and Lippman-Hand 1983, "If Nothing Goes Wrong, Is Everything All Right?").
-template <class Estimate>
-Shading untilConfident(const Estimate& estimate, std::size_t samples, std::uint64_t first, double whole,
-                       double piece) {
-    constexpr std::size_t count = 8;
-    // Stopping as soon as the rounds agree is biased towards stopping too early: of intervals by Student's
-    // 95 %, only 92 % would contain the true value; with this factor, 95 % do.
-    constexpr double caution = 1.2;
-    std::array<Reflected, count> sums;
-    std::uint64_t done = 0;
-    for (std::uint64_t next = first;; next *= 2) {
-        Rounds rounds;
-        for (std::size_t round = 0; round < count; ++round) {
-            for (std::uint64_t index = done; index < next; ++index) sums[round] += estimate(round, index);
-            rounds.add(sums[round] * (1.0 / static_cast<double>(next)));
-        }
-        done = next;
-        const double size = rounds.mean().size(), width = caution * rounds.halfWidth();
-        const double unseen = 3 * piece / static_cast<double>(done * count);
-        if (std::max(width, unseen) <= samplingError * std::max(whole, size) ||
-            done * count * samples >= mostSamples)
-            return {rounds.mean(), size > 0 ? std::max(width, unseen) : width, {}};
-    }
-}
-
-// Samples directions of specular reflection, with half vectors distributed as D (n.h); Walter et al. 2007,
-// equation 35.
-class LobeSampler {
-public:
-    explicit LobeSampler(const Brdf& brdf)
-        : brdf_(brdf), x_(perpendicularTo(brdf.normal())), y_(glm::cross(brdf.normal(), x_)) {}
-
-    glm::dvec3 operator()(const glm::dvec2& u) const {
-        const double alpha2 = brdf_.alpha() * brdf_.alpha();
-        const double cosine = std::sqrt((1 - u.x) / (1 + (alpha2 - 1) * u.x));
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * u.y;
-        const glm::dvec3 h =
-            x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + brdf_.normal() * cosine;
-        return glm::normalize(2 * glm::dot(brdf_.toViewer(), h) * h - brdf_.toViewer());
-    }
-    double density(const glm::dvec3& l) const {
-        const glm::dvec3 h = glm::normalize(l + brdf_.toViewer());
-        const double n_dot_h = glm::dot(brdf_.normal(), h), v_dot_h = std::abs(glm::dot(brdf_.toViewer(), h));
-        if (!(n_dot_h > 0) || !(v_dot_h > 0)) return 0;
-        const double alpha2 = brdf_.alpha() * brdf_.alpha();
-        const double k = n_dot_h * n_dot_h * (alpha2 - 1) + 1;
-        return alpha2 * n_dot_h / (std::numbers::pi * k * k * 4 * v_dot_h);
-    }
-
-private:
-    const Brdf& brdf_;
-    glm::dvec3 x_, y_;
-};
-
 }  // namespace
 
 Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
@@ -190,6 +135,11 @@ Lighting::Lighting(std::span<const Light> lights, const Environment* environment
     if (environment_ && environment_->black()) environment_.reset();
 }
 
+void Lighting::takeCosts() {
+    if (environment_ && multiscatter_ != Multiscatter::walk && !shadowed_environment_)
+        approximation_.emplace(*environment_);
+}
+
 Shading Lighting::operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const {
     const Compensation compensation = compensationOf(surface, multiscatter_);
     const Brdf brdf(surface, compensation);
@@ -205,9 +155,18 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
     for (std::size_t i = 0; i < emitters_.size(); ++i)
         sum += fromEmitter(emitters_[i].emitter, surface.position, brdf,
                            emitters_[i].casts ? visible : Visibility{}, streamOf(seed, i + 1));
-    if (environment_)
-        sum +=
-            fromEnvironment(brdf, shadowed_environment_ ? visible : Visibility{}, seed) * surface.occlusion;
+    if (environment_) {
+        const Estimated sky = fromEnvironment(brdf, shadowed_environment_ ? visible : Visibility{}, seed);
+        Shading shading{sky.value, sky.uncertainty};
+        if (approximation_)
+            shading.costs =
+                approximation_->costs(surface, compensation, sky.value, streamOf(seed, costsStream));
+        sum += shading * surface.occlusion;
+    }
+    if (takes_surroundings_ && visible && (environment_ || ambient_ != glm::dvec3(0)))
+        sum.surroundings = surroundingsOf(brdf, environment_ ? &*environment_ : nullptr, ambient_, visible,
+                                          streamOf(seed, surroundingsStream)) *
+                           surface.occlusion;
     // A lightmap has no directions: its irradiance is assumed uniform, and only the diffuse base reflects
     // it.
     if (ambient_ + surface.lightmap != glm::dvec3(0))
@@ -276,7 +235,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
             sum.specular += path.weight * environment_->radiance(path.direction) * surface.occlusion;
         return sum * share;
     };
-    Shading more;
+    Estimated more{};
     const double whole = std::max({single.r, single.g, single.b});
     // Where few paths meet a second facet, those that do have few samples to spend.
     if (share > Between::leastShare) more = untilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
@@ -284,7 +243,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     Surface dielectric = surface;
     dielectric.metallic = 0;
     if (surface.metallic < 1) layer += specularAlbedo(dielectric);
-    return {{{glm::dvec3(0), more.reflected.specular}, more.uncertainty, more.reflected.diffuse},
+    return {{{glm::dvec3(0), more.value.specular}, more.uncertainty, more.value.diffuse},
             1 - std::min(std::max({layer.r, layer.g, layer.b}), 1.0)};
 }
 
@@ -315,19 +274,19 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     constexpr std::uint64_t pilot = 2;
     for (std::uint64_t i = 0; i < pilot; ++i) shaded.estimate(~seed, i, false, seen);
     const bool mostly_visible = 2 * seen > pilot * places;
-    const Shading estimated = untilConfident(
+    const Estimated estimated = untilConfident(
         [&](std::size_t round, std::uint64_t index) {
             return shaded.estimate(streamOf(seed, round), index, mostly_visible, ignored);
         },
         places, std::max<std::uint64_t>(1, 8 / places), whole.value.size(), shaded.largestLeaf());
-    return {estimated.reflected * radiance, (estimated.uncertainty + whole.error) * brightest, {}};
+    return {estimated.value * radiance, (estimated.uncertainty + whole.error) * brightest, {}};
 }
 
 // Directions are sampled in two ways, combined by the balance heuristic (Veach and Guibas 1995, "Optimally
 // Combining Sampling Techniques for Monte Carlo Rendering"): by blocks of the picture that are bright and
 // reflected, and by the specular lobe, which may be narrower than a block.
-Shading Lighting::fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const {
-    const LobeSampler lobes(brdf);
+Estimated Lighting::fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const {
+    const LobeSampler lobes(brdf.normal(), brdf.toViewer(), brdf.alpha());
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
         // Within a block that the horizon crosses, or that a lobe touches, other directions may reflect more
         // than the middle.

@@ -5,9 +5,12 @@
 #include "compare/reference/area.h"
 #include "compare/reference/brdf.h"
 #include "compare/reference/environment.h"
+#include "compare/reference/environment_costs.h"
 #include "compare/reference/multiscatter.h"
 #include "compare/reference/quadrature.h"
 #include "compare/reference/surface.h"
+#include "compare/reference/surroundings.h"
+#include "compare/reference/until_confident.h"
 #include "shared/scene/model/scene.h"
 
 #include <cstdint>
@@ -22,30 +25,26 @@ namespace diptych::reference {
 // Relative tolerance of integrals without shadows: the change by the last subdivision of their cells, which
 // is a thousand times the error where the integrand is smooth.
 inline constexpr double quadratureError = 2e-6;
-// Sampling goes on until half the 95 % confidence interval is at most samplingError, relative to what is
-// sampled, or until mostSamples; the pixel's uncertainty tells what was reached. If no sample sees a light,
-// no uncertainty is stated: less than samplingError of the light may pass through a gap between the samples.
-inline constexpr double samplingError = 0.01;
-inline constexpr std::uint32_t mostSamples = 65536;
-
-// Whether light arrives unoccluded from `distance` metres in the direction `to_light`; infinite: from
-// outside the scene.
-using Visibility = std::function<bool(const glm::dvec3& to_light, double distance)>;
 
 struct Shading {
     Reflected reflected;     // from lights and environment, towards the viewer, W/(sr m^2)
     double uncertainty = 0;  // of the largest component of `reflected`, 95 % confidence, W/(sr m^2)
     glm::dvec3 ambient{0};   // reflected from ambient light, W/(sr m^2); neither includes emission
+    // Where it was asked for.
+    EnvironmentCosts costs{};
+    Surroundings surroundings{};
 
     glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
     Shading& operator+=(const Shading& other) {
         reflected += other.reflected;
         uncertainty += other.uncertainty;
         ambient += other.ambient;
+        costs += other.costs;
+        surroundings += other.surroundings;
         return *this;
     }
     friend Shading operator*(const Shading& a, double b) {
-        return {a.reflected * b, a.uncertainty * b, a.ambient * b};
+        return {a.reflected * b, a.uncertainty * b, a.ambient * b, a.costs * b, a.surroundings * b};
     }
 };
 
@@ -58,6 +57,11 @@ public:
              const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
              std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
              Multiscatter multiscatter = Multiscatter::off, double environment_turned = 0);
+
+    // From now on Shading has its costs, unless light between microfacets is followed, or its surroundings,
+    // of what `visible` is known.
+    void takeCosts();
+    void takeSurroundings() { takes_surroundings_ = true; }
 
     // What is seen where no surface is, W/(sr m^2).
     glm::dvec3 background(const glm::dvec3& direction) const {
@@ -83,7 +87,7 @@ private:
     };
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
                         const Visibility& visible, std::uint64_t seed) const;
-    Shading fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const;
+    Estimated fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const;
     // What further reflections between microfacets add, by random walk (microsurface.h), and the share that
     // the base gets of all light: what its layer does not reflect. `single`: the radiance of single
     // reflections, which the confidence is relative to.
@@ -97,8 +101,9 @@ private:
     std::vector<Punctual> punctual_;
     std::vector<Emitting> emitters_;
     std::optional<EnvironmentLight> environment_;
+    std::optional<EnvironmentApproximation> approximation_;
     glm::dvec3 ambient_;
-    bool shadowed_environment_;
+    bool shadowed_environment_, takes_surroundings_ = false;
     Multiscatter multiscatter_;
 };
 

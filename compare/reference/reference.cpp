@@ -23,6 +23,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -173,6 +174,8 @@ public:
                     request.environment_factor, eye_, request.ambient, request.casters,
                     request.shadowed_environment, request.multiscatter, request.environment_turned),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
+        if (request.environment_costs) lighting_.takeCosts();
+        if (request.surroundings) lighting_.takeSurroundings();
         for (const std::size_t caster : request.casters)
             if (!sun_ && request.lights[caster].kind == LightKind::directional)
                 sun_ = &request.lights[caster];
@@ -205,7 +208,7 @@ private:
         double offset;
     };
     Visibility visibilityFrom(const Foot& foot) const {
-        if (!request_.shadows()) return {};
+        if (!request_.shadows() && !request_.surroundings) return {};
         const double from = foot.offset * glm::length(foot.place);
         return [this, foot, from](const glm::dvec3& to_light, double distance) {
             if (!(glm::dot(foot.geometric_normal, to_light) > 0)) return false;
@@ -303,7 +306,7 @@ private:
         pixel.depth = captured.depth(seed);
         Visibility visible;
         pixel.sun_visibility = pixel.local_visibility = 1;
-        if (request_.shadows()) {
+        if (request_.shadows() || request_.surroundings) {
             // Finds the exact position again, if the camera ray meets a surface at the captured depth.
             const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5), 0);
             Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
@@ -388,7 +391,7 @@ private:
     const PixelRays rays_;
     const Geometry geometry_;
     const Materials materials_;
-    const Lighting lighting_;
+    Lighting lighting_;
     const Light* sun_ = nullptr;        // that casts
     std::vector<const Light*> locals_;  // points and spots that cast
     const double scene_radius_;         // m, of a sphere around all that is drawn
@@ -398,6 +401,12 @@ private:
 
 // Side of the square tiles that are drawn and kept as units, in pixels.
 constexpr int tileSide = 16;
+
+// What a picture holds beside its channels and their uncertainty, in the order in which tiles keep it.
+std::array<Image*, 4> besides(Picture& picture) {
+    return {&picture.shadow_edge, &picture.local_shadow_edge, &picture.environment_costs,
+            &picture.surroundings};
+}
 
 class Drawing {
 public:
@@ -426,7 +435,10 @@ public:
         if (cast([](const Light& light) { return light.kind == LightKind::directional; }))
             picture_.shadow_edge = Image(request.view.width, request.view.height, 3);
         if (cast(isLocal)) picture_.local_shadow_edge = Image(request.view.width, request.view.height, 2);
-        floats_ += picture_.shadow_edge.components + picture_.local_shadow_edge.components;
+        if (request.environment_costs && request.scene.environment)
+            picture_.environment_costs = Image(request.view.width, request.view.height, 9);
+        if (request.surroundings) picture_.surroundings = Image(request.view.width, request.view.height, 2);
+        for (const Image* image : besides(picture_)) floats_ += image->components;
     }
 
     Picture operator()() {
@@ -493,12 +505,16 @@ private:
                 for (int c = 0; c < mode->width; ++c) values.push_back(static_cast<float>(value[c]));
             }
             values.push_back(static_cast<float>(pixel.shading.uncertainty));
-            const auto take = [&](const Image& edges, std::initializer_list<double> numbers) {
-                if (edges.empty()) return;
+            const auto take = [&](const Image& image, std::initializer_list<double> numbers) {
+                if (image.empty()) return;
                 for (const double number : numbers) values.push_back(static_cast<float>(number));
             };
             take(picture_.shadow_edge, {pixel.edge_distance, pixel.sun_radiance, pixel.sun_irradiance});
             take(picture_.local_shadow_edge, {pixel.local_edge, pixel.local_radiance});
+            const EnvironmentCosts& c = pixel.shading.costs;
+            take(picture_.environment_costs, {c.diffuse[0], c.diffuse[1], c.diffuse[2], c.split[0],
+                                              c.split[1], c.split[2], c.sampled, c.wider, c.lobe});
+            take(picture_.surroundings, {pixel.shading.surroundings.all, pixel.shading.surroundings.hidden});
         });
         values.front() = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
         return values;
@@ -512,8 +528,8 @@ private:
                 for (int c = 0; c < mode->width; ++c) image.at(x, y, c) = *next++;
             }
             picture_.uncertainty.at(x, y) = *next++;
-            for (Image* const edges : {&picture_.shadow_edge, &picture_.local_shadow_edge})
-                for (int c = 0; c < edges->components; ++c) edges->at(x, y, c) = *next++;
+            for (Image* const image : besides(picture_))
+                for (int c = 0; c < image->components; ++c) image->at(x, y, c) = *next++;
         });
     }
 

@@ -23,6 +23,11 @@ struct Picture {
     // Where points or spots cast, W x H x 2: the same of the nearest edge of their shadows, as a share of the
     // distance from the light, and of what all of them add.
     Image local_shadow_edge;
+    // Where it was asked for, of the environment's light, W x H x 9: EnvironmentCosts, its diffuse, its
+    // split, sampled, wider and lobe; W/(sr m^2).
+    Image environment_costs;
+    // Likewise, W x H x 2: Surroundings, all and hidden.
+    Image surroundings;
     // What an earlier command had drawn and kept: its share of the tiles, and how long drawing it took on the
     // clock with all cores at work, s.
     double kept_share = 0, kept_seconds = 0;

@@ -32,6 +32,9 @@ struct Request {
     std::vector<std::size_t> casters = {};  // into `lights`: those that cast shadows
     bool shadowed_environment = false;      // whether the environment is shadowed too
     bool shadows() const { return !casters.empty() || shadowed_environment; }
+    // Whether the picture tells what approximations of the environment cost, and what geometry hides of it
+    // and of ambient light.
+    bool environment_costs = false, surroundings = false;
     // In mode scene, skins and morph targets deform meshes; in mode surface, shadows are cast by undeformed
     // meshes, as the paths draw them.
     ReferenceMode mode = ReferenceMode::surface;

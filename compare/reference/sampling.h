@@ -30,6 +30,10 @@ std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number);
 // indices covers the square evenly.
 glm::dvec2 evenly(std::uint64_t index, const glm::dvec2& shift);
 
+// From a confidence of 95 %, which a reference states, to 99.9 %: Student's t of 7 degrees of freedom, 5.41 /
+// 2.36.
+inline constexpr double surerThan95 = 2.29;
+
 // Independent estimates of the same value: their mean, and its 95 % confidence interval by Student's
 // distribution.
 class Rounds {

@@ -46,6 +46,38 @@ double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverag
     return all[rank];
 }
 
+bool isLitFromEverywhere(const Scene& scene, const Settings& settings) {
+    const Rgb& ambient = settings.ambient;
+    return (scene.environment && settings.ibl_intensity > 0) ||
+           std::max({ambient.r, ambient.g, ambient.b}) > 0;
+}
+
+// `surroundings`: W x H x 2, light and what of it is hidden; nothing where there is none.
+std::optional<Frame::HiddenLight> hiddenLight(const Image& surroundings) {
+    double all = 0, hidden = 0, above = 0;
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < surroundings.pixels(); ++i) {
+        const float* const p = surroundings.pixel(i);
+        if (!(p[0] > 0)) continue;
+        all += double{p[0]};
+        hidden += double{p[1]};
+        shares.push_back(double{p[1]} / double{p[0]});
+        above += shares.back() > 0.1;
+    }
+    if (shares.empty()) return {};
+    const auto count = static_cast<double>(shares.size());
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count)) - 1;
+    std::ranges::nth_element(shares, shares.begin() + rank);
+    return Frame::HiddenLight{hidden / all, shares[static_cast<std::size_t>(rank)], above / count};
+}
+
+std::string hiddenLightNote(const Frame::HiddenLight& hidden) {
+    return fmt::format(
+        "geometry would hide {:.3g} % of the light of environment and ambient that lit has, as neither path "
+        "models that: over 10 % at {:.3g} % of the pixels, 99th percentile {:.3g} %",
+        100 * hidden.mean, 100 * hidden.pixels, 100 * hidden.p99);
+}
+
 }  // namespace
 
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
@@ -64,6 +96,8 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .multiscatter = settings.multiscatter,
         .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}
                                                     : castingLights(view.lights, settings.shadow_lights),
+        .environment_costs = options.environment_errors && scene.environment && settings.ibl_intensity > 0,
+        .surroundings = options.environment_errors && isLitFromEverywhere(scene, settings),
         .mode = settings.reference_mode,
         .samples = settings.spp,
         .surfaces = surfaces ? &surfaces->channels : nullptr,
@@ -86,6 +120,11 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     frame.channels = std::move(picture.channels);
     frame.shadow_edge = std::move(picture.shadow_edge);
     frame.local_shadow_edge = std::move(picture.local_shadow_edge);
+    frame.environment_costs = std::move(picture.environment_costs);
+    if (!picture.surroundings.empty()) {
+        frame.hidden_light = hiddenLight(picture.surroundings);
+        if (frame.hidden_light) frame.notes.push_back(hiddenLightNote(*frame.hidden_light));
+    }
     frame.requested = options.requested;
     if (!picture.uncertainty.empty()) {
         frame.relative_uncertainty =

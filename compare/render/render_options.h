@@ -24,6 +24,9 @@ struct RenderOptions {
     // forward+: also draw lit channels from surfaces that went through the G-buffer's encoding, and what its
     // bits may change of them.
     bool through_gbuffer = false;
+    // reference: also what approximations of an environment cost (Frame::environment_costs), and what of its
+    // light and of ambient light geometry hides (Frame::hidden_light).
+    bool environment_errors = false;
     bool twice = false;                               // draw every channel twice, for Frame::noise
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()

@@ -5,6 +5,7 @@
 #include "compare/metrics/pixel.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
+#include "compare/verdict/environment_cost.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -90,7 +91,8 @@ public:
           pair_(pair),
           baseline_(pair.baseline.channels.at(mode.number)),
           test_(pair.test.channels.at(mode.number)),
-          error_(mode.metric, mode.kind, baseline_, pair.coverage) {
+          error_(mode.metric, mode.kind, baseline_, pair.coverage),
+          environment_(pair) {
         if (pair.texels)
             for (std::size_t code = 0; code < 256; ++code) shares_[code] = srgbShare(code);
     }
@@ -257,7 +259,7 @@ private:
         // than an even slope of what is still smooth, for beside an edge nothing else is.
         const double filtered = std::min(rangeAt(mode_, first ? baseline_ : test_, x, y, 2), 2 * smooth);
         return (filtered + rounding + texels(mode_, baseline_.pixel(i)) + colours(i, size)) / unit +
-               encoding(i, unit) + uncertainty(i) / unit;
+               encoding(i, unit) + (uncertainty(i) + environment_.allowed(mode_, i)) / unit;
     }
 
     // To what a sampled reference knows light, with 99.9 % confidence.
@@ -315,6 +317,7 @@ private:
     const FramePair& pair_;
     const Image &baseline_, &test_;
     PixelError error_;
+    EnvironmentCost environment_;
     std::array<double, 256> shares_{};  // srgbShare() of each code
 };
 

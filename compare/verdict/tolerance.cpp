@@ -5,6 +5,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
+#include "compare/verdict/environment_cost.h"
 #include "compare/verdict/shadow_edges.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
@@ -202,6 +203,8 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
             result.because +=
                 "; beyond what a light that casts adds, where its shadow's edge lies within the filter's "
                 "reach and a texel";
+        if (const EnvironmentCost environment(pair); environment.any())
+            result.because += environment.because(mode);
         if (!reference.uncertainty.empty())
             result.because +=
                 "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
@@ -261,7 +264,8 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Image* const bits = allowedByBits(mode, pair);
     const ShadowEdges edges(pair);
-    if (reference.uncertainty.empty() && !bits && !edges.any()) return {};
+    const EnvironmentCost environment(pair);
+    if (reference.uncertainty.empty() && !bits && !edges.any() && !environment.any()) return {};
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const Image& test = pair.test.channels.at(mode.number);
     const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
@@ -271,6 +275,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
         const float* p = baseline.pixel(i);
         double open = bits ? double{*bits->pixel(i)} : 0;
         if (edges.any()) open += edges.allowed(mode, i);
+        open += environment.allowed(mode, i);
         if (isLit(mode.number) && !reference.uncertainty.empty())
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         if (mode.metric == Metric::relative)

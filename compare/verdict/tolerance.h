@@ -2,6 +2,7 @@
 // How far apart two paths may be, and why: derived from the precision that the G-buffer's encoding loses.
 #pragma once
 
+#include "compare/reference/sampling.h"
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
 
@@ -21,9 +22,7 @@ struct Tolerance {
 // The tolerance of `mode`, a channel of both Frames.
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair);
 
-// From a confidence of 95 %, which a reference states, to 99.9 %: Student's t of 7 degrees of freedom, 5.41 /
-// 2.36.
-inline constexpr double surerThan95 = 2.29;
+using reference::surerThan95;
 
 // What the bits of a packed path that is compared with the reference allow a channel of its surfaces, in the
 // channel's metric; 0 for forward+, a full G-buffer and lit channels.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,18 @@ struct Frame {
     // edge of their shadows, across their rays, a share of the distance from the light; and what the surface
     // would reflect of them unshadowed, the largest component, W/(sr m^2).
     Image local_shadow_edge;
+    // Of a reference that was asked for it, where an environment shines, W x H x 9, W/(sr m^2), the largest
+    // components: what approximations of it are off by in lit_diffuse, by IblDiffuse; likewise in
+    // lit_specular with --ibl split; with --ibl sampled what maps cannot hold; with either how far a lobe of
+    // twice the solid angle is from the surface's; and what the specular lobe sends.
+    Image environment_costs;
+    // Likewise: the light of the environment and of ambient light that geometry would hide, which lit has.
+    struct HiddenLight {
+        double mean = 0;    // a share of all of it, over the pixels that show a surface
+        double p99 = 0;     // the 99th percentile of the pixels' own shares
+        double pixels = 0;  // the share of the pixels that would lose more than a tenth
+    };
+    std::optional<HiddenLight> hidden_light;
     // Of a path whose points or spots cast: how far its filter reaches, in the same measure; else 0.
     double local_shadow_reach = 0;
     // Of a path that filters shadow maps, by view depth in ascending order; empty where it has none.

@@ -26,6 +26,8 @@ TEST(FrameJson, EveryNumberStandsUnderItsKey) {
     frame.counters.unreproduced_pixels = 15;
     frame.counters.energy_cut = 16;
     frame.settings.size = {17, 18};
+    EXPECT_TRUE(jsonOf(frame)["hidden_light"].is_null());
+    frame.hidden_light = {19, 20, 21};
     const auto json = jsonOf(frame);
     EXPECT_EQ(json["ms"]["median"], 2);
     EXPECT_EQ(json["ms"]["min"], 1);
@@ -43,6 +45,9 @@ TEST(FrameJson, EveryNumberStandsUnderItsKey) {
     EXPECT_EQ(json["counters"]["lights"], 14);
     EXPECT_EQ(json["counters"]["unreproduced_pixels"], 15);
     EXPECT_EQ(json["counters"]["energy_cut"], 16);
+    EXPECT_EQ(json["hidden_light"]["mean"], 19);
+    EXPECT_EQ(json["hidden_light"]["p99"], 20);
+    EXPECT_EQ(json["hidden_light"]["pixels_above_a_tenth"], 21);
     EXPECT_EQ(json["size"], (nlohmann::ordered_json{17, 18}));
 }
 

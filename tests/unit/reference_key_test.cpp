@@ -21,7 +21,7 @@ struct Asked {
     glm::dvec3 ambient{0};
     Multiscatter multiscatter = Multiscatter::off;
     std::vector<std::size_t> casters;
-    bool shadowed_environment = false;
+    bool shadowed_environment = false, environment_costs = false, surroundings = false;
     ReferenceMode mode = ReferenceMode::scene;
     int samples = 4;
     std::map<int, Image> surfaces{{0, Image(2, 1, 1)}};
@@ -58,6 +58,8 @@ struct Asked {
                       .multiscatter = multiscatter,
                       .casters = casters,
                       .shadowed_environment = shadowed_environment,
+                      .environment_costs = environment_costs,
+                      .surroundings = surroundings,
                       .mode = mode,
                       .samples = samples,
                       .surfaces = &surfaces,
@@ -91,6 +93,8 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
         {"mode", [](Asked& a) { a.mode = ReferenceMode::surface; }},
         {"casters", [](Asked& a) { a.casters = {0}; }},
         {"shadowed environment", [](Asked& a) { a.shadowed_environment = true; }},
+        {"what an environment costs", [](Asked& a) { a.environment_costs = true; }},
+        {"what is hidden", [](Asked& a) { a.surroundings = true; }},
         {"program", [](Asked& a) { a.program = "1.1"; }},
         {"camera", [](Asked& a) { a.view.camera.world_from_camera[3].x += 1e-9; }},
         {"yfov", [](Asked& a) { a.view.camera.yfov += 1e-9; }},

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Directions by the specular lobe.
+#pragma once
+
+#include "shared/scene/model/axes.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace diptych::reference {
+
+// Samples directions of specular reflection, with half vectors distributed as D (n.h); Walter et al. 2007,
+// equation 35.
+class LobeSampler {
+public:
+    // `normal`, `to_viewer`: unit; `alpha`: GGX's width.
+    LobeSampler(const glm::dvec3& normal, const glm::dvec3& to_viewer, double alpha)
+        : normal_(normal),
+          to_viewer_(to_viewer),
+          alpha2_(alpha * alpha),
+          x_(perpendicularTo(normal)),
+          y_(glm::cross(normal, x_)) {}
+
+    // u in [0, 1)^2; unit, and it may lie below the horizon.
+    glm::dvec3 operator()(const glm::dvec2& u) const {
+        const double cosine = std::sqrt((1 - u.x) / (1 + (alpha2_ - 1) * u.x));
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * u.y;
+        const glm::dvec3 h = x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + normal_ * cosine;
+        return glm::normalize(2 * glm::dot(to_viewer_, h) * h - to_viewer_);
+    }
+    double density(const glm::dvec3& l) const {  // 1/sr
+        const glm::dvec3 h = glm::normalize(l + to_viewer_);
+        const double n_dot_h = glm::dot(normal_, h), v_dot_h = std::abs(glm::dot(to_viewer_, h));
+        if (!(n_dot_h > 0) || !(v_dot_h > 0)) return 0;
+        const double k = n_dot_h * n_dot_h * (alpha2_ - 1) + 1;
+        return alpha2_ * n_dot_h / (std::numbers::pi * k * k * 4 * v_dot_h);
+    }
+
+private:
+    glm::dvec3 normal_, to_viewer_;
+    double alpha2_;
+    glm::dvec3 x_, y_;
+};
+
+}  // namespace diptych::reference

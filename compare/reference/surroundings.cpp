@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/surroundings.h"
+
+#include "compare/reference/lobe_sampler.h"
+#include "compare/reference/sampling.h"
+#include "shared/scene/model/axes.h"
+#include "shared/scene/model/luminance.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace diptych::reference {
+
+// Directions by the cosine with the normal, by the lobe and by where the environment is bright, as many of
+// each, combined by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling Techniques
+// for Monte Carlo Rendering").
+Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environment, const glm::dvec3& ambient,
+                            const Visibility& visible, std::uint64_t seed) {
+    constexpr std::uint64_t each = 32;
+    const glm::dvec3 n = brdf.normal(), x = perpendicularTo(n), y = glm::cross(n, x);
+    const LobeSampler lobe(n, brdf.toViewer(), brdf.alpha());
+    std::optional<EnvironmentLight::Sampler> bright;
+    if (environment) {
+        bright.emplace(*environment, [&](const glm::dvec3& middle, double reach) {
+            return std::max(glm::dot(n, middle) + reach, 0.0);
+        });
+        if (!(bright->all() > 0)) bright.reset();
+    }
+    Surroundings sum;
+    const auto take = [&](const glm::dvec3& l) {
+        const double n_dot_l = glm::dot(n, l);
+        const Reflected f = brdf(l);
+        if (!(n_dot_l > 0) || !(f.size() > 0)) return;
+        const double density =
+            n_dot_l / std::numbers::pi + lobe.density(l) + (bright ? bright->density(l) : 0);
+        const glm::dvec3 radiance = ambient + (environment ? environment->radiance(l) : glm::dvec3(0));
+        const double light = luminance((f.diffuse + f.specular) * radiance) / (density * double{each});
+        sum.all += light;
+        if (!visible(l, std::numeric_limits<double>::infinity())) sum.hidden += light;
+    };
+    Random random(seed);
+    const auto turn = [&] {
+        const double u = random();
+        return glm::dvec2(u, random());
+    };
+    const glm::dvec2 cosines = turn(), lobes = turn(), lights = turn();
+    for (std::uint64_t i = 0; i < each; ++i) {
+        const glm::dvec2 u = evenly(i, cosines);
+        const double across = std::sqrt(u.x), phi = 2 * std::numbers::pi * u.y;
+        take(x * (across * std::cos(phi)) + y * (across * std::sin(phi)) + n * std::sqrt(1 - u.x));
+        take(lobe(evenly(i, lobes)));
+        if (bright) take((*bright)(evenly(i, lights)));
+    }
+    return sum;
+}
+
+}  // namespace diptych::reference

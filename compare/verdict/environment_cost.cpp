@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/environment_cost.h"
+
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+bool isSpecular(const DebugMode& mode) {
+    return mode.number == static_cast<int>(gpu::DEBUG_lit_specular);
+}
+bool isDiffuse(const DebugMode& mode) {
+    return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse);
+}
+bool isAll(const DebugMode& mode) {
+    return mode.number == static_cast<int>(gpu::DEBUG_lit);
+}
+
+// How much wider samples make the lobe, as a share of its solid angle: each stands for its own part of it.
+// And how far off the number of a pixel's samples leaves it.
+double spreadOf(const Settings& settings) {
+    return 4 * std::numbers::pi * std::exp2(2 * double{settings.ibl_bias}) / settings.ibl_samples;
+}
+double sampledPart(const Settings& settings) {
+    return sampledShare / std::sqrt(static_cast<double>(settings.ibl_samples));
+}
+
+}  // namespace
+
+EnvironmentCost::EnvironmentCost(const FramePair& pair) {
+    const bool first = isReferenceFrame(pair.baseline);
+    if (first == isReferenceFrame(pair.test)) return;
+    const Frame& reference = first ? pair.baseline : pair.test;
+    if (reference.environment_costs.empty()) return;
+    costs_ = &reference.environment_costs;
+    settings_ = &(first ? pair.test : pair.baseline).settings;
+}
+
+double EnvironmentCost::allowed(const DebugMode& mode, std::size_t pixel) const {
+    if (!costs_) return 0;
+    const float* const costs = costs_->pixel(pixel);
+    const auto kind = static_cast<std::size_t>(settings_->ibl_diffuse);
+    const bool split = settings_->ibl == Ibl::split;
+    const double wider{costs[7]}, lobe{costs[8]};
+    const double specular = double{costs[split ? 3 + kind : 6]} + spreadOf(*settings_) * wider +
+                            (split ? filteredShare : sampledPart(*settings_)) * lobe;
+    return (isDiffuse(mode) || isAll(mode) ? double{costs[kind]} : 0) +
+           (isSpecular(mode) || isAll(mode) ? specular : 0);
+}
+
+std::string EnvironmentCost::because(const DebugMode& mode) const {
+    const bool split = settings_->ibl == Ibl::split, map = settings_->ibl_diffuse == IblDiffuse::map;
+    const std::string diffuse = fmt::format("irradiance by {} and the base's mean share of it",
+                                            map ? "a map" : "harmonics of order 2"),
+                      specular =
+                          split ? fmt::format("the split sum, the spread of its maps' samples and {:.3g} %",
+                                              100 * filteredShare)
+                                : fmt::format("{} samples of the lobe, their spread and {:.3g} %,",
+                                              settings_->ibl_samples, 100 * sampledPart(*settings_));
+    if (!isDiffuse(mode) && !isSpecular(mode) && !isAll(mode)) return {};
+    return fmt::format("; beyond what {} cost at each pixel, by the reference's own integrals",
+                       isDiffuse(mode)    ? diffuse
+                       : isSpecular(mode) ? specular
+                                          : diffuse + ", " + specular);
+}
+
+}  // namespace diptych

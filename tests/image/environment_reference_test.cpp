@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Light of an environment in both paths against the reference that integrates it: approximations pass by what
+// they cost, and faults do not.
+#include "compare/verdict/pair_reports.h"
+#include "tests/bench/environment_errors.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace diptych::tests {
+namespace {
+
+// White spheres from smooth to rough, of metal and not, under a sky with a lamp; nothing else lights them.
+Scene spheresUnderLamp() {
+    Scene scene = loadScene("builtin:furnace");
+    scene.environment = environment_errors::lampSky(64);
+    scene.lights.clear();
+    return scene;
+}
+
+Settings byEnvironment() {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {48, 27};
+    settings.shadows = Shadows::off;
+    return settings;
+}
+
+class JudgedEnvironment {
+public:
+    explicit JudgedEnvironment(const Settings& settings) : settings_(settings) {
+        Settings truth = settings;
+        truth.path = Path::reference;
+        RenderOptions options;
+        options.channels = allChannels();
+        options.runs = 0;
+        options.environment_errors = true;
+        reference_ = renderer_.draw(truth, options);
+    }
+    // The paths as drawn by `drawn` of `scene`, and changed by `plant`.
+    Report verdict(const Scene& scene, const Settings& drawn,
+                   const std::function<void(Frame&)>& plant = {}) const {
+        std::vector<Frame> frames{reference_};
+        for (Frame& frame : bothPaths(scene, drawn)) {
+            if (plant) plant(frame);
+            frames.push_back(std::move(frame));
+        }
+        const Requirements needs = requirements(scene_, poseAt(scene_, 0));
+        const DeviceInfo& info = device().info();
+        return makeReferenceReport(std::move(frames), {needs, needs, needs},
+                                   {info.name, info.driver, info.type}, {}, {{}}, {{}});
+    }
+    Report verdict() const { return verdict(scene_, settings_); }
+    const Scene& scene() const { return scene_; }
+    const Settings& settings() const { return settings_; }
+    const Frame& reference() const { return reference_; }
+
+private:
+    Scene scene_ = spheresUnderLamp();
+    Settings settings_;
+    Renderer renderer_{device(), scene_, pipelines()};
+    Frame reference_;
+};
+
+// What fails of both paths against the reference.
+std::vector<std::string> failing(const Report& report) {
+    std::vector<std::string> names;
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
+        for (const ChannelDiff& channel : report.comparisons.at(i).channels)
+            if (channel.verdict == Verdict::fail)
+                names.push_back(fmt::format("{} {}: {}", i, channel.mode->name, channel.reason));
+    return names;
+}
+bool fails(const Report& report, std::size_t comparison, gpu::uint mode) {
+    for (const ChannelDiff& channel : report.comparisons.at(comparison).channels)
+        if (channel.mode->number == static_cast<int>(mode)) return channel.verdict == Verdict::fail;
+    return false;
+}
+
+const JudgedEnvironment& lampJudged() {
+    static const JudgedEnvironment judged(byEnvironment());
+    return judged;
+}
+
+TEST(EnvironmentReference, EveryWayToTakeItPassesByWhatItCosts) {
+    const JudgedEnvironment& judged = lampJudged();
+    for (const IblDiffuse diffuse : {IblDiffuse::sh, IblDiffuse::sh_windowed, IblDiffuse::map}) {
+        Settings settings = judged.settings();
+        settings.ibl_diffuse = diffuse;
+        EXPECT_EQ(failing(judged.verdict(judged.scene(), settings)), std::vector<std::string>{})
+            << nameOf(diffuse);
+    }
+    Settings sampled = judged.settings();
+    sampled.ibl = Ibl::sampled;
+    for (const int samples : {64, 256}) {
+        sampled.ibl_samples = samples;
+        EXPECT_EQ(failing(judged.verdict(judged.scene(), sampled)), std::vector<std::string>{}) << samples;
+    }
+    ASSERT_TRUE(judged.reference().hidden_light);
+    EXPECT_GT(judged.reference().hidden_light->p99, 0) << "spheres hide some of the sky from each other";
+}
+
+TEST(EnvironmentReference, AWrongRotationFails) {
+    Settings settings = lampJudged().settings();
+    settings.env_rotation = 5;
+    const Report report = lampJudged().verdict(lampJudged().scene(), settings);
+    for (const std::size_t path : {0u, 1u})
+        for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
+            EXPECT_TRUE(fails(report, path, mode)) << path << " " << mode;
+}
+
+// A level of the maps is half an octave of alpha.
+TEST(EnvironmentReference, AMapOneLevelOffFails) {
+    Scene scene = lampJudged().scene();
+    for (Material& m : scene.materials)
+        m.roughness = static_cast<float>(std::min(1.0, double{m.roughness} * std::exp2(0.25)));
+    const Report report = lampJudged().verdict(scene, lampJudged().settings());
+    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, gpu::DEBUG_lit_specular)) << path;
+}
+
+TEST(EnvironmentReference, WithoutOneOverPiItFails) {
+    const Report report =
+        lampJudged().verdict(lampJudged().scene(), lampJudged().settings(), [](Frame& frame) {
+            for (float& v : frame.channels.at(static_cast<int>(gpu::DEBUG_lit_diffuse)).data)
+                v *= std::numbers::pi_v<float>;
+        });
+    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, gpu::DEBUG_lit_diffuse)) << path;
+}
+
+// A tenth is more than all that is granted where the approximations are nearly right.
+TEST(EnvironmentReference, ABrighterEnvironmentFails) {
+    Settings settings = lampJudged().settings();
+    settings.ibl_intensity = 1.1f;
+    const Report report = lampJudged().verdict(lampJudged().scene(), settings);
+    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, gpu::DEBUG_lit)) << path;
+}
+
+}  // namespace
+}  // namespace diptych::tests

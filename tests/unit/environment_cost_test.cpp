@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a path is granted against a reference that integrates the environment, by how it takes it.
+#include "compare/verdict/environment_cost.h"
+
+#include "compare/verdict/tolerance.h"
+#include "shared/contract/debug_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace diptych {
+namespace {
+
+struct JudgedPair {
+    Frame reference, path;
+    Requirements needs;
+    Coverage coverage = everyPixel(1);
+
+    JudgedPair() {
+        reference.settings.path = Path::reference;
+        reference.environment_costs = Image(1, 1, 9);
+        std::ranges::copy(std::vector<float>{1, 2, 3, 10, 20, 30, 100, 1000, 10000},
+                          reference.environment_costs.data.begin());
+        path.settings.path = Path::forward_plus;
+        path.settings.ibl_samples = 64;
+    }
+    FramePair pair() const { return {reference, path, needs, coverage}; }
+    double allowed(gpu::uint mode) const {
+        return EnvironmentCost(pair()).allowed(debugMode(static_cast<int>(mode)), 0);
+    }
+    std::string because(gpu::uint mode) const {
+        return EnvironmentCost(pair()).because(debugMode(static_cast<int>(mode)));
+    }
+};
+
+TEST(EnvironmentCost, IsThatOfThePathsSettings) {
+    JudgedPair p;
+    const double spread = 4 * std::numbers::pi / 64;
+    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_diffuse), 1);
+    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit_specular), 10 + spread * 1000 + filteredShare * 10000, 1e-9);
+    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit), 1 + 10 + spread * 1000 + filteredShare * 10000, 1e-9);
+    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_ambient), 0);
+    EXPECT_EQ(p.allowed(gpu::DEBUG_albedo), 0);
+    p.path.settings.ibl_diffuse = IblDiffuse::map;
+    p.path.settings.ibl_bias = 1;
+    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_diffuse), 3);
+    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit_specular), 30 + 4 * spread * 1000 + filteredShare * 10000, 1e-9);
+    p.path.settings.ibl = Ibl::sampled;
+    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit_specular), 100 + 4 * spread * 1000 + sampledShare / 8 * 10000, 1e-9);
+    EXPECT_EQ(p.because(gpu::DEBUG_lit_ambient), "");
+    EXPECT_NE(p.because(gpu::DEBUG_lit_specular).find("64 samples"), std::string::npos);
+    EXPECT_NE(p.because(gpu::DEBUG_lit_diffuse).find("a map"), std::string::npos);
+}
+
+TEST(EnvironmentCost, IsGrantedAgainstTheReferenceAlone) {
+    JudgedPair p;
+    EXPECT_TRUE(EnvironmentCost(p.pair()).any());
+    p.reference.environment_costs = {};
+    EXPECT_FALSE(EnvironmentCost(p.pair()).any());
+    EXPECT_EQ(EnvironmentCost(p.pair()).allowed(debugMode(0), 0), 0);
+    JudgedPair q;
+    q.reference.settings.path = Path::deferred;
+    EXPECT_FALSE(EnvironmentCost(q.pair()).any());
+}
+
+TEST(EnvironmentCost, IsTakenFromThePixelsError) {
+    JudgedPair p;
+    const auto mode = static_cast<int>(gpu::DEBUG_lit_diffuse);
+    p.reference.channels[mode] = Image(1, 1, 3, 10.0f);
+    for (const auto& [value, excess] : {std::pair{10.9f, 0.0}, {11.5f, 0.05}, {8.0f, 0.1}}) {
+        p.path.channels[mode] = Image(1, 1, 3, value);
+        const auto errors = certainErrors(debugMode(mode), p.pair());
+        ASSERT_TRUE(errors);
+        EXPECT_NEAR(errors->at(0), excess, 1e-6) << value;
+    }
+}
+
+}  // namespace
+}  // namespace diptych
