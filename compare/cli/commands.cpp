@@ -7,6 +7,7 @@
 #include "compare/run/color.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/load.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -126,9 +127,17 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
     progress.at(0, "read");
     std::optional<Environment> environment;
     std::vector<std::string> notes;
-    if (settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
+    const bool own = settings.env == "scene";
+    if (!own && settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
     Scene scene = loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
-    scene.environment = std::move(environment);
+    if (own && !scene.environment)
+        throw std::runtime_error(
+            fmt::format("--env scene: {} has no EXT_lights_image_based that is read", oneLine(where)));
+    if (environment) {
+        if (scene.environment)
+            notes.push_back(oneLine(scene.environment->name) + ": left out, --env is given");
+        scene.environment = std::move(environment);
+    }
     std::ranges::move(notes, std::back_inserter(scene.notes));
     return scene;
 }

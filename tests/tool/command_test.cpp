@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The built program as users and scripts see it: exit codes, stdout, stderr.
 #include "shared/image/exr.h"
+#include "shared/image/png.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
@@ -149,6 +150,30 @@ TEST(Command, AnEnvironmentThatCannotBeReadIsNamed) {
     }
     EXPECT_FALSE(fs::exists(folder / "diptych-report"));
     EXPECT_FALSE(fs::exists(folder / "diptych-render"));
+}
+
+// A glTF's own environment is one unless another is given.
+TEST(Command, AnEnvironmentIsGivenOrTheFiles) {
+    const Folder folder;
+    const Image sky(4, 2, 3, 1.0f);
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    Json cube = Json::parse(triangle);
+    writePng(folder / "face.png", {1, 1, 4, {200, 200, 200, 255}});
+    cube["images"] = Json::array({{{"uri", "face.png"}}});
+    cube["extensions"]["EXT_lights_image_based"]["lights"] =
+        Json::array({Json{{"specularImages", Json::array({{0, 0, 0, 0, 0, 0}})}}});
+    cube["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    folder.write("cube.gltf", cube.dump());
+    const auto told = [&](const std::string& options) {
+        return runTool(folder, "plan --size 16x16 cube.gltf " + options);
+    };
+    EXPECT_NE(told("").out.find("EXT_lights_image_based: light 0: maps"), std::string::npos) << told("").out;
+    EXPECT_EQ(told("--env scene --ibl-intensity 2").code, 0);
+    const Ran other = told("--env sky.exr");
+    EXPECT_NE(other.out.find("EXT_lights_image_based: light 0: left out, --env is given"), std::string::npos);
+    EXPECT_NE(other.out.find("sky.exr: maps"), std::string::npos) << other.out;
+    EXPECT_TRUE(runTool(folder, "plan builtin:furnace --env scene")
+                    .failedOver("--env scene: builtin:furnace has no"));
 }
 
 TEST(Command, DevicesListsFacts) {

@@ -26,11 +26,11 @@ namespace {
 using Json = nlohmann::json;
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::array builtExtensions{"EXT_meshopt_compression", "KHR_draco_mesh_compression",
-                                     "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-                                     "KHR_materials_ior",       "KHR_materials_specular",
-                                     "KHR_materials_unlit",     "KHR_mesh_quantization",
-                                     "KHR_texture_transform"};
+constexpr std::array builtExtensions{"EXT_lights_image_based",          "EXT_meshopt_compression",
+                                     "KHR_draco_mesh_compression",      "KHR_lights_punctual",
+                                     "KHR_materials_emissive_strength", "KHR_materials_ior",
+                                     "KHR_materials_specular",          "KHR_materials_unlit",
+                                     "KHR_mesh_quantization",           "KHR_texture_transform"};
 
 bool isBuilt(std::string_view extension) {
     return std::ranges::find(builtExtensions, extension) != builtExtensions.end();
@@ -283,14 +283,17 @@ void checkHeader(const Bytes& bytes) {
 
 Document open(Bytes bytes, const std::filesystem::path& folder) {
     const Container container = readContainer(bytes);
-    Document result{{}, Resources(folder), {}, {}, {}, {}};
+    Document result{{}, Resources(folder), {}, {}, {}, {}, {}};
     Json buffers, images;
     {
         Json document = documentOf(bytes, container);
         result.light_extras = lightExtras(document);
         result.material_extras = materialExtras(document);
+        result.image_lights = takeImageLights(document);
         Schema found = applySchema(document);  // removes extras from the document
         result.notes = container.notes;
+        result.notes.insert(result.notes.end(), result.image_lights.notes.begin(),
+                            result.image_lights.notes.end());
         result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
         for (const auto& [name, where] : found.misplaced)
             if (isBuilt(name))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/scene/gltf/extras.h"
+#include "shared/scene/gltf/image_light.h"
 #include "shared/scene/gltf/resources.h"
 
 #include <tiny_gltf.h>
@@ -21,6 +22,7 @@ struct Document {
     Resources resources;  // images are read through it when they are needed
     LightExtras light_extras;
     MaterialExtras material_extras;
+    ImageLights image_lights;
     std::set<std::string> left_out;  // extensions that the file uses and that are not read
     std::vector<std::string> notes;  // what was repaired or left out, one line each
 };

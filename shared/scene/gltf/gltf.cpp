@@ -30,7 +30,9 @@ namespace {
 
 void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
     for (const std::string& name : document.left_out)
-        notes.push_back(fmt::format("{}: left out, it is not read", name));
+        notes.push_back(
+            fmt::format("{}: left out, it is not read{}", name,
+                        name == "KHR_lights_image_based" ? "; --env FILE gives an environment" : ""));
     gltf::limitNotes(notes, 0, "extensions");
 }
 
@@ -78,7 +80,11 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     noteWhatIsLeftOut(document, scene.notes);
     scene.notes.insert(scene.notes.end(), document.notes.begin(), document.notes.end());
     if (progress) progress(0, "geometry");
-    const std::vector<int> sceneNode = gltf::readNodes(document.model, document.light_extras, choice, scene);
+    const int chosen = gltf::chooseScene(document.model, choice, scene.notes);
+    const std::vector<int> sceneNode = gltf::readNodes(document.model, document.light_extras, chosen, scene);
+    if (chosen >= 0)
+        scene.environment = gltf::readImageLight(document.image_lights, static_cast<std::size_t>(chosen),
+                                                 document.model, document.resources, scene.notes);
     gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), scene.notes);
     gltf::readMotion(document.model, sceneNode, scene);
     std::vector<int> imageOf;

@@ -103,24 +103,6 @@ void refuseCircles(const std::vector<int>& parent) {
     }
 }
 
-// The requested scene, by index or name, or else the file's default. -1: the file has no scenes.
-int chooseScene(const tinygltf::Model& model, const std::string& choice, std::vector<std::string>& notes) {
-    const int count = static_cast<int>(model.scenes.size());
-    if (choice.empty()) {
-        const int index = count == 0 ? -1 : std::max(model.defaultScene, 0);
-        if (count > 1)
-            notes.push_back(
-                fmt::format("{} scenes: scene {}{} is drawn; FILE?scene=INDEX or NAME draws another", count,
-                            index, quotedName(model.scenes[static_cast<std::size_t>(index)].name)));
-        return index;
-    }
-    for (int i = 0; i < count; ++i)
-        if (choice == std::to_string(i)) return i;
-    for (int i = 0; i < count; ++i)
-        if (choice == model.scenes[static_cast<std::size_t>(i)].name) return i;
-    fail("scene=" + choice, fmt::format("names none of the file's {} scene{}", count, count == 1 ? "" : "s"));
-}
-
 // For each node, whether the scene reaches it. Without any scene, all nodes.
 std::vector<bool> reached(const tinygltf::Model& model, int index, const std::vector<int>& parent) {
     if (index < 0) return std::vector<bool>(model.nodes.size(), true);
@@ -222,11 +204,27 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
 
 }  // namespace
 
-std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, const std::string& choice,
+int chooseScene(const tinygltf::Model& model, const std::string& choice, std::vector<std::string>& notes) {
+    const int count = static_cast<int>(model.scenes.size());
+    if (choice.empty()) {
+        const int index = count == 0 ? -1 : std::max(model.defaultScene, 0);
+        if (count > 1)
+            notes.push_back(
+                fmt::format("{} scenes: scene {}{} is drawn; FILE?scene=INDEX or NAME draws another", count,
+                            index, quotedName(model.scenes[static_cast<std::size_t>(index)].name)));
+        return index;
+    }
+    for (int i = 0; i < count; ++i)
+        if (choice == std::to_string(i)) return i;
+    for (int i = 0; i < count; ++i)
+        if (choice == model.scenes[static_cast<std::size_t>(i)].name) return i;
+    fail("scene=" + choice, fmt::format("names none of the file's {} scene{}", count, count == 1 ? "" : "s"));
+}
+
+std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, int chosen,
                            Scene& scene) {
     const std::vector<int> parent = parentsOf(model);
     refuseCircles(parent);
-    const int chosen = chooseScene(model, choice, scene.notes);
     const std::vector<bool> inScene = reached(model, chosen, parent);
 
     std::vector<int> place(model.nodes.size(), -1);  // the file's node -> its index in Scene::nodes

@@ -13,6 +13,19 @@
 
 namespace diptych {
 
+void limitRadiance(Image& radiance, const std::string& where, std::vector<std::string>& notes) {
+    static constexpr float largest = 65504;  // of a half
+    std::size_t above = 0;
+    for (std::size_t i = 0; i < radiance.pixels(); ++i) {
+        float* const p = radiance.pixel(i);
+        above += std::any_of(p, p + 3, [](float v) { return v > largest; });
+        std::transform(p, p + 3, p, [](float v) { return std::min(v, largest); });
+    }
+    if (above > 0)
+        notes.push_back(fmt::format("{}: {} pixel{} above 65504, taken as 65504", where, above,
+                                    above == 1 ? " has a component" : "s have components"));
+}
+
 Environment readEnvironment(const std::filesystem::path& file, std::vector<std::string>& notes) {
     const PictureFile picture = readPicture(file);
     const std::string name = file.string();
@@ -23,16 +36,7 @@ Environment readEnvironment(const std::filesystem::path& file, std::vector<std::
                         name, picture.format));
     const std::string where = "environment " + oneLine(name);
     Environment environment{name, named(name, [&] { return radianceOf(picture, where, notes); })};
-    static constexpr float largest = 65504;  // of a half
-    std::size_t above = 0;
-    for (std::size_t i = 0; i < environment.radiance.pixels(); ++i) {
-        float* const p = environment.radiance.pixel(i);
-        above += std::any_of(p, p + 3, [](float v) { return v > largest; });
-        std::transform(p, p + 3, p, [](float v) { return std::min(v, largest); });
-    }
-    if (above > 0)
-        notes.push_back(fmt::format("{}: {} pixel{} above 65504, taken as 65504", where, above,
-                                    above == 1 ? " has a component" : "s have components"));
+    limitRadiance(environment.radiance, where, notes);
     if (picture.width != 2 * picture.height)
         notes.push_back(fmt::format("{}: {} x {} pixels, not twice as wide as high: taken as all directions",
                                     where, picture.width, picture.height));

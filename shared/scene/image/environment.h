@@ -16,4 +16,8 @@ namespace diptych {
 // naming file and fault, also for a picture of display colours (PNG, JPEG).
 Environment readEnvironment(const std::filesystem::path& file, std::vector<std::string>& notes);
 
+// Components above 65504 become that; a note that begins with `where` counts the pixels. The image has three
+// components.
+void limitRadiance(Image& radiance, const std::string& where, std::vector<std::string>& notes);
+
 }  // namespace diptych

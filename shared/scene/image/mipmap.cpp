@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/mipmap.h"
 
+#include "shared/scene/image/srgb.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <glm/gtc/packing.hpp>
@@ -16,11 +18,6 @@
 namespace diptych {
 
 namespace {
-
-// IEC 61966-2-1, in double: encoded 0 to 1 -> linear 0 to 1.
-double linearFromSrgb(double s) {
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
 
 // Table of the linear value of each code of a component.
 template <class Code>

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/image_light.h"
+
+#include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/resources.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/scene/image/cube_map.h"
+#include "shared/scene/image/decode.h"
+#include "shared/scene/image/environment.h"
+#include "shared/scene/lights/json_fields.h"
+#include "shared/text/fail.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* extensionName = "EXT_lights_image_based";
+
+// As of a light's intensity elsewhere: its product with any texel is finite.
+constexpr double mostIntensity = 1e12;
+// Six faces and the picture of all directions take 700 MiB, as much as a picture of 8192 x 4096.
+constexpr int largestFace = 2048;
+
+// The extension's object of `owner`, taken out of it; null: there is none.
+Json takeExtension(Json& owner) {
+    if (!owner.is_object() || !owner.contains("extensions")) return nullptr;
+    Json& extensions = owner["extensions"];
+    if (!extensions.is_object() || !extensions.contains(extensionName)) return nullptr;
+    Json taken = std::move(extensions[extensionName]);
+    extensions.erase(extensionName);
+    return taken;
+}
+
+// The number of the item of `count` that `value` names.
+int indexOf(const Json& value, std::size_t count, const std::string& who) {
+    const double index = value.is_number() ? value.get<double>() : -1;
+    if (!(index >= 0 && index < static_cast<double>(count) && index == std::floor(index)))
+        fail(who, fmt::format("is no whole number below {}", count));
+    return static_cast<int>(index);
+}
+
+ImageLight lightOf(const Json& json, std::size_t images, const std::string& who) {
+    const JsonFields fields(json, who);
+    ImageLight light{.who = who};
+    light.intensity = fields.number("intensity", 1, 0, mostIntensity);
+    if (fields.find("rotation")) {
+        std::array<double, 4> r{};
+        fields.numbers("rotation", r);
+        const glm::dquat q(r[3], r[0], r[1], r[2]);
+        const double length = glm::length(q);
+        if (!(length > 0) || !std::isfinite(length)) fields.fail("rotation", "has no direction");
+        light.rotation = q / length;
+    }
+    const Json* mips = fields.find("specularImages");
+    if (!mips || !mips->is_array() || mips->empty() || !mips->front().is_array() ||
+        mips->front().size() != light.images.size())
+        fields.fail("specularImages", "is no array of mips of 6 images each");
+    for (std::size_t face = 0; face < light.images.size(); ++face)
+        light.images[face] = indexOf(mips->front()[face], images,
+                                     fmt::format("{}: specularImages: image of face {}", who, face));
+    return light;
+}
+
+// Errors do not name the light.
+Image faceOf(const tinygltf::Model& model, const Resources& resources, int index,
+             std::vector<std::string>& notes) {
+    const tinygltf::Image& image = model.images[static_cast<std::size_t>(index)];
+    const std::string who = fmt::format("image {}", index);
+    std::vector<unsigned char> file;
+    std::span<const unsigned char> bytes;
+    if (image.bufferView >= 0) {
+        bytes = viewBytes(model, image.bufferView, who);
+    } else if (!image.uri.empty()) {
+        std::vector<std::string> found;
+        try {
+            file = resources.read(image.uri, MAX_ENCODED_IMAGE_BYTES, found);
+        } catch (const std::runtime_error& e) {
+            fail(who, e.what());
+        }
+        for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", who, note));
+        bytes = file;
+    }
+    if (bytes.empty()) fail(who, "has neither a uri nor a bufferView, or is empty");
+    try {
+        const ImageHeader header = imageHeader(bytes);
+        if (header.width != header.height || header.width > largestFace)
+            throw std::runtime_error(
+                fmt::format("is {} x {} pixels: faces of a cube are as wide as high, up to {}", header.width,
+                            header.height, largestFace));
+        return decodedRgbd(decodeImage(bytes));
+    } catch (const std::runtime_error& e) {
+        fail(who, e.what());
+    }
+}
+
+}  // namespace
+
+ImageLights takeImageLights(Json& document) {
+    ImageLights result;
+    const Json root = takeExtension(document);
+    std::vector<std::pair<std::size_t, Json>> uses;
+    if (const auto scenes = document.find("scenes"); scenes != document.end() && scenes->is_array())
+        for (std::size_t i = 0; i < scenes->size(); ++i)
+            if (Json use = takeExtension((*scenes)[i]); !use.is_null()) uses.emplace_back(i, std::move(use));
+    const auto images = document.find("images");
+    const std::size_t count = images != document.end() && images->is_array() ? images->size() : 0;
+    for (const auto& [scene, use] : uses) try {
+            const std::string who = fmt::format("scene {}: {}", scene, extensionName);
+            if (!use.is_object() || !use.contains("light")) fail(who, "names no light");
+            const bool some = root.is_object() && root.contains("lights") && root["lights"].is_array();
+            const std::size_t lights = some ? root["lights"].size() : 0;
+            const int light = indexOf(use["light"], lights, who + ": light");
+            result.scenes.emplace(scene, lightOf(root["lights"][static_cast<std::size_t>(light)], count,
+                                                 fmt::format("{}: light {}", extensionName, light)));
+        } catch (const std::runtime_error& e) {
+            result.notes.push_back(std::string(e.what()) + ": left out");
+        }
+    return result;
+}
+
+std::optional<Environment> readImageLight(const ImageLights& lights, std::size_t index,
+                                          const tinygltf::Model& model, const Resources& resources,
+                                          std::vector<std::string>& notes) {
+    const auto found = lights.scenes.find(index);
+    if (found == lights.scenes.end()) return {};
+    const ImageLight& light = found->second;
+    try {
+        CubeMap cube;
+        for (std::size_t face = 0; face < cube.faces.size(); ++face) {
+            cube.faces[face] = faceOf(model, resources, light.images[face], notes);
+            if (face > 0 && cube.faces[face].width != cube.faces[0].width)
+                fail(fmt::format("image {}", light.images[face]),
+                     fmt::format("is {} pixels a side, and the first face {}", cube.faces[face].width,
+                                 cube.faces[0].width));
+        }
+        cube.side = cube.faces[0].width;
+        for (Image& face : cube.faces)
+            for (float& value : face.data) value = static_cast<float>(double{value} * light.intensity);
+        // The environment is turned, and so what is seen of it is turned back.
+        Environment environment{light.who, latLongOf(cube, glm::mat3_cast(glm::conjugate(light.rotation)))};
+        limitRadiance(environment.radiance, light.who, notes);
+        return environment;
+    } catch (const std::runtime_error& e) {
+        notes.push_back(fmt::format("{}: {}: left out", light.who, e.what()));
+        return {};
+    }
+}
+
+}  // namespace diptych::gltf

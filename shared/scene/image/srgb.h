@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+namespace diptych {
+
+// IEC 61966-2-1, in double: encoded 0 to 1 -> linear 0 to 1.
+inline double linearFromSrgb(double s) {
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace diptych
