@@ -156,16 +156,18 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
         sum += fromEmitter(emitters_[i].emitter, surface.position, brdf,
                            emitters_[i].casts ? visible : Visibility{}, streamOf(seed, i + 1));
     if (environment_) {
-        const Estimated sky = fromEnvironment(brdf, shadowed_environment_ ? visible : Visibility{}, seed);
+        const Estimated sky =
+            fromEnvironment(brdf, surface.lightmapped, shadowed_environment_ ? visible : Visibility{}, seed);
         Shading shading{sky.value, sky.uncertainty};
         if (approximation_)
             shading.costs =
                 approximation_->costs(surface, compensation, sky.value, streamOf(seed, costsStream));
+        if (surface.lightmapped) shading.costs.diffuse = {};  // nor do the paths approximate it
         sum += shading * surface.occlusion;
     }
     if (takes_surroundings_ && visible && (environment_ || ambient_ != glm::dvec3(0)))
-        sum.surroundings = surroundingsOf(brdf, environment_ ? &*environment_ : nullptr, ambient_, visible,
-                                          streamOf(seed, surroundingsStream)) *
+        sum.surroundings = surroundingsOf(brdf, environment_ ? &*environment_ : nullptr, surface.lightmapped,
+                                          ambient_, visible, streamOf(seed, surroundingsStream)) *
                            surface.occlusion;
     // A lightmap has no directions: its irradiance is assumed uniform, and only the diffuse base reflects
     // it.
@@ -285,7 +287,8 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
 // Directions are sampled in two ways, combined by the balance heuristic (Veach and Guibas 1995, "Optimally
 // Combining Sampling Techniques for Monte Carlo Rendering"): by blocks of the picture that are bright and
 // reflected, and by the specular lobe, which may be narrower than a block.
-Estimated Lighting::fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const {
+Estimated Lighting::fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visibility& visible,
+                                    std::uint64_t seed) const {
     const LobeSampler lobes(brdf.normal(), brdf.toViewer(), brdf.alpha());
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
         // Within a block that the horizon crosses, or that a lobe touches, other directions may reflect more
@@ -294,7 +297,8 @@ Estimated Lighting::fromEnvironment(const Brdf& brdf, const Visibility& visible,
         return brdf(middle).size() + 0.02 * cosine;
     });
     const auto value = [&](const glm::dvec3& l) -> Reflected {
-        const Reflected f = brdf(l);
+        Reflected f = brdf(l);
+        if (lobeOnly) f.diffuse = glm::dvec3(0);
         if (!(f.size() > 0) || (visible && !visible(l, infinity))) return {};
         return f * environment_->radiance(l) * (1 / (lobes.density(l) + bright.density(l)));
     };

@@ -87,7 +87,9 @@ private:
     };
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
                         const Visibility& visible, std::uint64_t seed) const;
-    Estimated fromEnvironment(const Brdf& brdf, const Visibility& visible, std::uint64_t seed) const;
+    // `lobeOnly`: nothing from the base, which has its light from a lightmap.
+    Estimated fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visibility& visible,
+                              std::uint64_t seed) const;
     // What further reflections between microfacets add, by random walk (microsurface.h), and the share that
     // the base gets of all light: what its layer does not reflect. `single`: the radiance of single
     // reflections, which the confidence is relative to.

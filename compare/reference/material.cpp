@@ -162,7 +162,8 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     s.occlusion = 1 + double{m.occlusion_strength} * (lookUp(hit, m.occlusion_texture, false, &ray).r - 1);
     s.emission = glm::dvec3(m.emissive) * glm::dvec3(lookUp(hit, m.emissive_texture, true, &ray));
     // Irradiance over pi.
-    if (m.lightmap_texture.texture >= 0)
+    s.lightmapped = hasLightmap(m);
+    if (s.lightmapped)
         s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
     // KHR_materials_ior: 0 stands for an infinite index. KHR_materials_specular: colour from RGB, strength
     // from alpha.

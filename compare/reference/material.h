@@ -16,6 +16,11 @@ struct PixelRay {
     glm::dvec3 origin_dx{0}, direction_dx{0}, origin_dy{0}, direction_dy{0};  // differences to the neighbours
 };
 
+// Whether a surface's base has its light from a lightmap, black or not, and not from the environment.
+inline bool hasLightmap(const Material& m) {
+    return !m.unlit && m.lightmap_texture.texture >= 0 && m.lightmap_intensity != 0;
+}
+
 class Materials {
 public:
     Materials(const Scene& scene, const Geometry& geometry)

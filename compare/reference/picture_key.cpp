@@ -2,6 +2,7 @@
 #include "compare/reference/picture_key.h"
 
 #include "compare/reference/key.h"
+#include "compare/reference/material.h"
 #include "compare/reference/request.h"
 
 #include <glm/vec2.hpp>
@@ -103,10 +104,12 @@ std::uint64_t keyOf(const Request& request) {
     key.add(request.environment_turned);
     key.add(request.ambient);
     key.add(request.multiscatter);
+    if (request.residual) key.addAll(request.residual->radiance.data);
     if (request.scene.environment) {
         const Image& sky = request.scene.environment->radiance;
         key.add(glm::ivec2(sky.width, sky.height));
         key.addAll(sky.data);
+        for (const Material& m : request.scene.materials) key.add(hasLightmap(m));
     }
     if (request.surfaces)
         for (const auto& [mode, image] : *request.surfaces) key.addAll(image.data);

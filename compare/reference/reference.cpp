@@ -124,7 +124,8 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
 // Decodes surfaces from a path's captured channels.
 class Captured {
 public:
-    explicit Captured(const std::map<int, Image>& channels) : channels_(channels) {}
+    Captured(const std::map<int, Image>& channels, const std::vector<Material>& materials)
+        : channels_(channels), materials_(materials) {}
 
     bool isSurface(std::size_t pixel) const { return value(gpu::DEBUG_material_id, pixel).x >= 0; }
     double depth(std::size_t pixel) const { return value(gpu::DEBUG_depth, pixel).x; }
@@ -144,6 +145,7 @@ public:
         s.lightmap = value(gpu::DEBUG_lightmap, pixel);
         s.dielectric_f90 = value(gpu::DEBUG_dielectric_f90, pixel).x;
         s.material = static_cast<int>(value(gpu::DEBUG_material_id, pixel).x);
+        s.lightmapped = hasLightmap(materials_.at(static_cast<std::size_t>(s.material)));
         s.dielectric_f0 = value(gpu::DEBUG_dielectric_f0, pixel);
         return s;
     }
@@ -158,6 +160,7 @@ private:
     }
 
     const std::map<int, Image>& channels_;
+    const std::vector<Material>& materials_;
 };
 
 // ---- one pixel ---------------------------------------------------------------------------------------
@@ -170,9 +173,9 @@ public:
           rays_(request.view),
           geometry_(request.scene, request.pose, eye_, request.mode == ReferenceMode::scene),
           materials_(request.scene, geometry_),
-          lighting_(request.lights, request.scene.environment ? &*request.scene.environment : nullptr,
-                    request.environment_factor, eye_, request.ambient, request.casters,
-                    request.shadowed_environment, request.multiscatter, request.environment_turned),
+          lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
+                    request.casters, request.shadowed_environment, request.multiscatter,
+                    request.environment_turned),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         if (request.environment_costs) lighting_.takeCosts();
         if (request.surroundings) lighting_.takeSurroundings();
@@ -181,6 +184,9 @@ public:
                 sun_ = &request.lights[caster];
         for (const std::size_t caster : request.casters)
             if (isLocal(request.lights[caster])) locals_.push_back(&request.lights[caster]);
+        if (request.residual && request.scene.environment)
+            background_.emplace(*request.scene.environment, request.environment_factor,
+                                request.environment_turned);
     }
 
     Pixel render(int x, int y) const {
@@ -284,6 +290,11 @@ private:
         if (all > 0) pixel.local_visibility = seen / all;
     }
 
+    glm::dvec3 background(const glm::dvec3& direction) const {
+        const glm::dvec3 d = glm::normalize(direction);
+        return background_ ? background_->radiance(d) : lighting_.background(d);
+    }
+
     Ray cameraRay(const PixelRay& pixel, double from) const {
         return {pixel.origin, pixel.direction, std::max(from, request_.view.camera.near),
                 request_.view.camera.far};
@@ -296,10 +307,10 @@ private:
     }
 
     Pixel renderCaptured(int x, int y, std::uint64_t seed) const {
-        const Captured captured(*request_.surfaces);
+        const Captured captured(*request_.surfaces, request_.scene.materials);
         Pixel pixel;
         if (!captured.isSurface(seed)) {
-            pixel.lit = lighting_.background(glm::normalize(rays_.through(x + 0.5, y + 0.5).direction));
+            pixel.lit = background(rays_.through(x + 0.5, y + 0.5).direction);
             return pixel;
         }
         Surface s = captured.surface(seed, rays_);
@@ -364,7 +375,7 @@ private:
             from = hit->t;
             last = hit->id;
         }
-        pixel.lit += lighting_.background(glm::normalize(ray.direction)) * through;
+        pixel.lit += background(ray.direction) * through;
         return pixel;
     }
 
@@ -392,9 +403,10 @@ private:
     const Geometry geometry_;
     const Materials materials_;
     Lighting lighting_;
-    const Light* sun_ = nullptr;        // that casts
-    std::vector<const Light*> locals_;  // points and spots that cast
-    const double scene_radius_;         // m, of a sphere around all that is drawn
+    std::optional<EnvironmentLight> background_;  // where another one lights
+    const Light* sun_ = nullptr;                  // that casts
+    std::vector<const Light*> locals_;            // points and spots that cast
+    const double scene_radius_;                   // m, of a sphere around all that is drawn
 };
 
 // ---- the picture -------------------------------------------------------------------------------------

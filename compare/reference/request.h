@@ -24,7 +24,9 @@ struct Request {
     const Scene& scene;
     const Pose& pose;
     const View& view;
-    std::span<const Light> lights;  // in world space; the environment is the scene's
+    std::span<const Light> lights;  // in world space
+    // What lights in the place of the scene's, which stays the background; nullptr: that one.
+    const Environment* residual = nullptr;
     double environment_factor = 1;
     double environment_turned = 0;  // about +Y, counter-clockwise seen from above, rad
     glm::dvec3 ambient{0};          // radiance from all directions, W/(sr m^2); attenuated by occlusion
@@ -35,6 +37,9 @@ struct Request {
     // Whether the picture tells what approximations of the environment cost, and what geometry hides of it
     // and of ambient light.
     bool environment_costs = false, surroundings = false;
+    const Environment* environment() const {
+        return residual ? residual : scene.environment ? &*scene.environment : nullptr;
+    }
     // In mode scene, skins and morph targets deform meshes; in mode surface, shadows are cast by undeformed
     // meshes, as the paths draw them.
     ReferenceMode mode = ReferenceMode::surface;

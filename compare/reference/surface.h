@@ -21,6 +21,7 @@ struct Surface {
     double occlusion = 1;
     glm::dvec3 emission{0};       // W/(sr m^2)
     glm::dvec3 lightmap{0};       // irradiance / pi, W/(sr m^2)
+    bool lightmapped = false;     // whether the material has a lightmap, which may be black here
     glm::dvec3 dielectric_f0{0};  // F0 of the dielectric layer alone; the BRDF mixes it with the metal's
     double dielectric_f90 = 1;
     int material = -1;

@@ -19,8 +19,8 @@ namespace diptych::reference {
 // Directions by the cosine with the normal, by the lobe and by where the environment is bright, as many of
 // each, combined by the balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling Techniques
 // for Monte Carlo Rendering").
-Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environment, const glm::dvec3& ambient,
-                            const Visibility& visible, std::uint64_t seed) {
+Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environment, bool lobeOnly,
+                            const glm::dvec3& ambient, const Visibility& visible, std::uint64_t seed) {
     constexpr std::uint64_t each = 32;
     const glm::dvec3 n = brdf.normal(), x = perpendicularTo(n), y = glm::cross(n, x);
     const LobeSampler lobe(n, brdf.toViewer(), brdf.alpha());
@@ -38,8 +38,9 @@ Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environmen
         if (!(n_dot_l > 0) || !(f.size() > 0)) return;
         const double density =
             n_dot_l / std::numbers::pi + lobe.density(l) + (bright ? bright->density(l) : 0);
-        const glm::dvec3 radiance = ambient + (environment ? environment->radiance(l) : glm::dvec3(0));
-        const double light = luminance((f.diffuse + f.specular) * radiance) / (density * double{each});
+        glm::dvec3 sent = (f.diffuse + f.specular) * ambient;
+        if (environment) sent += (lobeOnly ? f.specular : f.diffuse + f.specular) * environment->radiance(l);
+        const double light = luminance(sent) / (density * double{each});
         sum.all += light;
         if (!visible(l, std::numeric_limits<double>::infinity())) sum.hidden += light;
     };

@@ -27,8 +27,9 @@ struct Surroundings {
 };
 
 // By 96 rays: a share of half is known to some 0.05 at one surface, and that of many by the root of their
-// number better. `environment`: or nullptr. `ambient`: radiance from everywhere. `seed`: of this surface.
-Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environment, const glm::dvec3& ambient,
-                            const Visibility& visible, std::uint64_t seed);
+// number better. `environment`: or nullptr; with `lobeOnly` the base reflects nothing of it. `ambient`:
+// radiance from everywhere. `seed`: of this surface.
+Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environment, bool lobeOnly,
+                            const glm::dvec3& ambient, const Visibility& visible, std::uint64_t seed);
 
 }  // namespace diptych::reference

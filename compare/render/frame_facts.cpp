@@ -10,8 +10,14 @@
 namespace diptych {
 
 ViewRequest viewRequest(const Settings& settings) {
-    return {settings.time,        settings.camera, settings.size.width,
-            settings.size.height, settings.lights, settings.seed};
+    ViewRequest request{settings.time,        settings.camera, settings.size.width,
+                        settings.size.height, settings.lights, settings.seed};
+    request.environment_sun = settings.env_sun;
+    if (settings.env_sun) {  // else one view serves however the environment is turned
+        request.environment_turned = double{settings.env_rotation};
+        request.environment_factor = double{settings.ibl_intensity};
+    }
+    return request;
 }
 
 Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& settings) {
@@ -26,6 +32,11 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     if (!view.default_view.empty())
         frame.notes.push_back(
             fmt::format("the scene has no camera: seen {}; --camera chooses another", view.default_view));
+    if (view.sun && settings.ibl_intensity > 0)
+        frame.notes.push_back("environment: " +
+                              (view.sun->found
+                                   ? "its sun is a light " + inWords(view.lights.back(), view.sun->share)
+                                   : "--env-sun on: " + view.sun->why));
     frame.counters.lights = view.lights.size();
     return frame;
 }

@@ -90,6 +90,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .pose = view.pose,
         .view = view.view,
         .lights = view.lights,
+        .residual = view.environment == view.background ? nullptr : view.environment,
         .environment_factor = double{settings.ibl_intensity},
         .environment_turned = glm::radians(double{settings.env_rotation}),
         .ambient = {double{settings.ambient.r}, double{settings.ambient.g}, double{settings.ambient.b}},

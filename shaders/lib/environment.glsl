@@ -121,12 +121,14 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     return sum / count;
 }
 
-// Adds what the surface sends to `v`. Occlusion dims it. A surface with a lightmap gets the base's share too.
+// Adds what the surface sends to `v`. Occlusion dims it. The base of a surface with a lightmap has its light
+// from there.
 void addEnvironment(Surface s, Brdf b, vec3 v, inout vec3 diffuse, inout vec3 specular) {
     float factor = environmentFactor() * s.occlusion;
     vec3 n = environmentFromWorld(s.normal), r = environmentFromWorld(reflection(-v, s.normal));
     vec3 received = environmentIrradiance(n) * factor;
     vec3 from_base = b.diffuse * PI * baseShare(b) * received;
+    if (on(feature_lightmap)) from_base = s.lightmapped ? vec3(0.0) : from_base;
     vec3 from_lobe;
     if (on(feature_environment & ENVIRONMENT_SAMPLED))
         from_lobe = sampledSpecular(b, s.normal, v) * factor;

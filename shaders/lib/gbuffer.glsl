@@ -29,6 +29,20 @@ vec3 decodeRadiance(uvec4 texel, bool wide) {
     return wide ? uintBitsToFloat(texel.xyz) : unpackSharedExponent(texel.x);
 }
 
+// A texel of 0 is no lightmap: a black one has 1 in its last component, or an exponent, which makes nothing
+// of mantissas of 0.
+uvec4 encodeLightmap(Surface s, bool wide) {
+    uvec4 texel = encodeRadiance(s.lightmap, wide);
+    if (s.lightmapped && wide) texel.w = 1u;
+    if (s.lightmapped && texel.x == 0u && !wide) texel.x = SHARED_EXPONENT_BLACK;
+    return texel;
+}
+
+void decodeLightmap(uvec4 texel, bool wide, inout Surface s) {
+    s.lightmap = decodeRadiance(texel, wide);
+    s.lightmapped = (wide ? texel.w : texel.x) != 0u;
+}
+
 GBufferTexel encodeGBuffer(Surface s) {
     GBufferTexel t;
     for (uint i = 0; i < GBUFFER_ATTACHMENTS; ++i) t.attachments[i] = uvec4(0);
@@ -38,7 +52,7 @@ GBufferTexel encodeGBuffer(Surface s) {
         t.attachments[GBUFFER_PARAMS] = floatBitsToUint(vec4(s.geometric_normal, s.metallic));
         t.attachments[GBUFFER_EMISSION] = uvec4(floatBitsToUint(s.emission), s.material_id);
         t.attachments[GBUFFER_SPECULAR] = floatBitsToUint(vec4(s.dielectric_f0, s.dielectric_f90));
-        t.attachments[GBUFFER_LIGHTMAP] = uvec4(floatBitsToUint(s.lightmap), 0);
+        t.attachments[GBUFFER_LIGHTMAP] = encodeLightmap(s, true);
         return t;
     }
     t.attachments[GBUFFER_ALBEDO].x = packSqrt(s.albedo, s.occlusion);
@@ -59,7 +73,7 @@ GBufferTexel encodeGBuffer(Surface s) {
                                           (s.material_id << 20);
     }
     t.attachments[GBUFFER_EMISSION] = encodeRadiance(s.emission, on(feature_gbuffer_wide_emission));
-    t.attachments[GBUFFER_LIGHTMAP] = encodeRadiance(s.lightmap, on(feature_gbuffer_wide_lightmap));
+    t.attachments[GBUFFER_LIGHTMAP] = encodeLightmap(s, on(feature_gbuffer_wide_lightmap));
     t.attachments[GBUFFER_SPECULAR].x = packSqrt(s.dielectric_f0, s.dielectric_f90);
     t.attachments[GBUFFER_IDS].x = s.material_id;
     return t;
@@ -74,6 +88,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     s.handedness = 0.0;
     s.emission = vec3(0.0);
     s.lightmap = vec3(0.0);
+    s.lightmapped = false;
     s.object_irradiance = vec3(0.0);  // not stored
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
@@ -90,7 +105,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
             s.dielectric_f0 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].xyz);
             s.dielectric_f90 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].w);
         }
-        if (on(feature_lightmap)) s.lightmap = uintBitsToFloat(t.attachments[GBUFFER_LIGHTMAP].xyz);
+        if (on(feature_lightmap)) decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], true, s);
         return s;
     }
     uint albedo = t.attachments[GBUFFER_ALBEDO].x;
@@ -115,7 +130,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     if (on(feature_emission))
         s.emission = decodeRadiance(t.attachments[GBUFFER_EMISSION], on(feature_gbuffer_wide_emission));
     if (on(feature_lightmap))
-        s.lightmap = decodeRadiance(t.attachments[GBUFFER_LIGHTMAP], on(feature_gbuffer_wide_lightmap));
+        decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], on(feature_gbuffer_wide_lightmap), s);
     if (on(feature_dielectric_specular)) {
         uint specular = t.attachments[GBUFFER_SPECULAR].x;
         s.dielectric_f0 = unpackSqrt(specular);

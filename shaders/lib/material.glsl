@@ -107,6 +107,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
         s.tangent_normal = directionOf(mappedNormal());
     }
     s.lightmap = vec3(0.0);
+    s.lightmapped = on(feature_lightmap_texture);
     s.object_irradiance = vec3(0.0);
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
         s.object_irradiance +=

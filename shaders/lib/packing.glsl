@@ -41,6 +41,9 @@ uint packSharedExponent(vec3 rgb) {
     return m.r | (m.g << 9) | (m.b << 18) | (uint(exponent + 15) << 27);
 }
 
+// Zero, told from packSharedExponent(vec3(0.0)), which is 0.
+const uint SHARED_EXPONENT_BLACK = 1u << 27;
+
 vec3 unpackSharedExponent(uint code) {
     vec3 m = vec3(code & 511u, (code >> 9) & 511u, (code >> 18) & 511u);
     return m * powerOfTwo(int(code >> 27) - 15 - 9);

@@ -16,6 +16,7 @@ struct Surface {
     float occlusion;        // 1: open; for ambient light alone
     vec3 emission;          // W/(sr m^2)
     vec3 lightmap;          // irradiance / pi, W/(sr m^2)
+    bool lightmapped;       // whether the material has a lightmap, which may be black here
     vec3 dielectric_f0;     // KHR_materials_ior, _specular
     float dielectric_f90;
     uint material_id;

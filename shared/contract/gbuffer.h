@@ -17,8 +17,9 @@
 //
 // sqrt: the square root is stored and squared again: 0.04, the usual F0, is exactly 51/255.
 // emission exists where the scene emits (full: always, it carries the id), and is RGBA32 float where its
-// radiance leaves the range of 9.9.9.e5; lightmap, alike, where a material has one; specular where a material
-// has KHR_materials_specular, _ior or _unlit.
+// radiance leaves the range of 9.9.9.e5; lightmap, alike, where a material has one (0 of surfaces without
+// one, shaders/lib/gbuffer.glsl tells them from black); specular where a material has KHR_materials_specular,
+// _ior or _unlit.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H
 

@@ -40,14 +40,16 @@ EnvironmentRequest requestOf(const Settings& settings) {
 }  // namespace
 
 const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environment& environment,
+                                              const Environment& background,
                                               const EnvironmentRequest& request) {
+    const bool without_sun = &environment != &background;
     for (const auto& images : made_)
-        if (images->request == request) return *images;
-    const Image& radiance = environment.radiance;
+        if (images->request == request && images->without_sun == without_sun) return *images;
+    const Image& radiance = background.radiance;
     const auto most = static_cast<int>(device_.limits().maxImageDimension2D);
     if (radiance.width > most || radiance.height > most)
         throw std::runtime_error(fmt::format("environment {}: {} x {} pixels; {} holds {} x {}",
-                                             environment.name, radiance.width, radiance.height,
+                                             background.name, radiance.width, radiance.height,
                                              device_.info().name, most, most));
     const auto start = std::chrono::steady_clock::now();
     bool wasKept = false;
@@ -57,6 +59,7 @@ const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environm
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     auto images = std::make_unique<EnvironmentImages>();
     images->request = request;
+    images->without_sun = without_sun;
     images->harmonics = maps.harmonics;
     images->window = leastWindow(maps.harmonics);
     images->diffuse = atlas.diffuse;
@@ -95,11 +98,11 @@ glm::mat3 environmentFromWorld(double degrees) {
 }
 
 EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
-                                   const Environment* environment, DescriptorSets& frame,
-                                   const Settings& settings)
+                                   const Environment* environment, const Environment* background,
+                                   DescriptorSets& frame, const Settings& settings)
     : nearest_(makeNearestSampler(device)) {
     if (!isLit(environment, settings)) return;
-    const EnvironmentImages& images = store.at(uploader, *environment, requestOf(settings));
+    const EnvironmentImages& images = store.at(uploader, *environment, *background, requestOf(settings));
     feature_ = gpu::ENVIRONMENT_LIT;
     if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
     if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;

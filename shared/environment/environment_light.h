@@ -23,6 +23,7 @@ namespace diptych {
 // What one request made of one environment, on the device.
 struct EnvironmentImages {
     EnvironmentRequest request;
+    bool without_sun = false;
     Harmonics harmonics{};
     double window = 0;  // leastWindow()
     glm::vec4 diffuse{0};
@@ -31,14 +32,15 @@ struct EnvironmentImages {
     std::string note{};
 };
 
-// The environments of a scene, each with all that was asked of it.
+// The environment of a scene and what its sun leaves of it, each with all that was asked of it.
 class EnvironmentStore {
 public:
     explicit EnvironmentStore(Device& device, std::filesystem::path cache = userCacheFolder())
         : device_(device), folder_(std::move(cache)) {}
-    // Throws std::runtime_error, one line, where the device holds no picture so large.
+    // `background`: the scene's environment, which is seen; `environment`: the same, or what lights in its
+    // place. Throws std::runtime_error, one line, where the device holds no picture so large.
     const EnvironmentImages& at(Uploader& uploader, const Environment& environment,
-                                const EnvironmentRequest& request);
+                                const Environment& background, const EnvironmentRequest& request);
     std::uint64_t bytes() const;
 
 private:
@@ -50,10 +52,11 @@ private:
 // One view's. Without an environment, or where its intensity is 0, it changes nothing.
 class EnvironmentLight {
 public:
-    // `environment`: of the scene, or nullptr. `frame`: the sets of SET_FRAME, to which it writes its
-    // bindings.
+    // `environment`, `background`: of the scene (EnvironmentStore::at), or nullptr. `frame`: the sets of
+    // SET_FRAME, to which it writes its bindings.
     EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
-                     const Environment* environment, DescriptorSets& frame, const Settings& settings);
+                     const Environment* environment, const Environment* background, DescriptorSets& frame,
+                     const Settings& settings);
 
     static bool isLit(const Environment* environment, const Settings& settings) {
         return environment != nullptr && settings.ibl_intensity > 0;

@@ -25,8 +25,9 @@ struct Settings {
     Size size;
     std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
     double time = 0.0;   // s
-    std::string env = "none";   // file of a lat-long environment
+    std::string env = "none";   // file of a lat-long environment, or scene
     float env_rotation = 0.0f;  // degrees about +Y
+    bool env_sun = false;
     float ibl_intensity = 1.0f;
     Ibl ibl = Ibl::split;
     IblDiffuse ibl_diffuse = IblDiffuse::sh;
@@ -255,18 +256,28 @@ void Settings::rows(Visit&& visit) {
                                      return row::isReference(s) && s.reference_mode == ReferenceMode::scene;
                                  }}},
           &Settings::time);
-    visit(Field{.option = "env",
-                .help = "lat-long environment, .exr or .hdr, or none",
-                .off = "none",
-                .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
-                .for_surfaces = "none"},
-          &Settings::env);
+    visit(
+        Field{
+            .option = "env",
+            .help =
+                "lat-long environment, .exr or .hdr; scene: that of the scene's file, or an error; none: no "
+                "other than that",
+            .off = "none",
+            .valid = {"names no file; use none", [](const Settings& s) { return !s.env.empty(); }},
+            .for_surfaces = "none"},
+        &Settings::env);
     visit(Field{.option = "env-rotation",
                 .help = "turns the environment about +Y, counter-clockwise seen from above, degrees",
                 .valid = {"is finite", [](const Settings& s) { return std::isfinite(s.env_rotation); }},
                 .default_only = {row::needs_env, row::hasEnv},
                 .for_surfaces = "0"},
           &Settings::env_rotation);
+    visit(Field{.option = "env-sun",
+                .help = "takes the environment's sun out of it as a directional light, which casts shadows",
+                .off = "off",
+                .default_only = {row::needs_env, row::hasEnv},
+                .for_surfaces = "off"},
+          &Settings::env_sun);
     visit(Field{.option = "ibl-intensity",
                 .help = "factor on the environment's radiance; 0: none of it is drawn",
                 .valid = {"is finite and at least 0",

@@ -9,8 +9,20 @@
 namespace diptych {
 namespace {
 
-SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
-                 std::optional<DefaultView>& kept) {
+// Lights the view with the environment's sun, which is looked for once.
+void takeSun(const Scene& scene, const ViewRequest& request, std::shared_ptr<const EnvironmentSun>& kept,
+             SceneView& result) {
+    if (!kept) kept = std::make_shared<const EnvironmentSun>(environmentSun(*scene.environment));
+    result.sun = kept;
+    if (!kept->found) return;
+    result.environment = &kept->residual;
+    if (request.environment_factor > 0)
+        result.lights.push_back(
+            turnedSun(kept->light, request.environment_turned, request.environment_factor));
+}
+
+SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose, std::optional<DefaultView>& kept,
+                 std::shared_ptr<const EnvironmentSun>& sun) {
     const auto defaultView = [&]() -> const DefaultView& {
         if (!kept) kept = chooseDefaultView(scene);
         return *kept;
@@ -23,7 +35,10 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
     if (!request.lights.empty())
         for (Light& light : makeLights(request.lights, request.seed, boundsAtStart(scene, result.pose)))
             result.lights.push_back(std::move(light));
-    if (scene.environment) result.environment = &*scene.environment;
+    if (scene.environment) {
+        result.environment = result.background = &*scene.environment;
+        if (request.environment_sun) takeSun(scene, request, sun, result);
+    }
     result.default_sun = result.lights.empty() && !scene.environment;
     // The default sun stands behind the viewer of the default view, whichever camera is chosen, so that it
     // lights the sides which face that viewer.
@@ -36,7 +51,8 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
 
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request) {
     std::optional<DefaultView> kept;
-    return viewOf(scene, request, poseAt(scene, request.time), kept);
+    std::shared_ptr<const EnvironmentSun> sun;
+    return viewOf(scene, request, poseAt(scene, request.time), kept, sun);
 }
 
 const SceneView& SceneViews::at(const ViewRequest& request) {
@@ -44,7 +60,7 @@ const SceneView& SceneViews::at(const ViewRequest& request) {
     if (view) return *view;
     auto pose = poses_.find(request.time);
     if (pose == poses_.end()) pose = poses_.emplace(request.time, poseAt(scene_, request.time)).first;
-    view = std::make_unique<SceneView>(viewOf(scene_, request, pose->second, default_view_));
+    view = std::make_unique<SceneView>(viewOf(scene_, request, pose->second, default_view_, sun_));
     return *view;
 }
 

@@ -3,6 +3,7 @@
 // and passed to all code that draws or judges the picture, so that all of it uses the same data.
 #pragma once
 
+#include "shared/scene/lights/environment_sun.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/requirements.h"
@@ -24,6 +25,10 @@ struct ViewRequest {
     int width = 0, height = 0;  // pixels
     std::string lights;         // a rig or a file, see makeLights(); empty: only the scene's own
     std::uint32_t seed = 0;     // of the rig
+    // Takes the sun out of the environment, as a light (lights/environment_sun.h), of an environment turned
+    // by so many degrees and multiplied by the factor; both are read for this alone.
+    bool environment_sun = false;
+    double environment_turned = 0, environment_factor = 1;
     auto operator<=>(const ViewRequest&) const = default;
 };
 
@@ -32,10 +37,14 @@ struct SceneView {
     View view;
     std::string
         default_view;  // how the camera was chosen, in words; empty where the request or scene has one
-    std::vector<Light> lights;  // the scene's own, then those of the rig or file; or the default sun alone
-    const Environment* environment = nullptr;  // the scene's, which must outlive this; nullptr: none
-    bool default_sun = false;                  // whether the scene had neither lights nor an environment
-    Requirements needs;                        // of the scene under `lights`
+    // The scene's own, then those of the rig or file, then the environment's sun; or the default sun alone.
+    std::vector<Light> lights;
+    const Environment* environment =
+        nullptr;  // that lights: the scene's or what its sun leaves; nullptr: none
+    const Environment* background = nullptr;    // that is seen: the scene's, which must outlive this
+    std::shared_ptr<const EnvironmentSun> sun;  // where one was asked for and there is an environment
+    bool default_sun = false;                   // whether the scene had neither lights nor an environment
+    Requirements needs;                         // of the scene under `lights`
 };
 
 // Throws std::runtime_error naming --camera or --lights if the request is invalid.
@@ -55,6 +64,7 @@ public:
 private:
     const Scene& scene_;
     std::optional<DefaultView> default_view_;
+    std::shared_ptr<const EnvironmentSun> sun_;
     std::map<double, Pose> poses_;  // by time, s
     std::map<ViewRequest, std::unique_ptr<SceneView>> views_;
 };

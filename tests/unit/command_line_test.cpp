@@ -363,7 +363,7 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
             EXPECT_FALSE(shows(command, option)) << command << " " << option;
         for (const char* option : {"gbuffer", "pixel-lights", "spp", "reference-mode", "ambient", "camera",
                                    "shadows", "shadow-kernel", "shadow-lights", "evsm-exponent", "env",
-                                   "env-rotation", "ibl-intensity", "ibl", "ibl-diffuse"})
+                                   "env-rotation", "env-sun", "ibl-intensity", "ibl", "ibl-diffuse"})
             EXPECT_TRUE(shows(command, option)) << command << " " << option;
     }
     for (const char* option : {"env", "ibl-intensity", "shadows", "time", "gbuffer", "spp"})

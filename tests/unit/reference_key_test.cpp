@@ -111,6 +111,11 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
              std::swap(a.scene.environment->radiance.width, a.scene.environment->radiance.height);
          }},
         {"no environment", [](Asked& a) { a.scene.environment.reset(); }},
+        {"a lightmap under the environment",
+         [](Asked& a) {
+             a.mode = ReferenceMode::surface;
+             a.material().lightmap_texture.texture = 0;
+         }},
         {"surfaces", [](Asked& a) { a.surfaces.at(0).data[1] = 1; }},
         {"one light more", [](Asked& a) { a.lights.push_back(a.lights[0]); }},
         {"colour", [](Asked& a) { a.light().color.g = 0.5f; }},

@@ -31,6 +31,7 @@ Settings everythingChanged() {
     s.time = 1.0 / 3.0;
     s.env = "sky \\ \xc3\xa9.exr";
     s.env_rotation = -30.5f;
+    s.env_sun = true;
     s.ibl_intensity = 0.1f;
     s.ibl = Ibl::sampled;
     s.ibl_diffuse = IblDiffuse::map;
