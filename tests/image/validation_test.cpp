@@ -7,8 +7,8 @@ namespace diptych::tests {
 namespace {
 
 // The tests of this program draw on device(), which is validated but for suites that draw again what others
-// have: parity tests draw every built-in scene in all encodings with and without a pre-pass, and tests of light
-// lists in all assignments. A test fails that the layers said something during.
+// have: parity tests draw every built-in scene in all encodings with and without a pre-pass, and tests of
+// light lists in all assignments. A test fails that the layers said something during.
 class NoMessages : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
         const std::uint64_t now = device().validationMessages();

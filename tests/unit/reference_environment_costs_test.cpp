@@ -48,7 +48,7 @@ TEST(ReferenceEnvironmentCosts, AConstantSkyCostsNothing) {
     s.dielectric_f90 = 1;
     const EnvironmentCosts costs = costsUnder(evenSky(3), s);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_LE(costs.diffuse[i], 3 * 0.05) << i;
+        EXPECT_LE(costs.diffuse[i], 3 * 0.07) << i;
         EXPECT_LE(costs.split[i], 3 * 0.05) << i;
     }
     EXPECT_LE(costs.wider, 3 * 0.05);
@@ -69,7 +69,7 @@ TEST(ReferenceEnvironmentCosts, ASunsHarmonicsAreOffByAClampedCosines) {
                            turned = costsUnder(sky, lambertian(-sun));
     EXPECT_NEAR(facing.diffuse[0] / (flux * (4.25 / 4 - 1) / pi), 1, 0.2) << "to 1 % of all, which is known";
     EXPECT_NEAR(turned.diffuse[0] / (flux * 0.25 / 4 / pi), 1, 0.02);
-    EXPECT_LE(turned.diffuse[2], 0.02 * flux / pi) << "a map has nothing there but what its nodes mix";
+    EXPECT_LE(turned.diffuse[2], 0.03 * flux / pi) << "a map has nothing there but what its nodes mix";
     EXPECT_EQ(turned.lobe, 0);
 }
 
