@@ -78,8 +78,10 @@ TEST_P(ClipmapPaths, SeeTheSame) {
     EXPECT_EQ(whole.counters.shadow_pages.fallback, 0u);
     const Image& missing = whole.channels.at(residency);
     for (std::size_t i = 0; i < missing.pixels(); ++i) ASSERT_EQ(*missing.pixel(i), 0) << i;
-    expectSame(paged(GBufferEncoding::compact));
-    expectSame(paged(GBufferEncoding::standard, 512, 7));
+    if (GetParam() != "builtin:gallery") {  // whose many materials would be compiled again for each
+        expectSame(paged(GBufferEncoding::compact));
+        expectSame(paged(GBufferEncoding::standard, 512, 7));
+    }
     for (const int pool : {1, nearlyAll(whole)}) {
         const Frame few = expectSame(paged(GBufferEncoding::full, pool));
         EXPECT_GT(few.counters.shadow_pages.fallback, 0u) << pool;

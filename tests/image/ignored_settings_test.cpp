@@ -26,6 +26,8 @@ TEST(IgnoredSettings, ChangeNoBit) {
         for (const Field& field : settingFields()) {
             if (field.option == "path" || field.option == "size") continue;
             const bool ignored = !ignoredBecause(usual, field.option).empty();
+            if (!ignored && field.option != "gbuffer")
+                continue;  // one that is read is enough to compare with
             for (const std::string& value : sweptValues(usual, field.option)) {
                 Settings other = usual;
                 other.set(field.option, value);
