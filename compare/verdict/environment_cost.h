@@ -12,8 +12,7 @@ namespace diptych {
 
 // Of what the specular lobe sends of the environment: linear interpolation between widths half an octave
 // apart is off by 6 % where one point gives all light (its peak goes with the width's square), between nodes
-// by 1.6
-// %.
+// by 1.6 %.
 inline constexpr double filteredShare = 0.08;
 // Of the same: what samples at every pixel are off by, times the root of their number. 64 were off by 14 % at
 // one pixel in a thousand under a city's sun, by 21 % under a lamp of 5 degrees, 400 times as bright as the

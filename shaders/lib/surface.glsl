@@ -13,7 +13,7 @@ struct Surface {
     vec3 albedo;            // base colour, linear Rec.709
     float metallic;
     float roughness;        // perceptual
-    float occlusion;        // 1: open; for ambient light alone
+    float occlusion;        // 1: open; for light from everywhere alone
     vec3 emission;          // W/(sr m^2)
     vec3 lightmap;          // irradiance / pi, W/(sr m^2)
     bool lightmapped;       // whether the material has a lightmap, which may be black here

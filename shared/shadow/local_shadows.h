@@ -38,8 +38,6 @@ public:
     // Declares that the pass's fragment shaders read the atlas.
     void read(Pass& pass) const;
 
-    // Something to bind to the sets of SET_FRAME of draws that read no shadow.
-
     std::uint64_t bytes() const;  // of buffers; the atlas is the pass list's
     // How far across a light's rays something is read for a surface, a share of the distance from the light:
     // at most, of all tiles; 0 where there is none.
