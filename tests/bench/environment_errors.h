@@ -12,6 +12,7 @@
 #include "shared/contract/environment.h"
 #include "shared/environment/directional_albedo.h"
 #include "shared/environment/environment_maps.h"
+#include "tests/cubic.h"
 
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
@@ -156,24 +157,13 @@ inline glm::dvec3 filteredRadiance(const EnvironmentMaps& maps, double alpha, co
 inline double tabledAlbedo(double alpha, double n_dot_v) {
     constexpr int width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
     const std::vector<glm::vec2>& table = directionalAlbedoTable();
-    const auto cubic = [](double place, int count, const auto& sample) {
-        const int first = std::clamp(static_cast<int>(place) - 1, 0, count - 4);
-        double sum = 0;
-        for (int i = first; i < first + 4; ++i) {
-            double weight = 1;
-            for (int j = first; j < first + 4; ++j)
-                if (j != i) weight *= (place - j) / (i - j);
-            sum += weight * sample(i);
-        }
-        return sum;
-    };
     const double k = 2 * alpha, blend = double{gpu::ALBEDO_BLEND},
                  least = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
     const double along =
         blend * std::sqrt(n_dot_v * (1 + k) / (n_dot_v + k)) + (1 - blend) * std::sqrt(n_dot_v);
     const double down = (std::sqrt(std::sqrt(alpha)) - least) / (1 - least);
-    return cubic(down * (height - 1), height, [&](int y) {
-        return cubic(along * (width - 1), width, [&](int x) {
+    return cubicAt(down * (height - 1), height, [&](int y) {
+        return cubicAt(along * (width - 1), width, [&](int x) {
             const glm::vec2 t = table[static_cast<std::size_t>(y * width + x)];
             return double{t.x} + double{t.y};
         });

@@ -7,6 +7,7 @@
 #include "compare/reference/quadrature.h"
 #include "shared/contract/albedo.h"
 #include "shared/environment/directional_albedo.h"
+#include "tests/cubic.h"
 
 namespace diptych::reference {
 namespace {
@@ -95,20 +96,6 @@ TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
             EXPECT_NEAR(table.y, edge.specular.g, 1e-5) << roughness << " " << cosine;
             EXPECT_NEAR(1 - diptych::meanSchlickWeight(cosine), edge.diffuse.g, 1e-5) << cosine;
         }
-}
-
-// Lagrange's polynomial through the four samples around `place`, as shared/contract/albedo.h has it.
-template <class Sample>
-double cubicAt(double place, int count, const Sample& sample) {
-    const int first = std::clamp(static_cast<int>(place) - 1, 0, count - 4);
-    double sum = 0;
-    for (int i = first; i < first + 4; ++i) {
-        double weight = 1;
-        for (int j = first; j < first + 4; ++j)
-            if (j != i) weight *= (place - j) / (i - j);
-        sum += weight * sample(i);
-    }
-    return sum;
 }
 
 // The table that the shaders read, read as its contract says, is the integral.

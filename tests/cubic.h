@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Interpolation as the table of shared/contract/albedo.h is read, in double.
+#pragma once
+
+#include <algorithm>
+
+namespace diptych {
+
+// Lagrange's polynomial through the four of `count` samples around `place`, a number of samples from the
+// first.
+template <class Sample>
+double cubicAt(double place, int count, const Sample& sample) {
+    const int first = std::clamp(static_cast<int>(place) - 1, 0, count - 4);
+    double sum = 0;
+    for (int i = first; i < first + 4; ++i) {
+        double weight = 1;
+        for (int j = first; j < first + 4; ++j)
+            if (j != i) weight *= (place - j) / (i - j);
+        sum += weight * sample(i);
+    }
+    return sum;
+}
+
+}  // namespace diptych
