@@ -19,13 +19,13 @@ bool hasPlace(const Light& light) {
     return light.kind != LightKind::directional;
 }
 
-// What a scene's surfaces reflect by, and whether its environment's harmonics are windowed.
+// What a scene's surfaces reflect by, whether it has an environment, and whether its harmonics are windowed.
 struct Reflectors {
-    bool base = true, specular = true, windowed = true;
+    bool base = true, specular = true, environment = true, windowed = true;
 };
 Reflectors reflectorsOf(const Scene* scene) {
     if (!scene) return {};
-    Reflectors found{false, false, true};
+    Reflectors found{false, false, scene->environment.has_value(), true};
     for (const Mesh& mesh : scene->meshes)
         for (const Primitive& primitive : mesh.primitives) {
             // glTF's default material is a metal.
@@ -61,6 +61,9 @@ public:
             reset("shadow-lights", "there is no point or spot light");
         noteShadows(lights);
         noteEnvironment(surfaces);
+        if (row_.multiscatter == Multiscatter::off && row_.ambient == Settings().ambient &&
+            (!surfaces.environment || row_.ibl_intensity == 0 || row_.ibl == Ibl::sampled))
+            reset("specular-albedo", "nothing asks what is reflected of light from everywhere");
     }
     const Settings& row() const { return row_; }
     const Reasons& reasons() const { return reasons_; }
@@ -72,7 +75,8 @@ private:
             for (const std::string_view option : {"ibl", "ibl-diffuse", "ibl-samples", "ibl-bias"})
                 reset(option, none);
         if (!surfaces.specular)
-            for (const std::string_view option : {"ibl", "ibl-samples", "ibl-bias", "multiscatter"})
+            for (const std::string_view option :
+                 {"ibl", "ibl-samples", "ibl-bias", "specular-albedo", "multiscatter"})
                 reset(option, dull);
         // Between facets irradiance is reflected too.
         if (!surfaces.base && row_.multiscatter != Multiscatter::fdez)

@@ -8,11 +8,10 @@ CONTRACT_BEGIN
 
 // What the specular lobe reflects of light that is the same from everywhere: f0 * t.x + f90 * t.y, t a
 // function of n.v and GGX's alpha alone (Karis 2013, "Real Shading in Unreal Engine 4": the environment
-// BRDF). HEIGHT rows of WIDTH samples, and one row more: in x the mean of Schlick's weight over the
-// cosine-weighted hemisphere, which the diffuse base loses.
+// BRDF). HEIGHT rows of WIDTH samples.
 // clang-format off
 //   along a row    x = ALBEDO_BLEND * sqrt(n.v (1 + k) / (n.v + k)) + (1 - ALBEDO_BLEND) * sqrt(n.v), k = 2 alpha:
-//                  the edge of a lobe at grazing angles is as wide as alpha; in the last row x = sqrt(n.v)
+//                  the edge of a lobe at grazing angles is as wide as alpha
 //   across rows    y = sqrt(roughness), from the least that is shaded to 1
 // clang-format on
 // Between samples it is cubic: Lagrange's polynomial through the nearest four, at the rim through the last

@@ -85,7 +85,9 @@
     /* MULTISCATTER_* of multiscatter.h */                                                                  \
     X(48, multiscatter,               frame,   0, PASSES_SHADE)                                             \
     /* a sum of ENVIRONMENT_* of environment.h */                                                           \
-    X(49, environment,                frame,   0, PASSES_SHADE)
+    X(49, environment,                frame,   0, PASSES_SHADE)                                             \
+    /* specularAlbedo() of ambient.glsl by a fit, not by its table */                                       \
+    X(50, fitted_albedo,              frame,   0, PASSES_SHADE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -13,7 +13,7 @@ namespace diptych {
 
 FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
                            const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
-                           std::optional<std::uint32_t> objectPixelLights, Multiscatter multiscatter)
+                           std::optional<std::uint32_t> objectPixelLights, bool albedoTable)
     : lists_(device, uploader, layouts.lists, choice, view, lights),
       objects_(device, uploader, draws, lights, objectPixelLights),
       placeholders_(device, uploader, layouts),
@@ -44,12 +44,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     area_lights_view_ = makeTexelView(device, "area lights", area_lights_, VK_FORMAT_R32G32B32A32_SFLOAT);
     ltc_ = LtcImage(device, uploader, lights.area() > 0);
     std::vector<glm::vec4> albedo;
-    const bool lightmaps = std::ranges::any_of(draws.items, [](const DrawItem& item) {
-        return item.variant.get(gpu::FEATURE_lightmap_texture) != 0;
-    });
-    if (lightmaps || lights.environment || lights.ambient != glm::vec3(0) ||
-        objects_.features() > gpu::OBJECT_LIGHTS_LISTS || multiscatter != Multiscatter::off)
-        albedo = directionalAlbedoPairs();
+    if (albedoTable) albedo = directionalAlbedoPairs();
     albedo_ = makeBuffer<glm::vec4>(device, uploader, "directional albedo", albedo,
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     albedo_view_ = makeTexelView(device, "directional albedo", albedo_, VK_FORMAT_R32G32B32A32_SFLOAT);

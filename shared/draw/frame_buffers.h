@@ -16,12 +16,11 @@ namespace diptych {
 // The buffers of one view: camera, draws, lights and their lists; bound as SET_FRAME.
 class FrameBuffers {
 public:
-    // `multiscatter`: whether the table of albedo.h is needed whatever lights there are.
+    // `albedoTable`: whether the table of albedo.h is read.
     // `objectPixelLights`: --pixel-lights of --assign per_object; nothing with any other assignment.
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
                  const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
-                 std::optional<std::uint32_t> objectPixelLights = {},
-                 Multiscatter multiscatter = Multiscatter::off);
+                 std::optional<std::uint32_t> objectPixelLights = {}, bool albedoTable = false);
     VkDescriptorSet set() const { return sets_[0]; }
     DescriptorSets& sets() { return sets_; }
     VkBuffer draws() const { return draws_.handle(); }

@@ -22,14 +22,19 @@ gpu::uint multiscatterOf(Multiscatter multiscatter) {
 
 }  // namespace
 
+bool readsSpecularAlbedo(const GpuLights& lights, const Settings& settings) {
+    const bool split = lights.environment && settings.ibl == Ibl::split;
+    return split || lights.ambient != glm::vec3(0) || multiscatterOf(settings.multiscatter) != 0;
+}
+
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer, AreaLights area_lights, Multiscatter multiscatter) {
+                     const GBufferLayout& gbuffer, const Settings& settings) {
     Variant variant;
     gpu::uint area = 0;
     if (lights.rect > 0) area |= gpu::AREA_RECTS;
     if (lights.disc > 0) area |= gpu::AREA_DISCS;
     if (lights.tube > 0) area |= gpu::AREA_TUBES;
-    if (area != 0 && area_lights == AreaLights::representative) area |= gpu::AREA_POINTS;
+    if (area != 0 && settings.area_lights == AreaLights::representative) area |= gpu::AREA_POINTS;
     variant.set(gpu::FEATURE_emission, needs.emission)
         .set(gpu::FEATURE_dielectric_specular, needs.dielectric_specular)
         .set(gpu::FEATURE_directional_lights, lights.directional > 0)
@@ -38,7 +43,9 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_area_lights, area)
         .set(gpu::FEATURE_lightmap, needs.lightmap)
         .set(gpu::FEATURE_ambient, lights.ambient != glm::vec3(0))
-        .set(gpu::FEATURE_multiscatter, multiscatterOf(multiscatter))
+        .set(gpu::FEATURE_multiscatter, multiscatterOf(settings.multiscatter))
+        .set(gpu::FEATURE_fitted_albedo,
+             readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::fit)
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;

@@ -4,6 +4,7 @@
 
 #include "shared/draw/draw_list.h"
 #include "shared/draw/layouts.h"
+#include "shared/frame/settings.h"
 #include "shared/material/gbuffer_layout.h"
 #include "shared/vulkan/pass_list.h"
 
@@ -50,6 +51,8 @@ constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
 
 // The features that are the same for all draws of a frame; shared/contract/features.h says which those are.
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer, AreaLights area_lights, Multiscatter multiscatter);
+                     const GBufferLayout& gbuffer, const Settings& settings);
+// Whether any pixel asks what a specular lobe reflects of light from everywhere.
+bool readsSpecularAlbedo(const GpuLights& lights, const Settings& settings);
 
 }  // namespace diptych

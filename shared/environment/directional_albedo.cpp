@@ -129,33 +129,17 @@ glm::dvec2 specularAlbedo(double n_dot_v, double alpha) {
     return sum;
 }
 
-double meanSchlickWeight(double n_dot_v) {
-    const double sine = std::sqrt(1 - n_dot_v * n_dot_v);
-    double sum = 0;
-    for (std::size_t i = 0; i < points; ++i)
-        for (std::size_t j = 0; j < points; ++j) {
-            const double n_dot_l = std::sqrt(rule.at[i]), across = std::sqrt(1 - rule.at[i]);
-            const double v_dot_l =
-                n_dot_v * n_dot_l + sine * across * std::cos(std::numbers::pi * rule.at[j]);
-            sum +=
-                rule.weight[i] * rule.weight[j] * schlickWeight(std::sqrt(std::max(0.0, (1 + v_dot_l) / 2)));
-        }
-    return sum;
-}
-
 const std::vector<glm::vec2>& directionalAlbedoTable() {
     static const std::vector<glm::vec2> table = [] {
         constexpr std::size_t width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
         const double least = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
-        std::vector<glm::vec2> made(width * (height + 1));
-        tbb::parallel_for(std::size_t{0}, height + 1, [&](std::size_t row) {
+        std::vector<glm::vec2> made(width * height);
+        tbb::parallel_for(std::size_t{0}, height, [&](std::size_t row) {
             const double y = least + (1 - least) * static_cast<double>(row) / (height - 1),
                          alpha = y * y * y * y;
-            for (std::size_t i = 0; i < width; ++i) {
-                const double x = static_cast<double>(i) / (width - 1);
-                made[row * width + i] = row < height ? glm::vec2(specularAlbedo(viewAt(x, alpha), alpha))
-                                                     : glm::vec2(meanSchlickWeight(x * x), 0);
-            }
+            for (std::size_t i = 0; i < width; ++i)
+                made[row * width + i] =
+                    specularAlbedo(viewAt(static_cast<double>(i) / (width - 1), alpha), alpha);
         });
         return made;
     }();

@@ -15,10 +15,6 @@ namespace diptych {
 // Within 5e-6 of the sum.
 glm::dvec2 specularAlbedo(double n_dot_v, double alpha);
 
-// The mean of w over the cosine-weighted hemisphere, within 4e-6: a base under a layer of F0 and F90 gets
-// 1 - F0 - (F90 - F0) w of such light.
-double meanSchlickWeight(double n_dot_v);
-
 // The table of shared/contract/albedo.h, row after row; made on all cores when it is first asked for.
 const std::vector<glm::vec2>& directionalAlbedoTable();
 // As shaders read it: each sample with the next one, the last with itself.

@@ -70,6 +70,11 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
+enum class SpecularAlbedo { table, fit };
+template <>
+inline constexpr auto enum_names<SpecularAlbedo> =
+    std::to_array<EnumName<SpecularAlbedo>>({{SpecularAlbedo::table, "table"}, {SpecularAlbedo::fit, "fit"}});
+
 enum class Multiscatter { off, energy, fdez, walk };
 template <>
 inline constexpr auto enum_names<Multiscatter> =

@@ -39,6 +39,7 @@ struct Settings {
     float light_cutoff = 0.0f;  // W/(sr m^2)
     int pixel_lights = 4;
     AreaLights area_lights = AreaLights::ltc;
+    SpecularAlbedo specular_albedo = SpecularAlbedo::table;
     Multiscatter multiscatter = Multiscatter::off;
     Shadows shadows = Shadows::pcf;
     int shadow_lights = 0;
@@ -356,6 +357,11 @@ void Settings::rows(Visit&& visit) {
                 .ignored = {.reference = "the reference integrates area lights"},
                 .sweep = "all"},
           &Settings::area_lights);
+    visit(Field{.option = "specular-albedo",
+                .help = "what the specular lobe reflects of light from everywhere: a table or Karis's fit",
+                .ignored = {.reference = "the reference integrates what the specular lobe reflects"},
+                .sweep = "all"},
+          &Settings::specular_albedo);
     visit(Field{.option = "multiscatter",
                 .help = "light between microfacets; walk: the reference alone follows it",
                 .off = "off",

@@ -361,9 +361,10 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
         for (const char* option : {"time", "msaa", "sort", "haze"})
             EXPECT_FALSE(shows(command, option)) << command << " " << option;
-        for (const char* option : {"gbuffer", "pixel-lights", "spp", "reference-mode", "ambient", "camera",
-                                   "shadows", "shadow-kernel", "shadow-lights", "evsm-exponent", "env",
-                                   "env-rotation", "env-sun", "ibl-intensity", "ibl", "ibl-diffuse"})
+        for (const char* option :
+             {"gbuffer", "pixel-lights", "spp", "reference-mode", "ambient", "camera", "shadows",
+              "shadow-kernel", "shadow-lights", "evsm-exponent", "env", "env-rotation", "env-sun",
+              "ibl-intensity", "ibl", "ibl-diffuse", "specular-albedo"})
             EXPECT_TRUE(shows(command, option)) << command << " " << option;
     }
     for (const char* option : {"env", "ibl-intensity", "shadows", "time", "gbuffer", "spp"})

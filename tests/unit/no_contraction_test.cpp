@@ -75,6 +75,7 @@ constexpr ExactRow exactExtended[] = {
     {14, "Cos", oneFunction},
     {27, "Exp", oneFunction},
     {28, "Log", oneFunction},
+    {29, "Exp2", oneFunction},
     {30, "Log2", oneFunction},
     {31, "Sqrt", oneFunction},
     {32, "InverseSqrt", oneFunction},

@@ -92,9 +92,7 @@ TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
             s.metallic = 0;
             s.dielectric_f0 = glm::dvec3(0);
             s.dielectric_f90 = 1;
-            const Reflected edge = ambientAlbedo(s);
-            EXPECT_NEAR(table.y, edge.specular.g, 1e-5) << roughness << " " << cosine;
-            EXPECT_NEAR(1 - diptych::meanSchlickWeight(cosine), edge.diffuse.g, 1e-5) << cosine;
+            EXPECT_NEAR(table.y, ambientAlbedo(s).specular.g, 1e-5) << roughness << " " << cosine;
         }
 }
 
@@ -102,15 +100,12 @@ TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
 TEST(ReferenceAmbient, TheTableHoldsTheIntegrals) {
     constexpr int width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
     const std::vector<glm::vec2>& table = directionalAlbedoTable();
-    ASSERT_EQ(table.size(), std::size_t{width * (height + 1)});
+    ASSERT_EQ(table.size(), std::size_t{width * height});
     const auto sample = [&](int x, int y, int part) {
         return double{table[static_cast<std::size_t>(y * width + x)][part]};
     };
     for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.07, 0.2, 0.45, 0.8, 1.0}) {
         const double root = std::sqrt(n_dot_v);
-        EXPECT_NEAR(cubicAt(root * (width - 1), width, [&](int x) { return sample(x, height, 0); }),
-                    diptych::meanSchlickWeight(n_dot_v), 6e-5)
-            << n_dot_v;
         for (const double roughness : {0.045, 0.06, 0.2, 0.5, 0.77, 1.0}) {
             const double k = 2 * roughness * roughness, blend = double{gpu::ALBEDO_BLEND};
             const double along = blend * std::sqrt(n_dot_v * (1 + k) / (n_dot_v + k)) + (1 - blend) * root;

@@ -43,6 +43,7 @@ Settings everythingChanged() {
     s.light_cutoff = 1e-3f;
     s.pixel_lights = 0;
     s.area_lights = AreaLights::representative;
+    s.specular_albedo = SpecularAlbedo::fit;
     s.multiscatter = Multiscatter::fdez;
     s.shadows = Shadows::clipmap;
     s.shadow_lights = 7;
@@ -318,6 +319,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"light-kernel", "gather"},
         {"light-cutoff", "0.01"},
         {"area-lights", "representative"},
+        {"specular-albedo", "fit"},
         {"multiscatter", "energy"},
         {"multiscatter", "fdez"},
         {"prepass", "on"},

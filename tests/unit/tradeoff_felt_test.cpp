@@ -104,7 +104,8 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     const SweepRows all = feltUnder(mixed, false);
     EXPECT_EQ(valuesOf(all, "ibl-diffuse"), (std::set<std::string>{"sh", "sh-windowed", "map"}));
     EXPECT_EQ(valuesOf(all, "ibl-intensity"), (std::set<std::string>{"0", "1"})) << "without its light";
-    for (const char* option : {"ibl", "multiscatter"}) EXPECT_GT(valuesOf(all, option).size(), 1u) << option;
+    for (const char* option : {"ibl", "specular-albedo", "multiscatter"})
+        EXPECT_GT(valuesOf(all, option).size(), 1u) << option;
     for (const Ibl ibl : {Ibl::split, Ibl::sampled})
         for (const int samples : {32, 256, 1024})
             for (const float bias : {0.0f, 1.0f, 2.0f})
@@ -118,7 +119,7 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     EXPECT_EQ(reasonOf(feltUnder(mixed, true), "ibl-diffuse"),
               "no harmonic irradiance is negative: there is no window");
     const SweepRows of_matte = feltUnder(matte, false);
-    for (const char* option : {"ibl", "ibl-samples", "ibl-bias", "multiscatter"}) {
+    for (const char* option : {"ibl", "ibl-samples", "ibl-bias", "specular-albedo", "multiscatter"}) {
         EXPECT_EQ(valuesOf(of_matte, option).size(), 1u) << option;
         EXPECT_EQ(reasonOf(of_matte, option), "nothing is specular") << option;
     }
