@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/environment/environment_maps.h"
 
+#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -24,15 +25,37 @@ double nodeWeight(const NodeMap& map, int x, int y) {
     return l1 * l1 * l1 * edge(x) * edge(y);
 }
 
+// Means of two by two pixels. Rows beside each other differ in solid angle at the poles alone, and there over
+// a hundredth of a degree.
+Environment halved(const Environment& fine) {
+    Environment coarse{fine.name, Image(fine.radiance.width / 2, fine.radiance.height / 2, 3)};
+    tbb::parallel_for(0, coarse.radiance.height, [&](int y) {
+        for (int x = 0; x < coarse.radiance.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const auto at = [&](int i, int j) { return fine.radiance.at(2 * x + i, 2 * y + j, c); };
+                coarse.radiance.at(x, y, c) = 0.25f * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1));
+            }
+    });
+    return coarse;
+}
+
+bool canBeHalved(const Image& picture) {
+    return picture.height >= 4 * mostSourceSide && picture.width % 2 == 0 && picture.height % 2 == 0;
+}
+
 }  // namespace
 
 EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const EnvironmentRequest& request) {
-    const LatLong light(environment);
     EnvironmentMaps maps;
-    maps.harmonics = project(light);
+    maps.harmonics = project(LatLong(environment));
+    // Of a picture that is far finer than any map its means are enough.
+    Environment reduced;
+    const Environment* read = &environment;
+    for (; canBeHalved(read->radiance); read = &reduced) reduced = halved(*read);
+    const LatLong light(*read);
     // A map of `height` texels a side has texels as large as those at the horizon of a picture so high.
-    const auto side = static_cast<int>(std::bit_ceil(
-        static_cast<unsigned>(std::clamp(environment.radiance.height, leastSourceSide, mostSourceSide))));
+    const auto side = static_cast<int>(
+        std::bit_ceil(static_cast<unsigned>(std::clamp(light.height(), leastSourceSide, mostSourceSide))));
     OctahedralMap whole = resampled(light, side);
     std::vector<BrightTexel> bright;
     if (request.prefilter) bright = takeBrightTexels(whole);

@@ -35,17 +35,28 @@ int bandOf(std::size_t i) {
 // for what is linear between centres.
 using Moments = std::array<std::array<std::complex<double>, 3>, 3>;
 
-Moments momentsOf(const Image& image, int y) {
+// Of a column's centre: e^(i m azimuth), m 1 and 2.
+using Turns = std::array<std::complex<double>, 2>;
+
+std::vector<Turns> turnsOf(int width) {
+    std::vector<Turns> turns;
+    for (int x = 0; x < width; ++x) {
+        const double azimuth = 2 * std::numbers::pi * (x + 0.5) / width - std::numbers::pi;
+        turns.push_back({std::polar(1.0, azimuth), std::polar(1.0, 2 * azimuth)});
+    }
+    return turns;
+}
+
+Moments momentsOf(const Image& image, int y, const std::vector<Turns>& turns) {
     Moments moments{};
     const double step = 2 * std::numbers::pi / image.width;
     for (int x = 0; x < image.width; ++x) {
-        const double azimuth = step * (x + 0.5) - std::numbers::pi;
-        const std::complex<double> turn = std::polar(1.0, azimuth);
+        const Turns& turn = turns[static_cast<std::size_t>(x)];
         for (std::size_t c = 0; c < 3; ++c) {
             const double value = image.at(x, y, static_cast<int>(c));
             moments[c][0] += value;
-            moments[c][1] += value * turn;
-            moments[c][2] += value * turn * turn;
+            moments[c][1] += value * turn[0];
+            moments[c][2] += value * turn[1];
         }
     }
     for (auto& component : moments)
@@ -93,8 +104,9 @@ Harmonics project(const LatLong& light) {
     const Image& image = light.image();
     const auto height = static_cast<std::size_t>(image.height);
     std::vector<Moments> rows(height);
+    const std::vector<Turns> turns = turnsOf(image.width);
     tbb::parallel_for(std::size_t{0}, height,
-                      [&](std::size_t y) { rows[y] = momentsOf(image, static_cast<int>(y)); });
+                      [&](std::size_t y) { rows[y] = momentsOf(image, static_cast<int>(y), turns); });
     // From centre to centre, and to the poles, by three of Gauss and Legendre's points.
     constexpr std::array<double, 3> at{0.112701665379258, 0.5, 0.887298334620742},
         part{5 / 18.0, 8 / 18.0, 5 / 18.0};

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increased whenever maps are made otherwise.
-constexpr std::uint64_t mapVersion = 3;
+constexpr std::uint64_t mapVersion = 4;
 
 // A word at a time through SplitMix64's finaliser (Steele, Lea and Flood 2014).
 class MapHash {

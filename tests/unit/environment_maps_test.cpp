@@ -189,6 +189,27 @@ TEST(EnvironmentMaps, AConstantSkyStaysConstant) {
     for (const Texel& t : maps.diffuse.nodes) ASSERT_NEAR(t[1], 3, 3e-5);
 }
 
+// The largest picture that is usual, in closed form: radiance 2 + d.y. Maps stay as large as their limit.
+TEST(EnvironmentMaps, ALargePictureIsReadWhole) {
+    constexpr int width = 8192, height = 4096;
+    Environment sky{"sky", Image(width, height, 3)};
+    for (int y = 0; y < height; ++y) {
+        const auto value = static_cast<float>(2 + std::cos(pi * (y + 0.5) / height));
+        float* const row = sky.radiance.data.data() + static_cast<std::size_t>(y) * width * 3;
+        std::fill(row, row + std::size_t{width} * 3, value);
+    }
+    const EnvironmentMaps maps = makeEnvironmentMaps(sky, {{1, 0}, true});
+    EXPECT_NEAR(maps.harmonics[0].g, 2 * std::sqrt(4 * pi), 1e-5);
+    EXPECT_NEAR(maps.harmonics[1].g, std::sqrt(4 * pi / 3), 1e-5);
+    EXPECT_EQ(maps.levels.front().side, 1025);
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 d = onSphere(i, 200);
+        const glm::vec2 place = octahedralPlace(glm::vec3(d));
+        EXPECT_NEAR(maps.levels.front().interpolated(place).y, 2 + d.y, 1e-4) << i;
+        EXPECT_NEAR(maps.diffuse.interpolated(place).y, 2 + d.y * 2 / 3, 3e-3) << i;
+    }
+}
+
 // The lobe's weights depend on the angle alone, so that filtering keeps the integral over all directions.
 TEST(EnvironmentMaps, ABrightTexelNeitherVanishesNorSparkles) {
     const Environment sky = sunnySky(256, 128);
