@@ -38,7 +38,7 @@ vec3 mapRadiance(vec3 map, vec2 place) {
 
 // Between two levels, or at the ends of all of them.
 vec3 levelRadiance(float level, vec2 place) {
-    float levels = texelFetch(environment_texels, 1).w;
+    float levels = environmentTurn().w;
     level = clamp(level, 0.0, levels - 1.0);
     float lower = min(floor(level), levels - 2.0);
     int first = int(ENVIRONMENT_TEXEL_LEVELS) + int(lower);
@@ -55,17 +55,19 @@ float specularLevel(float alpha) {
                            : 1.0 + float(ENVIRONMENT_LEVELS_AN_OCTAVE) * (octaves - first);
 }
 
-vec3 harmonic(int i) { return texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_HARMONICS) + i).rgb; }
+vec4 harmonic(int i) { return texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_HARMONICS) + i); }
 
-// Irradiance over pi, W/(sr m^2); `n` in the environment's axes. Harmonics ring where light is hard: what is
-// below nothing is nothing.
+// Irradiance over pi, W/(sr m^2); `n` in world axes. Harmonics ring where light is hard: what is below
+// nothing is nothing.
 vec3 environmentIrradiance(vec3 n) {
     if (on(feature_environment & ENVIRONMENT_DIFFUSE_MAP))
         return mapRadiance(texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_DIFFUSE)).xyz,
-                           octahedralPlace(n));
-    vec3 e = harmonic(0) + harmonic(1) * n.y + harmonic(2) * n.z + harmonic(3) * n.x;
-    e += harmonic(4) * (n.x * n.y) + harmonic(5) * (n.y * n.z) + harmonic(6) * (3.0 * n.z * n.z - 1.0);
-    e += harmonic(7) * (n.x * n.z) + harmonic(8) * (n.x * n.x - n.y * n.y);
+                           octahedralPlace(environmentFromWorld(n)));
+    vec4 one = harmonic(0), y = harmonic(1), z = harmonic(2), x = harmonic(3);
+    vec4 xy = harmonic(4), yz = harmonic(5);
+    vec3 e = one.rgb + y.rgb * n.y + z.rgb * n.z + x.rgb * n.x;
+    e += xy.rgb * (n.x * n.y) + yz.rgb * (n.y * n.z) + harmonic(6).rgb * (3.0 * n.z * n.z - 1.0);
+    e += vec3(one.w, y.w, z.w) * (n.x * n.z) + vec3(x.w, xy.w, yz.w) * (n.x * n.x - n.y * n.y);
     return max(e, vec3(0.0));
 }
 
@@ -95,8 +97,8 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     float across2 = dot(up.xy, up.xy);
     vec3 t1 = across2 > 1e-12 ? vec3(-up.y, up.x, 0.0) / sqrt(across2) : vec3(1.0, 0.0, 0.0);
     vec3 t2 = crossProduct(up, t1);
-    float lambda_v = smithLambda(b.alpha2, mu), count = texelFetch(environment_texels, 2).w;
     vec4 first = texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_LEVELS));
+    float lambda_v = smithLambda(b.alpha2, mu), count = first.w;
     float bias = texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_DIFFUSE)).w;
     vec3 sum = vec3(0.0);
     for (float i = 0.0; i < count; i += 1.0) {
@@ -125,8 +127,8 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
 // from there.
 void addEnvironment(Surface s, Brdf b, vec3 v, inout vec3 diffuse, inout vec3 specular) {
     float factor = environmentFactor() * s.occlusion;
-    vec3 n = environmentFromWorld(s.normal), r = environmentFromWorld(reflection(-v, s.normal));
-    vec3 received = environmentIrradiance(n) * factor;
+    vec3 r = environmentFromWorld(reflection(-v, s.normal));
+    vec3 received = environmentIrradiance(s.normal) * factor;
     vec3 from_base = b.diffuse * PI * baseShare(b) * received;
     if (on(feature_lightmap)) from_base = s.lightmapped ? vec3(0.0) : from_base;
     vec3 from_lobe;

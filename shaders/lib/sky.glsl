@@ -8,14 +8,16 @@
 layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT) uniform samplerBuffer environment_texels;
 layout(set = SET_FRAME, binding = BINDING_SKY) uniform sampler2D sky;
 
-// In the environment's own axes. Not changed by what it is rotated by, so each component is one dot product.
+// Cosine and sine of its turn about +Y, the factor on its radiance, and how many levels its maps have.
+vec4 environmentTurn() { return texelFetch(environment_texels, 0); }
+
+// A direction in the environment's own axes.
 vec3 environmentFromWorld(vec3 d) {
-    vec3 turned =
-        vec3(dot(texelFetch(environment_texels, 0).xyz, d), dot(texelFetch(environment_texels, 1).xyz, d),
-             dot(texelFetch(environment_texels, 2).xyz, d));
+    vec4 turn = environmentTurn();
+    vec3 turned = vec3(turn.x * d.x - turn.y * d.z, d.y, turn.y * d.x + turn.x * d.z);
     return turned;
 }
-float environmentFactor() { return texelFetch(environment_texels, 0).w; }
+float environmentFactor() { return environmentTurn().z; }
 
 // Columns wrap around; beyond a pole lies the row as far before it, half a turn further.
 vec3 skyTexel(ivec2 p, ivec2 size) {

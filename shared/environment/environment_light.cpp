@@ -109,15 +109,18 @@ EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, Environme
     notes_.push_back(images.note);
     image_bytes_ = images.maps.bytes() + images.sky.bytes();
     const glm::mat3 turned = environmentFromWorld(double{settings.env_rotation});
-    const glm::vec3 last(settings.ibl_intensity, images.levels.size(), settings.ibl_samples);
-    std::vector<glm::vec4> texels;
-    for (int row = 0; row < 3; ++row)
-        texels.emplace_back(turned[0][row], turned[1][row], turned[2][row], last[row]);
     const bool windowed = settings.ibl_diffuse == IblDiffuse::sh_windowed;
-    for (const glm::dvec3& c : irradiancePolynomial(images.harmonics, windowed ? images.window : 0))
-        texels.emplace_back(glm::vec3(c), 0);
+    const auto irradiance = turnedPolynomial(
+        irradiancePolynomial(images.harmonics, windowed ? images.window : 0), glm::dmat3(turned));
+    std::vector<glm::vec4> texels{
+        {turned[0].x, turned[0].z, settings.ibl_intensity, static_cast<float>(images.levels.size())}};
+    for (std::size_t i = 0; i < 7; ++i) {
+        const auto axis = static_cast<int>(i % 3);
+        texels.emplace_back(glm::vec3(irradiance[i]), i < 6 ? irradiance[7 + i / 3][axis] : 0);
+    }
     texels.emplace_back(glm::vec3(images.diffuse), settings.ibl_bias);
     texels.insert(texels.end(), images.levels.begin(), images.levels.end());
+    texels[gpu::ENVIRONMENT_TEXEL_LEVELS].w = static_cast<float>(settings.ibl_samples);
     texels_ = makeBuffer<glm::vec4>(device, uploader, "environment", texels,
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     uploader.flush();

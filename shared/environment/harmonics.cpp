@@ -2,6 +2,7 @@
 #include "shared/environment/harmonics.h"
 
 #include <tbb/parallel_for.h>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -140,6 +141,23 @@ std::array<glm::dvec3, 9> irradiancePolynomial(const Harmonics& radiance, double
         const double l = bandOf(i);
         result[i] = radiance[i] * (norms[i] * cosine[static_cast<std::size_t>(bandOf(i))] /
                                    (1 + window * l * l * (l + 1) * (l + 1)));
+    }
+    return result;
+}
+
+// A quadratic form without a trace beside a linear one: 3 z^2 - 1 is 2 z^2 - x^2 - y^2 where the length is 1.
+std::array<glm::dvec3, 9> turnedPolynomial(const std::array<glm::dvec3, 9>& polynomial,
+                                           const glm::dmat3& rotation) {
+    std::array<glm::dvec3, 9> result;
+    for (int c = 0; c < 3; ++c) {
+        const auto of = [&](std::size_t i) { return polynomial[i][c]; };
+        const glm::dmat3 form(of(8) - of(6), of(4) / 2, of(7) / 2, of(4) / 2, -of(8) - of(6), of(5) / 2,
+                              of(7) / 2, of(5) / 2, 2 * of(6));
+        const glm::dmat3 q = glm::transpose(rotation) * form * rotation;
+        const glm::dvec3 g = glm::transpose(rotation) * glm::dvec3(of(3), of(1), of(2));
+        const std::array<double, 9> turned{
+            of(0), g.y, g.z, g.x, 2 * q[0][1], 2 * q[1][2], q[2][2] / 2, 2 * q[0][2], -q[1][1] - q[2][2] / 2};
+        for (std::size_t i = 0; i < 9; ++i) result[i][c] = turned[i];
     }
     return result;
 }

@@ -7,6 +7,7 @@
 #include "tests/unit/files.h"
 
 #include <gtest/gtest.h>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -132,6 +133,16 @@ TEST(EnvironmentMaps, ThePolynomialIsTheIrradiance) {
         // Bilinear interpolation takes up to h^2 / 8 of a curvature of 2.
         EXPECT_NEAR(e.x, 1 + 2 / 3.0 * cosine, 3e-4) << i;
         EXPECT_NEAR(e.y, 0.25 + 0.25 * cosine * cosine, 3e-4) << i;
+    }
+}
+
+TEST(EnvironmentMaps, ATurnedPolynomialIsThatOfTheTurnedNormal) {
+    const auto polynomial = irradiancePolynomial(project(LatLong(skyOf(16, 8, 5))), 0.1);
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), 0.8, glm::normalize(glm::dvec3(0.2, 0.9, -0.4))));
+    const auto turned = turnedPolynomial(polynomial, turn);
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 n = onSphere(i, 50);
+        EXPECT_LT(glm::length(evaluate(turned, n) - evaluate(polynomial, turn * n)), 1e-14) << i;
     }
 }
 
