@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/environment/environment_maps.h"
 
+#include "shared/environment/bright_pixels.h"
+
 #include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 
@@ -39,8 +41,13 @@ Environment halved(const Environment& fine) {
     return coarse;
 }
 
+// Rows of a picture twice as wide as high whose pixels would be as fine.
+int finenessOf(const Image& picture) {
+    return std::max(picture.height, (picture.width + 1) / 2);
+}
+
 bool canBeHalved(const Image& picture) {
-    return picture.height >= 4 * mostSourceSide && picture.width % 2 == 0 && picture.height % 2 == 0;
+    return finenessOf(picture) >= 4 * mostSourceSide && picture.width % 2 == 0 && picture.height % 2 == 0;
 }
 
 }  // namespace
@@ -49,14 +56,15 @@ EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const Enviro
     EnvironmentMaps maps;
     maps.harmonics = project(LatLong(environment));
     // Of a picture that is far finer than any map its means are enough.
-    Environment reduced;
-    const Environment* read = &environment;
-    for (; canBeHalved(read->radiance); read = &reduced) reduced = halved(*read);
-    const LatLong light(*read);
+    Environment even = canBeHalved(environment.radiance) ? halved(environment) : environment;
+    while (canBeHalved(even.radiance)) even = halved(even);
+    const BrightPixels suns(even);
+    const LatLong light(even);
     // A map of `height` texels a side has texels as large as those at the horizon of a picture so high.
-    const auto side = static_cast<int>(
-        std::bit_ceil(static_cast<unsigned>(std::clamp(light.height(), leastSourceSide, mostSourceSide))));
+    const auto side = static_cast<int>(std::bit_ceil(
+        static_cast<unsigned>(std::clamp(finenessOf(even.radiance), leastSourceSide, mostSourceSide))));
     OctahedralMap whole = resampled(light, side);
+    suns.addTo(whole);
     std::vector<BrightTexel> bright;
     if (request.prefilter) bright = takeBrightTexels(whole);
     const std::vector<OctahedralMap> source = pyramid(std::move(whole), leastPyramidSide);
@@ -68,6 +76,7 @@ EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const Enviro
         return maps;
     }
     maps.levels.push_back(resampledToNodes(light, side + 1));
+    suns.addTo(maps.levels.back());
     for (std::size_t level = 1; level < gpu::ENVIRONMENT_SPECULAR_LEVELS; ++level) {
         maps.levels.push_back(filtered(source, levelAlpha(level), levelSide(level, side), request.quality));
         addBrightTexels(maps.levels.back(), bright, levelAlpha(level));

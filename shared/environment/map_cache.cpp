@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <cstring>
 #include <exception>
 #include <fstream>
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increased whenever maps are made otherwise.
-constexpr std::uint64_t mapVersion = 4;
+constexpr std::uint64_t mapVersion = 5;
 
 // A word at a time through SplitMix64's finaliser (Steele, Lea and Flood 2014).
 class MapHash {
@@ -177,9 +178,16 @@ void limitMapCache(const fs::path& folder, std::uintmax_t most) {
     std::error_code failed;
     std::uintmax_t sum = 0;
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
-        if (!at->path().filename().string().starts_with("environment-")) continue;
+        // A writer that was killed leaves its temporary file, whose name begins with a dot.
+        const std::string name = at->path().filename().string();
+        const bool temporary = name.starts_with(".environment-");
+        if (!temporary && !name.starts_with("environment-")) continue;
         std::error_code gone;  // another program may limit the same folder
         const fs::file_time_type time = fs::last_write_time(at->path(), gone);
+        if (temporary && !gone && fs::file_time_type::clock::now() - time > std::chrono::hours(1)) {
+            fs::remove(at->path(), gone);
+            continue;
+        }
         const std::uintmax_t bytes = gone ? 0 : fs::file_size(at->path(), gone);
         if (gone) continue;
         files.push_back({at->path(), time, bytes});

@@ -104,7 +104,8 @@ Texel meanOver(const LatLong& light, glm::vec2 middle, float width, int parts) {
 
 // About two places a pixel of the source and axis, where its pixels are narrowest in the map.
 int partsOf(const LatLong& light, int side) {
-    return std::clamp(static_cast<int>(std::lround(std::ceil(3.0 * light.height() / side))), 2, 16);
+    const double rows = std::max(light.height(), light.width() / 2);
+    return std::clamp(static_cast<int>(std::lround(std::ceil(3 * rows / side))), 2, 16);
 }
 
 }  // namespace

@@ -48,6 +48,10 @@ std::vector<LobeSample> lobeSamples(double alpha, int count, float bias, int sou
                            static_cast<float>(cosine),
                            static_cast<float>(0.5 * std::log2(solid / texel)) + bias});
     }
+    // A single sample of the widest lobe lies on the horizon: its middle stands for it.
+    if (samples.empty())
+        samples.push_back(
+            {{0, 0, 1}, 1, static_cast<float>(0.5 * std::log2(std::numbers::pi / texel)) + bias});
     return samples;
 }
 

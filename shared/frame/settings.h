@@ -164,7 +164,8 @@ inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulk
 inline constexpr int most_pages = 16384;
 inline constexpr int most_samples = 65536;  // more take a day for a small picture
 
-inline constexpr std::string_view needs_env = "has no meaning without --env";
+inline constexpr std::string_view needs_env =
+    "has no meaning without --env (--env scene takes that of the scene's own file)";
 inline constexpr std::string_view integrates_env = "the reference integrates the environment";
 inline bool hasEnv(const Settings& s) {
     return s.env != Settings().env;

@@ -249,6 +249,48 @@ TEST(EnvironmentMaps, ABrightTexelNeitherVanishesNorSparkles) {
     }
 }
 
+// The mean over all directions; the nodes of an edge are there twice.
+double meanOfMap(const NodeMap& map) {
+    double sum = 0, solid = 0;
+    const auto edge = [&](int i) { return i == 0 || i + 1 == map.side ? 0.5 : 1.0; };
+    for (int y = 0; y < map.side; ++y)
+        for (int x = 0; x < map.side; ++x) {
+            const glm::dvec3 d(octahedralDirection(map.placeOf(x, y)));
+            const double l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z),
+                         share = l1 * l1 * l1 * edge(x) * edge(y);
+            sum += double{map.at(x, y)[0]} * share;
+            solid += share;
+        }
+    return sum / solid;
+}
+
+// Near the poles a pixel is far narrower than a map's texels, between columns it lies between their places.
+TEST(EnvironmentMaps, ASunKeepsItsLightWhereverItStands) {
+    for (const int row : {0, 1, 6, 20, 40, 64, 101, 127})
+        for (const int column : {0, 17, 160}) {
+            Environment sky = constantSky(0.2f, 256, 128);
+            sky.radiance.at(column, row, 0) = 6e4f;
+            const EnvironmentMaps maps = makeEnvironmentMaps(sky, {{1, 0}, true});
+            const double expected = maps.harmonics[0].x / std::sqrt(4 * pi);
+            EXPECT_NEAR(meanOfMap(maps.diffuse) / expected, 1, 1e-3) << row << " " << column;
+            // Sums over 129 x 129 nodes.
+            EXPECT_NEAR(meanOfMap(maps.levels.front()) / expected, 1, 3e-3) << row << " " << column;
+        }
+}
+
+// Whatever its sides, all maps hold the picture's mean and numbers alone, with one sample too.
+TEST(EnvironmentMaps, PicturesOfAnyShapeKeepTheirLight) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), {3, 2}, {8, 8}, {1, 40}, {200, 3}, {7, 5}})
+        for (const int samples : {1, 2, 3, 64}) {
+            const EnvironmentMaps maps = makeEnvironmentMaps(skyOf(size.x, size.y, 6), {{samples, 0}, true});
+            const double expected = maps.harmonics[0].x / std::sqrt(4 * pi);
+            EXPECT_NEAR(meanOfMap(maps.diffuse) / expected, 1, 5e-3) << size.x << " x " << size.y;
+            for (const NodeMap& level : maps.levels)
+                for (const Texel& t : level.nodes)
+                    ASSERT_TRUE(t[0] >= 0 && t[0] <= 2.001f) << size.x << " x " << size.y << " " << samples;
+        }
+}
+
 TEST(EnvironmentMaps, AnIrradianceMapIsTheSum) {
     // A half sky: E / pi is (1 + n.y) / 2.
     Environment sky = constantSky(0, 256, 128);

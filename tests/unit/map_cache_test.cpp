@@ -73,6 +73,19 @@ TEST(MapCache, TheKeyIsOfAllThatDecides) {
     EXPECT_EQ(mapKey(other, coarseMaps), key) << "the same pixels of another file";
 }
 
+TEST(MapCache, WhatAKilledWriterLeftIsRemoved) {
+    const fs::path in = folder();
+    const fs::path old = in / ".environment-0123456789abcdef.99-0.tmp",
+                   recent = in / ".environment-0123456789abcdef.98-0.tmp", other = in / ".other.tmp";
+    for (const fs::path& file : {old, recent, other}) std::ofstream(file) << "part";
+    for (const fs::path& file : {old, other})
+        fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(2));
+    limitMapCache(in);
+    EXPECT_FALSE(fs::exists(old));
+    EXPECT_TRUE(fs::exists(recent)) << "another program may be writing it";
+    EXPECT_TRUE(fs::exists(other));
+}
+
 TEST(MapCache, WhatIsDamagedIsMadeAnew) {
     const fs::path in = folder();
     const Environment sky = smallSky();
