@@ -80,7 +80,7 @@ void addScene(Key& key, const Request& request) {
 // Everything that decides a pixel. The version number must be increased whenever the reference itself draws
 // differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 8;
+    constexpr int version = 9;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));
@@ -104,6 +104,23 @@ std::uint64_t keyOf(const Request& request) {
     key.add(request.environment_turned);
     key.add(request.ambient);
     key.add(request.multiscatter);
+    key.add(request.air.has_value());
+    if (request.air) {
+        const Air& air = *request.air;
+        for (const AirKind& kind : {air.molecules, air.aerosols}) {
+            key.add(kind.scattering);
+            key.add(kind.extinction);
+            key.add(kind.scale);
+        }
+        key.add(glm::dvec2(air.g, air.ground));
+        key.add(air.uniform);
+        key.add(air.ambient);
+        key.add(air.sun != nullptr);
+        if (air.sun) {
+            key.add(glm::vec4(air.sun->color, air.sun->intensity));
+            key.add(air.sun->direction);
+        }
+    }
     if (request.residual) key.addAll(request.residual->radiance.data);
     if (request.scene.environment) {
         const Image& sky = request.scene.environment->radiance;

@@ -4,6 +4,7 @@
 #include "compare/reference/area.h"
 #include "compare/reference/checkpoint.h"
 #include "compare/reference/geometry.h"
+#include "compare/reference/haze.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/material.h"
 #include "compare/reference/pace.h"
@@ -57,6 +58,7 @@ struct Pixel {
     double local_visibility = 0;
     double local_edge = std::numeric_limits<double>::infinity(), local_radiance = 0;
     double depth = 0;
+    Hazed haze;
 };
 
 // The components of a channel (shared/contract/debug_mode.h).
@@ -71,6 +73,8 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return pixel.shading.reflected.specular;
         case gpu::DEBUG_lit_ambient:
             return pixel.shading.ambient;
+        case gpu::DEBUG_lit_haze:
+            return pixel.haze.scattered;
         case gpu::DEBUG_shadow_visibility:
             return glm::dvec3(pixel.sun_visibility);
         case gpu::DEBUG_local_visibility:
@@ -101,6 +105,8 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return glm::dvec3(s.texcoord, 0);
         case gpu::DEBUG_depth:
             return glm::dvec3(pixel.depth);
+        case gpu::DEBUG_transmittance:
+            return pixel.haze.transmittance;
         case gpu::DEBUG_position:
             return s.position;
         case gpu::DEBUG_geometric_normal:
@@ -177,6 +183,7 @@ public:
                     request.casters, request.shadowed_environment, request.multiscatter,
                     request.environment_turned),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
+        if (request.air) haze_.emplace(*request.air, eye_);
         if (request.environment_costs) lighting_.takeCosts();
         if (request.surroundings) lighting_.takeSurroundings();
         for (const std::size_t caster : request.casters)
@@ -290,9 +297,22 @@ private:
         if (all > 0) pixel.local_visibility = seen / all;
     }
 
-    glm::dvec3 background(const glm::dvec3& direction) const {
-        const glm::dvec3 d = glm::normalize(direction);
-        return background_ ? background_->radiance(d) : lighting_.background(d);
+    // What the camera sees of a background, behind all haze.
+    glm::dvec3 background(const PixelRay& ray) const {
+        const glm::dvec3 d = glm::normalize(ray.direction);
+        const glm::dvec3 radiance = background_ ? background_->radiance(d) : lighting_.background(d);
+        if (!haze_) return radiance;
+        const Hazed haze = haze_->along(ray.origin, d, std::numeric_limits<double>::infinity());
+        return radiance * haze.transmittance + haze.scattered;
+    }
+
+    // Applies the haze before the surface to its light.
+    void takeHaze(Pixel& pixel, const Surface& s) const {
+        if (!haze_) return;
+        const glm::dvec3 away = -s.to_viewer;
+        const double reach = glm::dot(s.position, away);
+        pixel.haze = haze_->along(s.position - away * reach, away, reach);
+        pixel.lit = pixel.lit * pixel.haze.transmittance + pixel.haze.scattered;
     }
 
     Ray cameraRay(const PixelRay& pixel, double from) const {
@@ -310,7 +330,7 @@ private:
         const Captured captured(*request_.surfaces, request_.scene.materials);
         Pixel pixel;
         if (!captured.isSurface(seed)) {
-            pixel.lit = background(rays_.through(x + 0.5, y + 0.5).direction);
+            pixel.lit = background(rays_.through(x + 0.5, y + 0.5));
             return pixel;
         }
         Surface s = captured.surface(seed, rays_);
@@ -329,6 +349,7 @@ private:
         }
         pixel.shading = lighting_(s, visible, seed);
         pixel.lit = pixel.shading.all() + s.emission;
+        takeHaze(pixel, s);
         pixel.surface = s;
         return pixel;
     }
@@ -343,6 +364,7 @@ private:
         takeShadow(pixel, s, foot, seed);
         takeLocalShadows(pixel, s, foot);
         pixel.lit = pixel.shading.all() + s.emission;
+        takeHaze(pixel, s);
         pixel.surface = s;
         return pixel;
     }
@@ -368,14 +390,16 @@ private:
                 pixel.local_visibility = here.local_visibility;
                 pixel.local_edge = here.local_edge;
                 pixel.local_radiance = here.local_radiance;
+                pixel.haze.transmittance = here.haze.transmittance;
             }
+            pixel.haze.scattered += here.haze.scattered * share;
             pixel.lit += here.lit * share;
             pixel.shading += here.shading * share;
             through -= share;
             from = hit->t;
             last = hit->id;
         }
-        pixel.lit += background(ray.direction) * through;
+        pixel.lit += background(ray) * through;
         return pixel;
     }
 
@@ -391,8 +415,10 @@ private:
             const Pixel sample = alongRay(ray, streamOf(~seed, static_cast<std::uint64_t>(i)));
             mean.lit += sample.lit * share;
             mean.shading += sample.shading * share;
+            mean.haze.scattered += sample.haze.scattered * share;
         }
         centre.lit = mean.lit;
+        centre.haze.scattered = mean.haze.scattered;
         centre.shading = mean.shading;
         return centre;
     }
@@ -404,9 +430,10 @@ private:
     const Materials materials_;
     Lighting lighting_;
     std::optional<EnvironmentLight> background_;  // where another one lights
-    const Light* sun_ = nullptr;                  // that casts
-    std::vector<const Light*> locals_;            // points and spots that cast
-    const double scene_radius_;                   // m, of a sphere around all that is drawn
+    std::optional<Haze> haze_;
+    const Light* sun_ = nullptr;        // that casts
+    std::vector<const Light*> locals_;  // points and spots that cast
+    const double scene_radius_;         // m, of a sphere around all that is drawn
 };
 
 // ---- the picture -------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // The input of the reference renderer.
 #pragma once
 
+#include "compare/reference/haze.h"
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/scene.h"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -31,6 +33,7 @@ struct Request {
     double environment_turned = 0;  // about +Y, counter-clockwise seen from above, rad
     glm::dvec3 ambient{0};          // radiance from all directions, W/(sr m^2); attenuated by occlusion
     Multiscatter multiscatter = Multiscatter::off;
+    std::optional<Air> air = {};
     std::vector<std::size_t> casters = {};  // into `lights`: those that cast shadows
     bool shadowed_environment = false;      // whether the environment is shadowed too
     bool shadows() const { return !casters.empty() || shadowed_environment; }

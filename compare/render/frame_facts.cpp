@@ -27,7 +27,8 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     frame.settings = settings;
     frame.camera = cameraOf(view.view);
     frame.camera.choice = view.default_view;
-    frame.background = {scene.background.r, scene.background.g, scene.background.b};
+    if (!settings.haze || settings.haze_density == 0)  // else lit has all that is seen
+        frame.background = {scene.background.r, scene.background.g, scene.background.b};
     frame.notes = scene.notes;
     if (!view.default_view.empty())
         frame.notes.push_back(

@@ -47,6 +47,12 @@ std::optional<CastingSun> castingSun(const std::vector<Light>& given, const GpuL
     return {};
 }
 
+// The directional light that haze scatters, or nullptr.
+const Light* sunOf(const std::vector<Light>& lights) {
+    const std::optional<std::size_t> sun = brightestSun(lights);
+    return sun ? &lights[*sun] : nullptr;
+}
+
 GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
     const std::vector<Light>& lights = seen.lights;
     const LocalCasting casting =
@@ -99,6 +105,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
               readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::table),
       environment(device, shared.uploader, shared.environments, scene.environment, scene.background,
                   buffers.sets(), settings),
+      haze(device, shared.uploader, settings, sunOf(scene.lights), scene.view.eye(), buffers.sets()),
       shadow(device, shared.uploader, scene.pose, shared.geometry, shared.materials, scene.view, draws,
              lights, scene.lights, buffers.sets(), settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
@@ -122,6 +129,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
                    castingSun(scene.lights, lights, settings));
     shadow.specialise(inputs.variant);
     environment.specialise(inputs.variant);
+    haze.specialise(inputs.variant);
     buffers.lists().specialise(inputs.variant);
     if (device.profile().gathers_uniforms) inputs.variant.set(gpu::FEATURE_view_source, gpu::VIEW_TEXELS);
     const LightLists& lists = buffers.lists();
@@ -173,7 +181,7 @@ FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared)
     return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
                 prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
-                prepared.view.shadow.bytes() + prepared.view.environment.bytes(),
+                prepared.view.shadow.bytes() + prepared.view.environment.bytes() + prepared.view.haze.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};
 }
 

@@ -7,6 +7,7 @@
 #include "shared/draw/frame_buffers.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/environment/environment_light.h"
+#include "shared/environment/haze.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
 #include "shared/shadow/shadow_maps.h"
@@ -55,6 +56,7 @@ public:
     DrawList draws;
     FrameBuffers buffers;
     EnvironmentLight environment;
+    Haze haze;
     ShadowMaps shadow;
     GBufferLayout gbuffer;
     FrameInputs inputs;

@@ -21,6 +21,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <system_error>
 
 namespace diptych {
@@ -44,6 +45,26 @@ double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverag
     const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(all.size()))) - 1;
     std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(rank));
     return all[rank];
+}
+
+glm::dvec3 doubles(const Rgb& c) {
+    return {double{c.r}, double{c.g}, double{c.b}};
+}
+
+// Nothing where there is no haze. Aerosols absorb a tenth of what they take away.
+std::optional<reference::Air> airOf(const std::vector<Light>& lights, const Settings& settings) {
+    if (!settings.haze || settings.haze_density == 0) return {};
+    const double density = double{settings.haze_density};
+    const glm::dvec3 molecules = doubles(settings.haze_rayleigh) * density,
+                     aerosols = doubles(settings.haze_mie) * density;
+    const std::optional<std::size_t> sun = brightestSun(lights);
+    return reference::Air{.molecules = {molecules, molecules, double{settings.haze_rayleigh_height}},
+                          .aerosols = {aerosols, aerosols / 0.9, double{settings.haze_mie_height}},
+                          .g = double{settings.haze_g},
+                          .ground = double{settings.haze_ground},
+                          .uniform = settings.haze_march_steps == 0,
+                          .sun = sun ? &lights[*sun] : nullptr,
+                          .ambient = doubles(settings.ambient)};
 }
 
 bool isLitFromEverywhere(const Scene& scene, const Settings& settings) {
@@ -93,8 +114,9 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .residual = view.environment == view.background ? nullptr : view.environment,
         .environment_factor = double{settings.ibl_intensity},
         .environment_turned = glm::radians(double{settings.env_rotation}),
-        .ambient = {double{settings.ambient.r}, double{settings.ambient.g}, double{settings.ambient.b}},
+        .ambient = doubles(settings.ambient),
         .multiscatter = settings.multiscatter,
+        .air = airOf(view.lights, settings),
         .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}
                                                     : castingLights(view.lights, settings.shadow_lights),
         .environment_costs = options.environment_errors && scene.environment && settings.ibl_intensity > 0,

@@ -64,6 +64,7 @@ public:
         if (row_.multiscatter == Multiscatter::off && row_.ambient == Settings().ambient &&
             (!surfaces.environment || row_.ibl_intensity == 0 || row_.ibl == Ibl::sampled))
             reset("specular-albedo", "nothing asks what is reflected of light from everywhere");
+        noteHaze();
     }
     const Settings& row() const { return row_; }
     const Reasons& reasons() const { return reasons_; }
@@ -85,6 +86,11 @@ private:
             row_.ibl_diffuse = IblDiffuse::sh;
             reasons_.emplace("ibl-diffuse", "no harmonic irradiance is negative: there is no window");
         }
+    }
+    void noteHaze() {
+        const Rgb none{};
+        if (!row_.haze || row_.haze_density == 0 || (row_.haze_rayleigh == none && row_.haze_mie == none))
+            reset("haze-march-steps", "there is no haze");
     }
     void noteShadows(std::span<const Light> lights) {
         const std::optional<std::size_t> sun = brightestSun(lights);

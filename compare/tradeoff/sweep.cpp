@@ -187,6 +187,10 @@ Settings truthFor(const Settings& given, const std::vector<Settings>& rows) {
         truth.shadows = row->shadows;
     if (std::ranges::any_of(rows, [](const Settings& row) { return row.multiscatter != Multiscatter::off; }))
         truth.multiscatter = Multiscatter::walk;
+    // Two heights and a sun that the air dims: one height and one sun stand for them.
+    const auto marched = [](const Settings& row) { return row.haze_march_steps > 0; };
+    if (const auto row = std::ranges::find_if(rows, marched); row != rows.end())
+        truth.haze_march_steps = row->haze_march_steps;
     return truth;
 }
 

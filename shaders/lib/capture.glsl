@@ -30,7 +30,7 @@ void capture(Surface s, float z) {
     // Which an earlier batch has shaded with.
     if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
 #else
-    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0);
+    Radiance radiance = noRadiance();
 #endif
     for (uint i = 0; i < ATTACHMENTS; ++i)
         out_channels[i] = debugValue(captureMode(i), s, lights, radiance, z);

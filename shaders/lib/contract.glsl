@@ -17,6 +17,7 @@
 #include "shared/contract/features.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/haze.h"
 #include "shared/contract/light.h"
 #include "shared/contract/light_list.h"
 #include "shared/contract/local_shadow.h"

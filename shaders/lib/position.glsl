@@ -13,13 +13,19 @@ float viewDepth(float z) {
     return d;
 }
 
-// World axes, camera as origin, m; `pixel` is the pixel's centre (gl_FragCoord.xy).
-vec3 positionFromDepth(vec2 pixel, float z) {
-    vec3 direction = view.direction_0;
+// Where the pixel's ray begins, at depth 0; world axes, camera as origin, m. `pixel` is the pixel's centre
+// (gl_FragCoord.xy).
+vec3 rayOrigin(vec2 pixel) {
     vec3 origin = vec3(0.0);
     if (on(feature_orthographic))
         origin = view.origin_0 + view.origin_x * pixel.x + view.origin_y * pixel.y;
-    else
+    return origin;
+}
+
+// Likewise.
+vec3 positionFromDepth(vec2 pixel, float z) {
+    vec3 direction = view.direction_0, origin = rayOrigin(pixel);
+    if (!on(feature_orthographic))
         direction = view.direction_0 + view.direction_x * pixel.x + view.direction_y * pixel.y;
     vec3 position = origin + direction * viewDepth(z);
     return position;

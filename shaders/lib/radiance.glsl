@@ -2,6 +2,8 @@
 #ifndef RADIANCE_GLSL
 #define RADIANCE_GLSL
 
+#include "shaders/lib/contract.glsl"
+
 // W/(sr m^2), towards the viewer.
 struct Radiance {
     vec3 diffuse;
@@ -11,10 +13,18 @@ struct Radiance {
     float sun_visibility;  // 0 to 1; 1 where no sun casts
     float local_light;     // luminance of the irradiance of points and spots that cast, W/m^2,
     float local_seen;      // and what is seen of it
+    vec3 transmittance;    // share of all this that haze lets through
+    vec3 haze;             // and what haze adds
 };
+
+// What a pixel starts from.
+Radiance noRadiance() {
+    return Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0, vec3(1.0), vec3(0.0));
+}
 
 vec3 lit(Radiance radiance) {
     vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
+    if (on(feature_haze)) sum = sum * radiance.transmittance + radiance.haze;
     return sum;
 }
 

@@ -18,6 +18,7 @@
 #include "shaders/lib/encoded_surface.glsl"
 #include "shaders/lib/partial_sums.glsl"
 #include "shaders/lib/light_lists.glsl"
+#include "shaders/lib/haze.glsl"
 #include "shaders/lib/lights.glsl"
 #include "shaders/lib/local_shadow.glsl"
 #include "shaders/lib/loop.glsl"
@@ -109,11 +110,13 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
         step(walk);                                                                                     \
     }
 
-// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments.
+// The sum over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
+// lies before all of it: lit() alone applies it.
 Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Shading shading = Shading(s, v, shadedBrdf(s, v));
-    Radiance radiance = Radiance(vec3(0.0), vec3(0.0), vec3(0.0), s.emission, 1.0, 0.0, 0.0);
+    Radiance radiance = noRadiance();
+    radiance.emission = s.emission;
     if (feature_light_batch == BATCH_LATER) {
         vec4 diffuse = partialDiffuse(), specular = partialSpecular();
         radiance.diffuse = diffuse.rgb;
@@ -164,6 +167,11 @@ Radiance shade(Surface s, PixelLights lights) {
 #endif
     if (on(feature_ambient) || on(feature_lightmap))
         radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
+    if (on(feature_haze)) {
+        Hazed hazed = hazeTo(s.position);
+        radiance.transmittance = hazed.transmittance;
+        radiance.haze = hazed.scattered;
+    }
     return radiance;
 }
 

@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The environment where nothing was drawn.
+// The environment where nothing was drawn, behind endless haze.
 #define FLAT_VIEW
-#include "shaders/lib/position.glsl"
+#include "shaders/lib/haze.glsl"
 #include "shaders/lib/sky.glsl"
 
 layout(location = 0) out vec4 out_lit;
@@ -14,5 +14,11 @@ void main() {
     if (!on(feature_orthographic))
         away = normalized(view.direction_0 + view.direction_x * gl_FragCoord.x +
                           view.direction_y * gl_FragCoord.y);
-    out_lit = vec4(skyRadiance(environmentFromWorld(away)) * environmentFactor(), 1.0);
+    vec3 radiance = vec3(0.0);
+    if (on(feature_environment)) radiance = skyRadiance(environmentFromWorld(away)) * environmentFactor();
+    if (on(feature_haze)) {
+        Hazed hazed = hazeBeyond(rayOrigin(gl_FragCoord.xy), away);
+        radiance = radiance * hazed.transmittance + hazed.scattered;
+    }
+    out_lit = vec4(radiance, 1.0);
 }

@@ -39,7 +39,8 @@ CONTRACT_END
     X(16, LOCAL_SHADOW_MAP, image,      "depth in the tiles of local lights, an array of one layer") \
     X(17, ENVIRONMENT,      texel_buffer, "where its maps lie, and its harmonics: environment.h")     \
     X(18, ENVIRONMENT_MAPS, image,      "octahedral maps, RGBA32F, W/(sr m^2)")                      \
-    X(19, SKY,              image,      "the environment, lat-long, RGBA32F, W/(sr m^2)")
+    X(19, SKY,              image,      "the environment, lat-long, RGBA32F, W/(sr m^2)") \
+    X(20, HAZE,             texel_buffer, "Haze, five texels, then HazeMarch, three: haze.h")
 
 #define PARTIAL_SUM_BINDINGS(X)                                                               \
     X(0, PARTIAL_DIFFUSE,  image, "RGBA32F, W/(sr m^2)")                                      \

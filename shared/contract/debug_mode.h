@@ -39,6 +39,8 @@
     X(40, lit_diffuse,      3, relative, color,  any,      both,         "reflected by the diffuse lobe, W/(sr m^2)") \
     X(41, lit_specular,     3, relative, color,  any,      both,         "reflected by the specular lobe, W/(sr m^2)") \
     X(42, lit_ambient,      3, relative, color,  any,      both,         "reflected ambient light, W/(sr m^2)") \
+    X(43, lit_haze,         3, relative, color,  any,      both,         "scattered to the viewer by haze before the surface, W/(sr m^2)") \
+    X(44, transmittance,    3, absolute, color,  share,    both,         "share of the surface's light that haze lets through") \
     X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
     X(51, lightmap,         3, relative, color,  positive, both,         "irradiance of the lightmap over pi, W/(sr m^2)") \
     X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent that the normal map is read with, world; 0 without one") \

@@ -85,9 +85,11 @@
     /* MULTISCATTER_* of multiscatter.h */                                                                  \
     X(48, multiscatter,               frame,   0, PASSES_SHADE)                                             \
     /* a sum of ENVIRONMENT_* of environment.h */                                                           \
-    X(49, environment,                frame,   0, PASSES_SHADE)                                             \
+    X(49, environment,                frame,   0, PASSES_SHADE | PASS_BACKGROUND)                           \
     /* specularAlbedo() of ambient.glsl by a fit, not by its table */                                       \
-    X(50, fitted_albedo,              frame,   0, PASSES_SHADE)
+    X(50, fitted_albedo,              frame,   0, PASSES_SHADE)                                             \
+    /* a sum of HAZE_* of haze.h */                                                                         \
+    X(51, haze,                       frame,   0, PASSES_SHADE | PASS_BACKGROUND)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -9,9 +9,18 @@
 
 namespace diptych {
 
+namespace {
+
+// Whether the background radiates at all.
+bool isSeen(const FrameInputs& inputs) {
+    return inputs.variant.get(gpu::FEATURE_environment) != 0 || inputs.variant.get(gpu::FEATURE_haze) != 0;
+}
+
+}  // namespace
+
 // The full-screen triangle lies just above the far end of the reversed depth, which only what is cleared has.
 void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit, Load load) {
-    if (inputs.variant.get(gpu::FEATURE_environment) == 0) return;
+    if (!isSeen(inputs)) return;
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_BACKGROUND));
     if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
         variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
@@ -29,7 +38,7 @@ void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, 
 ImageRef addCaptureBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                               const CaptureGroup& group) {
     const bool shown = std::ranges::count(group.modes, static_cast<int>(gpu::DEBUG_lit)) > 0;
-    if (!shown || inputs.variant.get(gpu::FEATURE_environment) == 0) return {};
+    if (!shown || !isSeen(inputs)) return {};
     const ImageRef lit = passes.image({.name = "lit",
                                        .format = litFormat,
                                        .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,

@@ -64,8 +64,8 @@ Placeholders::Placeholders(Device& device, Uploader& uploader, const Layouts& la
 }
 
 void Placeholders::bindFrame(DescriptorSets& frame) const {
-    for (const gpu::uint binding :
-         {gpu::BINDING_SHADOW_LIGHT, gpu::BINDING_LOCAL_SHADOW_LIGHTS, gpu::BINDING_ENVIRONMENT})
+    for (const gpu::uint binding : {gpu::BINDING_SHADOW_LIGHT, gpu::BINDING_LOCAL_SHADOW_LIGHTS,
+                                    gpu::BINDING_ENVIRONMENT, gpu::BINDING_HAZE})
         frame.texels(0, binding, texels_view_);
     for (const gpu::uint binding : {gpu::BINDING_SHADOW_MAP, gpu::BINDING_LOCAL_SHADOW_MAP})
         frame.image(0, binding, array_.view(), nearest_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);

@@ -37,7 +37,8 @@ public:
     VkDescriptorSet partialSums() const { return partial_sums_[0]; }  // of draws that continue no sums
     VkDescriptorSet gbuffer() const { return gbuffer_[0]; }           // of draws that read no stored depth
     VkImageView texel() const { return image_.view(); }
-    // Writes the bindings of SET_FRAME that only some scenes and Settings fill: shadows, an environment.
+    // Writes the bindings of SET_FRAME that only some scenes and Settings fill: shadows, an environment,
+    // haze.
     void bindFrame(DescriptorSets& frame) const;
 
 private:

@@ -47,9 +47,15 @@ constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
 
-// Channels that shading finds: those, and what lights are seen.
+// Those of what lies between the surface and the camera, which depend on its place alone.
+constexpr bool isOfHaze(int mode) {
+    return mode == static_cast<int>(gpu::DEBUG_lit_haze) ||
+           mode == static_cast<int>(gpu::DEBUG_transmittance);
+}
+
+// Channels that shading finds: all those, and what lights are seen.
 constexpr bool isShaded(int mode) {
-    return isLit(mode) || mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
+    return isLit(mode) || isOfHaze(mode) || mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
            mode == static_cast<int>(gpu::DEBUG_local_visibility);
 }
 

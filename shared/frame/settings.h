@@ -61,6 +61,14 @@ struct Settings {
     int msaa = 1;
     bool sort = true;
     bool haze = false;
+    float haze_density = 1.0f;
+    Rgb haze_rayleigh{5.8e-6f, 13.5e-6f, 33.1e-6f};  // 1/m at height 0
+    float haze_rayleigh_height = 8000.0f;            // m
+    Rgb haze_mie{2e-5f, 2e-5f, 2e-5f};               // 1/m at height 0
+    float haze_mie_height = 1200.0f;                 // m
+    float haze_g = 0.76f;
+    float haze_ground = 0.0f;  // m, world y
+    int haze_march_steps = 0;  // 0: closed form
     int spp = 1;
     ReferenceMode reference_mode = ReferenceMode::surface;
 
@@ -166,6 +174,19 @@ inline constexpr int most_samples = 65536;  // more take a day for a small pictu
 
 inline constexpr std::string_view needs_env =
     "has no meaning without --env (--env scene takes that of the scene's own file)";
+inline constexpr std::string_view needs_haze = "has no meaning without --haze on";
+inline constexpr std::string_view scattering = "components are 0 to 1e6 1/m";
+inline constexpr std::string_view scale_height = "is 0.01 to 1e9 m";
+inline bool isHazy(const Settings& s) {
+    return s.haze;
+}
+constexpr bool isScattering(const Rgb& c) {
+    const auto fits = [](float x) { return x >= 0 && x <= 1e6f; };
+    return fits(c.r) && fits(c.g) && fits(c.b);
+}
+constexpr bool isScaleHeight(float metres) {
+    return metres >= 0.01f && metres <= 1e9f;
+}
 inline constexpr std::string_view integrates_env = "the reference integrates the environment";
 inline bool hasEnv(const Settings& s) {
     return s.env != Settings().env;
@@ -532,11 +553,71 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all"},
           &Settings::sort);
     visit(Field{.option = "haze",
-                .help = "participating medium",
+                .help = "aerial perspective: air that scatters the brightest sun's light and ambient light",
                 .off = "off",
-                .default_only = {row::not_built},
                 .for_surfaces = "off"},
           &Settings::haze);
+    visit(Field{.option = "haze-density",
+                .help = "factor on what the air scatters and absorbs",
+                .valid = {"is 0 to 1e6",
+                          [](const Settings& s) { return s.haze_density >= 0 && s.haze_density <= 1e6f; }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "1"},
+          &Settings::haze_density);
+    visit(Field{.option = "haze-rayleigh",
+                .help = "what molecules scatter at height 0, R,G,B, 1/m",
+                .valid = {row::scattering,
+                          [](const Settings& s) { return row::isScattering(s.haze_rayleigh); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "5.8e-6,13.5e-6,33.1e-6"},
+          &Settings::haze_rayleigh);
+    visit(Field{.option = "haze-rayleigh-height",
+                .help = "height over which molecules thin out to 1/e, m",
+                .valid = {row::scale_height,
+                          [](const Settings& s) { return row::isScaleHeight(s.haze_rayleigh_height); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "8000"},
+          &Settings::haze_rayleigh_height);
+    visit(Field{.option = "haze-mie",
+                .help = "what aerosols scatter at height 0, R,G,B, 1/m",
+                .valid = {row::scattering, [](const Settings& s) { return row::isScattering(s.haze_mie); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "2e-5,2e-5,2e-5"},
+          &Settings::haze_mie);
+    visit(Field{.option = "haze-mie-height",
+                .help = "height over which aerosols thin out to 1/e, m",
+                .valid = {row::scale_height,
+                          [](const Settings& s) { return row::isScaleHeight(s.haze_mie_height); }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "1200"},
+          &Settings::haze_mie_height);
+    visit(Field{.option = "haze-g",
+                .help = "mean cosine of what aerosols scatter; above 0: forward",
+                .valid = {"is -0.99 to 0.99",
+                          [](const Settings& s) { return s.haze_g >= -0.99f && s.haze_g <= 0.99f; }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "0.76"},
+          &Settings::haze_g);
+    visit(Field{.option = "haze-ground",
+                .help = "world y of height 0, m",
+                .valid = {"is -1e9 to 1e9 m",
+                          [](const Settings& s) { return s.haze_ground >= -1e9f && s.haze_ground <= 1e9f; }},
+                .default_only = {row::needs_haze, row::isHazy},
+                .for_surfaces = "0"},
+          &Settings::haze_ground);
+    visit(
+        Field{
+            .option = "haze-march-steps",
+            .help = "steps along each ray, with two heights and a sun that the air dims; 0: closed form, one "
+                    "height and one sun",
+            .off = "0",
+            .valid = {"is 0 to 256",
+                      [](const Settings& s) { return s.haze_march_steps >= 0 && s.haze_march_steps <= 256; }},
+            .default_only = {row::needs_haze, row::isHazy},
+            .one_for_reference = "32",  // it integrates
+            .sweep = "0,8,32",
+            .for_surfaces = "0"},
+        &Settings::haze_march_steps);
     visit(Field{.option = "spp",
                 .help = "samples per pixel of the reference",
                 .valid = {"1 to 65536",

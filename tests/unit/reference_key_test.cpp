@@ -20,6 +20,7 @@ struct Asked {
     double environment_factor = 1;
     glm::dvec3 ambient{0};
     Multiscatter multiscatter = Multiscatter::off;
+    Air air;
     std::vector<std::size_t> casters;
     bool shadowed_environment = false, environment_costs = false, surroundings = false;
     ReferenceMode mode = ReferenceMode::scene;
@@ -56,6 +57,7 @@ struct Asked {
                       .environment_factor = environment_factor,
                       .ambient = ambient,
                       .multiscatter = multiscatter,
+                      .air = air,
                       .casters = casters,
                       .shadowed_environment = shadowed_environment,
                       .environment_costs = environment_costs,
@@ -104,6 +106,17 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
         {"orthographic", [](Asked& a) { a.view.camera.orthographic = true; }},
         {"ambient", [](Asked& a) { a.ambient.b = 0.1; }},
         {"multiscatter", [](Asked& a) { a.multiscatter = Multiscatter::fdez; }},
+        {"molecules", [](Asked& a) { a.air.molecules.scattering.b = 1e-5; }},
+        {"what they take away", [](Asked& a) { a.air.molecules.extinction.r = 1e-5; }},
+        {"their height", [](Asked& a) { a.air.molecules.scale = 2; }},
+        {"aerosols", [](Asked& a) { a.air.aerosols.scattering.r = 1e-5; }},
+        {"what these take away", [](Asked& a) { a.air.aerosols.extinction.g = 1e-5; }},
+        {"these's height", [](Asked& a) { a.air.aerosols.scale = 3; }},
+        {"g", [](Asked& a) { a.air.g = 0.5; }},
+        {"ground", [](Asked& a) { a.air.ground = 1; }},
+        {"two heights", [](Asked& a) { a.air.uniform = false; }},
+        {"light that air scatters", [](Asked& a) { a.air.ambient.g = 1; }},
+        {"sun that air scatters", [](Asked& a) { a.air.sun = &a.lights[0]; }},
         {"factor of the environment", [](Asked& a) { a.environment_factor = 2; }},
         {"environment", [](Asked& a) { a.scene.environment->radiance.data[5] = 2; }},
         {"size of the environment",

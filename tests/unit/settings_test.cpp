@@ -65,6 +65,14 @@ Settings everythingChanged() {
     s.msaa = 4;
     s.sort = false;
     s.haze = true;
+    s.haze_density = 3.5f;
+    s.haze_rayleigh = {1e-7f, 0.25f, 3e5f};
+    s.haze_rayleigh_height = 500.5f;
+    s.haze_mie = {1.0f, 2e-4f, 0.0f};
+    s.haze_mie_height = 12.5f;
+    s.haze_g = -0.3f;
+    s.haze_ground = -17.25f;
+    s.haze_march_steps = 24;
     s.spp = 256;
     s.reference_mode = ReferenceMode::scene;
     return s;
@@ -212,7 +220,8 @@ TEST(Settings, TheReferenceFollowsWhatItsRowsSayAndNothingElse) {
             Settings changed;
             changed.set(field.option, value);
             const bool follows = field.option != "path" && field.ignored.reference.empty() &&
-                                 (field.one_for_reference.empty() || value == field.off);
+                                 (field.one_for_reference.empty() ||
+                                  (value == field.off) != (Settings().valueOf(field.option) == field.off));
             EXPECT_EQ(referenceSettings(changed) == reference, !follows);
             EXPECT_EQ(referenceSettings(changed), effectiveSettings(referenceSettings(changed)));
             const bool alone = field.option == "spp" || field.option == "reference-mode";
@@ -341,6 +350,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"shadows", "msm4"},
         {"shadows", "pcss"},
         {"haze", "off"},
+        {"haze", "on"},
         {"sort", "off"},
         {"msaa", "1"},
         {"spp", "1"},
@@ -390,7 +400,24 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         {"evsm-min-variance", "0.1"},
         {"msaa", "4"},
         {"msaa", "2"},
-        {"haze", "on"},
+        {"haze-density", "2"},
+        {"haze-density", "-1"},
+        {"haze-density", "2000000"},
+        {"haze-rayleigh", "0,0,0"},
+        {"haze-rayleigh", "0,-1,0"},
+        {"haze-rayleigh-height", "100"},
+        {"haze-rayleigh-height", "0"},
+        {"haze-mie", "1,1,1"},
+        {"haze-mie", "1,1,2000000"},
+        {"haze-mie-height", "10"},
+        {"haze-mie-height", "0.001"},
+        {"haze-g", "0.5"},
+        {"haze-g", "1"},
+        {"haze-ground", "1"},
+        {"haze-ground", "2000000000"},
+        {"haze-march-steps", "8"},
+        {"haze-march-steps", "-1"},
+        {"haze-march-steps", "257"},
         {"spp", "16"},
         {"reference-mode", "scene"},
     };
@@ -598,7 +625,7 @@ TEST(Settings, WhatIsNoSettingIsSentToWhereItBelongs) {
 
 TEST(Settings, OffAndNoneCallOffWhateverCanBe) {
     for (const char* option : {"prepass", "env", "ambient", "lights", "light-cutoff", "shadow-lights",
-                               "shadows", "evsm-bleed", "msaa", "sort", "haze"})
+                               "shadows", "evsm-bleed", "msaa", "sort", "haze", "haze-march-steps"})
         for (const std::string word : {"off", "none"}) {
             Settings said;
             ASSERT_NO_THROW(said.set(option, word)) << option << " " << word;

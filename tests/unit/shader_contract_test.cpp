@@ -254,7 +254,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 20u + 2 + 8 + 13 + 9);
+    EXPECT_EQ(bindingTables().size(), 21u + 2 + 8 + 13 + 9);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 

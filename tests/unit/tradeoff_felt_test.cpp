@@ -132,6 +132,21 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     EXPECT_EQ(valuesOf(feltUnder(metal, false), "ibl-diffuse").size(), 3u) << "a texture darkens it";
 }
 
+TEST(TradeoffFelt, HazeIsMarchedThroughWhereThereIsSome) {
+    Settings given;
+    given.haze = true;
+    const auto felt = [&] { return rowsThatAreFelt(makeSweepRows(given, usualGrids(given)), {}); };
+    EXPECT_EQ(valuesOf(felt(), "haze-march-steps"), (std::set<std::string>{"0", "8", "32"}));
+    given.haze_density = 0;
+    EXPECT_EQ(valuesOf(felt(), "haze-march-steps"), std::set<std::string>{"0"});
+    EXPECT_EQ(reasonOf(felt(), "haze-march-steps"), "there is no haze");
+    given.haze_density = 1;
+    given.haze_rayleigh = {};
+    EXPECT_EQ(valuesOf(felt(), "haze-march-steps").size(), 3u) << "aerosols alone";
+    given.haze_mie = {};
+    EXPECT_EQ(valuesOf(felt(), "haze-march-steps").size(), 1u);
+}
+
 // Whatever is left out, each skip names its path, and no two rows are one picture.
 TEST(TradeoffFelt, NothingIsDrawnTwiceNorLostInSilence) {
     const SweepRows all = makeSweepRows({}, usualGrids({}));

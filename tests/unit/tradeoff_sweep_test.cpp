@@ -142,10 +142,10 @@ TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
 
 TEST(TradeoffSweep, NothingToDrawIsAnError) {
     try {
-        makeSweepRows({}, {{{"haze", {"on"}}}});
+        makeSweepRows({}, {{{"msaa", {"4"}}}});
         FAIL();
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("--haze on"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("--msaa 4"), std::string::npos) << error.what();
     }
 }
 
@@ -208,6 +208,24 @@ TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
     const Settings truth = truthFor(given, asked.rows);
     EXPECT_EQ(truth.multiscatter, Multiscatter::walk);
     EXPECT_EQ(referenceSettings(truth).problem(), std::nullopt);
+}
+
+// Steps through haze are swept where there is haze, and all of it is held against the integral of two
+// heights.
+TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
+    const auto tried = [](const SweepRows& sweep) {
+        std::set<int> values;
+        for (const Settings& row : sweep.rows) values.insert(row.haze_march_steps);
+        return values;
+    };
+    Settings given;
+    const SweepRows usual = usualSweep(given);
+    EXPECT_EQ(tried(usual), std::set{0});
+    EXPECT_EQ(truthFor(given, usual.rows), given);
+    given.haze = true;
+    const SweepRows asked = usualSweep(given);
+    EXPECT_EQ(tried(asked), (std::set{0, 8, 32}));
+    EXPECT_GT(truthFor(given, asked.rows).haze_march_steps, 0);
 }
 
 }  // namespace

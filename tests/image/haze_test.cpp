@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// Haze in both paths: against each other, against the reference, and against what must not depend on it.
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "tests/haze_maker.h"
+#include "tests/image/square.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int hazeLight = static_cast<int>(gpu::DEBUG_lit_haze),
+              hazeThrough = static_cast<int>(gpu::DEBUG_transmittance),
+              hazeDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
+              hazeSpecular = static_cast<int>(gpu::DEBUG_lit_specular),
+              hazeAmbient = static_cast<int>(gpu::DEBUG_lit_ambient), hazeIds = 8;
+const std::vector<int> hazeShown{lit,          hazeLight,   hazeThrough, hazeDiffuse,
+                                 hazeSpecular, hazeAmbient, emission,    hazeIds};
+
+Settings hazePicture(float density, int steps = 0) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {96, 54};
+    settings.haze = true;
+    settings.haze_density = density;
+    settings.haze_march_steps = steps;
+    return settings;
+}
+
+// Through thick air, so that all of it is seen.
+TEST(HazeImages, BothPathsAreEqualBitForBitAndApplyItOnce) {
+    for (const char* name : {"builtin:suns", "builtin:deep", "builtin:ortho", "builtin:unlit_materials"})
+        for (const int steps : {0, 6}) {
+            Settings settings = hazePicture(3000, steps);
+            settings.haze_mie_height = 50;
+            settings.ambient = {0.1f, 0.2f, 0.3f};
+            const std::vector<Frame> frames = bothPaths(uploaded(name).renderer, settings, hazeShown);
+            const std::string what = fmt::format("{}, {} steps", name, steps);
+            for (const int mode : hazeShown)
+                EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+                    << what << ", " << debugMode(mode).name;
+            std::size_t applied = 0;
+            for (const Frame& frame : frames) {
+                EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << what;
+                EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << what;
+                const auto at = [&](int mode, std::size_t i, std::size_t c) {
+                    return frame.channels.at(mode).pixel(i)[c];
+                };
+                for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i)
+                    for (std::size_t c = 0; c < 3 && *frame.channels.at(hazeIds).pixel(i) >= 0; ++c) {
+                        const float sum =
+                            ((at(hazeDiffuse, i, c) + at(hazeSpecular, i, c)) + at(hazeAmbient, i, c)) +
+                            at(emission, i, c);
+                        const float expected = sum * at(hazeThrough, i, c) + at(hazeLight, i, c);
+                        EXPECT_NEAR(at(lit, i, c), expected, 1e-6f * expected) << what << " " << frame.name;
+                        applied += at(hazeThrough, i, c) < 0.99f ? 1 : 0;
+                    }
+            }
+            EXPECT_GT(applied, 1000u) << what;
+        }
+}
+
+// The texels of what each channel shows are those without haze but for lit and its own two channels.
+TEST(HazeImages, NothingElseFeelsIt) {
+    UploadedScene& scene = uploaded("builtin:suns");
+    Settings settings = hazePicture(300);
+    settings.haze_rayleigh_height = settings.haze_mie_height = 20;  // or no sun would come through
+    settings.gbuffer = GBufferEncoding::standard;
+    Settings without = settings;
+    without.haze = false;
+    without.haze_density = 1;
+    for (const Path path : drawn_paths) {
+        const Frame a = drawnBy(path, scene.renderer, settings), b = drawnBy(path, scene.renderer, without);
+        for (const auto& [mode, image] : b.channels) {
+            const bool own = mode == lit || mode == hazeLight || mode == hazeThrough;
+            EXPECT_EQ(differingPixels(a.channels.at(mode), image, true) > 0, own) << debugMode(mode).name;
+        }
+    }
+}
+
+// Of density 0, or of nothing that scatters, it is the picture without haze, byte by byte, in every channel;
+// and nothing of it is there: no pass, no feature, no bytes.
+TEST(HazeImages, OfDensityZeroIsNone) {
+    UploadedScene& scene = uploaded("builtin:deep");
+    Settings none = hazePicture(1);
+    none.haze = false;
+    none.size = {64, 36};
+    Settings zero = none, clear = none;
+    zero.haze = clear.haze = true;
+    zero.haze_density = 0;
+    zero.haze_march_steps = 8;
+    clear.haze_rayleigh = clear.haze_mie = {};
+    SharedResources shared(device(), scene.scene, pipelines());
+    SceneViews views(scene.scene);
+    for (const Path path : drawn_paths) {
+        const Frame expected = drawnBy(path, scene.renderer, none);
+        for (Settings settings : {zero, clear}) {
+            const Frame frame = drawnBy(path, scene.renderer, settings);
+            for (const auto& [mode, image] : expected.channels)
+                EXPECT_EQ(differingPixels(frame.channels.at(mode), image, true), 0u) << debugMode(mode).name;
+            settings.path = path;
+            const PreparedFrame prepared(device(), shared, views.at(viewRequest(settings)), settings);
+            EXPECT_EQ(prepared.view.inputs.variant.get(gpu::FEATURE_haze), 0u);
+            EXPECT_EQ(prepared.view.haze.bytes(), 0u);
+            EXPECT_EQ(std::ranges::count(prepared.passes.names(), "background"), 0);
+        }
+        Settings some = zero;
+        some.haze_density = 1;
+        some.path = path;
+        const PreparedFrame prepared(device(), shared, views.at(viewRequest(some)), some);
+        EXPECT_NE(prepared.view.inputs.variant.get(gpu::FEATURE_haze), 0u);
+        EXPECT_GT(prepared.view.haze.bytes(), 0u);
+        EXPECT_EQ(std::ranges::count(prepared.passes.names(), "background"), 1);
+    }
+}
+
+// The background and all surfaces, by both models; the reference by quadrature.
+TEST(HazeImages, AreTheReferences) {
+    for (const char* name : {"builtin:deep", "builtin:ortho"})
+        for (const int steps : {0, 64})
+            for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene}) {
+                UploadedScene& scene = uploaded(name);
+                Settings settings = hazePicture(3, steps);
+                settings.size = {64, 36};
+                settings.ambient = {0.01f, 0.02f, 0.03f};
+                if (name == std::string_view("builtin:ortho")) settings.haze_density = 3000;
+                const Frame frame = drawnBy(Path::deferred, scene.renderer, settings, hazeShown);
+                settings.reference_mode = mode;
+                const Frame truth = drawnBy(Path::reference, scene.renderer, settings, hazeShown);
+                double most_haze = 0, most_background = 0, largest = 0;
+                std::size_t background = 0, off = 0;
+                for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
+                    const bool surface = *frame.channels.at(hazeIds).pixel(i) >= 0;
+                    if (surface != (*truth.channels.at(hazeIds).pixel(i) >= 0)) continue;
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const auto apart = [&](int channel) {
+                            return std::abs(double{frame.channels.at(channel).pixel(i)[c]} -
+                                            double{truth.channels.at(channel).pixel(i)[c]});
+                        };
+                        // Of scene's own rays the surfaces lie where the exact depth is.
+                        off += apart(hazeThrough) > (mode == ReferenceMode::surface ? 1e-6 : 1e-4) ? 1 : 0;
+                        most_haze = std::max(most_haze, apart(hazeLight));
+                        largest = std::max(largest, double{truth.channels.at(hazeLight).pixel(i)[c]});
+                        if (!surface) most_background = std::max(most_background, apart(lit));
+                    }
+                    background += surface ? 0 : 1;
+                }
+                const std::string what = fmt::format("{}, {} steps, {}", name, steps, nameOf(mode));
+                EXPECT_EQ(off, 0u) << what;
+                // The closed form's rounding; what 64 steps leave; a depth's.
+                const double allowed = steps > 0 ? 5e-3 : mode == ReferenceMode::surface ? 2e-6 : 1e-4;
+                EXPECT_LT(most_haze, allowed * std::max(largest, 0.1)) << what;
+                EXPECT_LT(most_background, allowed * std::max(largest, 0.1)) << what;
+                EXPECT_GT(background, 100u) << what;
+                EXPECT_GT(largest, 1e-3) << what;
+            }
+}
+
+// Positions come from depths, whose bits a far plane changes; the background has none.
+TEST(HazeImages, AreTheSameForAnyFarPlane) {
+    UploadedScene& scene = uploaded("builtin:deep");
+    const auto view = [&](Path path, const char* far) {
+        Settings settings = hazePicture(3);
+        settings.camera = fmt::format("eye=0,2,8 target=1,2,0 fov=50 near=0.1{}", far);
+        return drawnBy(path, scene.renderer, settings, hazeShown);
+    };
+    for (const Path path : drawn_paths) {
+        const Frame endless = view(path, "");
+        std::size_t background = 0;
+        for (const char* far : {" far=2e5", " far=1e9"}) {
+            const Frame frame = view(path, far);
+            for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
+                const bool surface = *frame.channels.at(hazeIds).pixel(i) >= 0;
+                ASSERT_EQ(surface, *endless.channels.at(hazeIds).pixel(i) >= 0);
+                background += surface ? 0 : 1;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const auto of = [&](const Frame& f, int mode) { return f.channels.at(mode).pixel(i)[c]; };
+                    if (!surface) {
+                        EXPECT_EQ(of(frame, lit), of(endless, lit)) << far;
+                    }
+                    EXPECT_NEAR(of(frame, hazeThrough), of(endless, hazeThrough), 2e-6f) << far;
+                    EXPECT_NEAR(of(frame, hazeLight), of(endless, hazeLight), 2e-6f) << far;
+                }
+            }
+        }
+        EXPECT_GT(background, 1000u);
+    }
+}
+
+// A background seen level: from the first row that looks down to the last that looks up light changes evenly.
+TEST(HazeImages, HaveNoBandAtTheHorizon) {
+    UploadedScene& scene = uploaded("builtin:background");
+    for (const int steps : {0, 8}) {
+        Settings settings = hazePicture(1, steps);
+        settings.size = {2, 200};
+        settings.camera = "eye=0,2,1e7 target=0,2,2e7 fov=4 near=0.1";
+        settings.ambient = {1, 1, 1};
+        for (const Path path : drawn_paths) {
+            const Frame frame = drawnBy(path, scene.renderer, settings, {lit, hazeIds});
+            const Image& image = frame.channels.at(lit);
+            double most = 0, whole = 0;
+            for (int y = 1; y < image.height; ++y) {
+                ASSERT_LT(frame.channels.at(hazeIds).at(0, y, 0), 0.0f);
+                most = std::max(most, std::abs(double{image.at(0, y, 2)} - double{image.at(0, y - 1, 2)}));
+                whole = std::max(whole, double{image.at(0, y, 2)});
+            }
+            EXPECT_GT(whole, 0.5) << nameOf(path);
+            // A row is a fiftieth of a degree.
+            EXPECT_LT(most, 0.01 * whole) << nameOf(path) << ", " << steps;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
