@@ -7,6 +7,7 @@
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 #include "shared/shadow/shadow_maps.h"
+#include "shared/transparent/transparent.h"
 
 #include <algorithm>
 #include <memory>
@@ -99,6 +100,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     addDeferredLighting(passes, shade, inputs, images, Shader::deferred_shade_frag, lightingVariant(inputs),
                         {litFormat}, last);
     addBackground(passes, inputs, images.depth, images.lit);
+    addTransparent(passes, inputs, images.depth, images.lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
@@ -119,6 +121,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         group.specialise(variant);
         addDeferredLighting(passes, pass, inputs, frame, Shader::deferred_capture_frag, variant,
                             group.formats, last);
+        addTransparentCapture(passes, inputs, frame.depth, images);
     }
     return images;
 }

@@ -6,6 +6,7 @@
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
 #include "shared/shadow/shadow_maps.h"
+#include "shared/transparent/transparent.h"
 
 #include <algorithm>
 #include <memory>
@@ -71,6 +72,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     images.lit = passes.image("lit", litFormat);
     addShading(passes.draw("shade").color(images.lit, Load::clear), last, forwardKey);
     addBackground(passes, inputs, images.depth, images.lit);
+    addTransparent(passes, inputs, images.depth, images.lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
@@ -104,6 +106,7 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
                     return quantised(forwardCaptureKey(inputs, item, group, last), inputs, encoded);
                 },
                 shaded);
+            addTransparentCapture(passes, inputs, frame.depth, images);
         }
     };
     capture(request.modes, {});

@@ -57,13 +57,13 @@ private:
 
 Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::uint32_t height) {
     Overdraw overdraw;
-    for (const DrawItem& item : inputs.draws.items) {
+    for (const DrawItem& item : inputs.draws.solids()) {
         const std::uint64_t triangles = item.range.index_count / 3;
         overdraw.triangles += triangles;
         overdraw.textures += static_cast<double>(triangles) * texturesOf(item.variant);
     }
     overdraw.textures /= static_cast<double>(std::max<std::uint64_t>(overdraw.triangles, 1));
-    if (inputs.draws.items.empty() || !inputs.device.countsFragments()) return overdraw;
+    if (inputs.draws.solid == 0 || !inputs.device.countsFragments()) return overdraw;
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
     const Queries queries(inputs.device);

@@ -71,6 +71,10 @@ void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except
                        "around it, or from another side or from inside where that shows clearly more")
         ->type_name("CAMERA")
         ->allow_extra_args(false);
+    app.add_option_function<std::string>(
+           "--sort", [&parsed](const std::string& words) { parsed.settings.emplace_back("sort", words); },
+           "other name: on is --transparency sorted, off is unsorted")
+        ->type_name("on|off");
     app.add_option("--settings", parsed.settings_file,
                    "any of these as JSON, as every report prints them; applied first")
         ->type_name("FILE.json");

@@ -93,8 +93,12 @@ bool Materials::throwsShadow(const Hit& hit) const {
     return m.alpha_mode != AlphaMode::blend;
 }
 
+bool Materials::blends(const Hit& hit) const {
+    return material(hit).alpha_mode == AlphaMode::blend;
+}
+
 double Materials::opacity(const Hit& hit, const PixelRay& ray) const {
-    if (material(hit).alpha_mode != AlphaMode::blend) return 1;
+    if (!blends(hit)) return 1;
     return std::clamp(baseColor(hit, &ray).a, 0.0, 1.0);
 }
 

@@ -35,6 +35,8 @@ public:
 
     Surface surface(const Hit& hit, const PixelRay& ray) const;
 
+    // Whether it is blended over what lies behind it.
+    bool blends(const Hit& hit) const;
     // The base colour's alpha if the material blends, otherwise 1.
     double opacity(const Hit& hit, const PixelRay& ray) const;
 

@@ -33,7 +33,9 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace diptych::reference {
 namespace {
@@ -51,7 +53,9 @@ bool isLocal(const Light& light) {
 // The result for one pixel. Without a surface it is background.
 struct Pixel {
     std::optional<Surface> surface;
-    Shading shading;
+    Shading shading;    // of the nearest surface that is not blended
+    Shading blended;    // of those in front of it, as seen
+    double hidden = 0;  // the share of it that they hide
     glm::dvec3 lit{0};
     double sun_visibility = 0;
     double edge_distance = std::numeric_limits<double>::infinity(), sun_radiance = 0, sun_irradiance = 0;
@@ -171,6 +175,13 @@ private:
 
 // ---- one pixel ---------------------------------------------------------------------------------------
 
+bool blendsSomewhere(const Scene& scene) {
+    return std::ranges::any_of(scene.materials,
+                               [](const Material& m) { return m.alpha_mode == AlphaMode::blend; });
+}
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
 class PixelRenderer {
 public:
     explicit PixelRenderer(const Request& request)
@@ -182,6 +193,7 @@ public:
           lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
                     request.casters, request.shadowed_environment, request.multiscatter,
                     request.environment_turned),
+          blends_(blendsSomewhere(request.scene)),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         if (request.air) haze_.emplace(*request.air, eye_);
         if (request.environment_costs) lighting_.takeCosts();
@@ -320,18 +332,20 @@ private:
                 request_.view.camera.far};
     }
 
-    std::optional<Hit> nearest(const PixelRay& ray, double from, const TriangleId& without = {}) const {
-        Ray search = cameraRay(ray, from);
-        search.without = without;
-        return geometry_.nearest(search, [&](const Hit& hit) { return materials_.isThere(hit, &ray); });
+    // The nearest surface that is not blended.
+    std::optional<Hit> nearest(const PixelRay& ray) const {
+        return geometry_.nearest(cameraRay(ray, 0), [&](const Hit& hit) {
+            return !materials_.blends(hit) && materials_.isThere(hit, &ray);
+        });
     }
 
     Pixel renderCaptured(int x, int y, std::uint64_t seed) const {
         const Captured captured(*request_.surfaces, request_.scene.materials);
         Pixel pixel;
+        const PixelRay ray = rays_.through(x + 0.5, y + 0.5);
         if (!captured.isSurface(seed)) {
-            pixel.lit = background(rays_.through(x + 0.5, y + 0.5));
-            return pixel;
+            pixel.lit = background(ray);
+            return withBlended(std::move(pixel), nowhere, ray, seed);
         }
         Surface s = captured.surface(seed, rays_);
         pixel.depth = captured.depth(seed);
@@ -339,7 +353,7 @@ private:
         pixel.sun_visibility = pixel.local_visibility = 1;
         if (request_.shadows() || request_.surroundings) {
             // Finds the exact position again, if the camera ray meets a surface at the captured depth.
-            const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5), 0);
+            const std::optional<Hit> hit = nearest(ray);
             Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
             if (hit && std::abs(hit->t - pixel.depth) <= 1e-4 * pixel.depth)
                 foot = {hit->position, s.geometric_normal, hit->id, exactOffset};
@@ -351,7 +365,7 @@ private:
         pixel.lit = pixel.shading.all() + s.emission;
         takeHaze(pixel, s);
         pixel.surface = s;
-        return pixel;
+        return withBlended(std::move(pixel), pixel.depth, ray, seed);
     }
 
     Pixel shaded(const Hit& hit, const PixelRay& ray, std::uint64_t seed) const {
@@ -369,37 +383,70 @@ private:
         return pixel;
     }
 
-    // The surfaces along the ray, front to back, blended "over" (Porter and Duff 1984, "Compositing Digital
-    // Images"). Channels other than those of light are the first surface's.
-    Pixel alongRay(const PixelRay& ray, std::uint64_t seed) const {
-        Pixel pixel;
-        double through = 1, from = 0;
-        TriangleId last;
-        for (std::uint64_t layer = 0; through > 1e-6; ++layer) {
-            const std::optional<Hit> hit = nearest(ray, from, last);
-            if (!hit) break;
-            const double opacity = materials_.opacity(*hit, ray), share = through * opacity;
-            const Pixel here = shaded(*hit, ray, streamOf(seed, layer));
-            if (!pixel.surface) {
-                pixel.surface = here.surface;
-                pixel.depth = here.depth;
-                pixel.sun_visibility = here.sun_visibility;
-                pixel.edge_distance = here.edge_distance;
-                pixel.sun_radiance = here.sun_radiance;
-                pixel.sun_irradiance = here.sun_irradiance;
-                pixel.local_visibility = here.local_visibility;
-                pixel.local_edge = here.local_edge;
-                pixel.local_radiance = here.local_radiance;
-                pixel.haze.transmittance = here.haze.transmittance;
+    static bool isOnEdge(const Hit& hit) {
+        const glm::dvec2& b = hit.barycentric;
+        return std::min({b.x, b.y, 1 - b.x - b.y}) < 1e-9;
+    }
+
+    // What is blended in front of `end`, front to back; of two at one place the one that is drawn later, as
+    // the scene has them, is in front.
+    std::vector<Hit> blendedHits(double end, const PixelRay& ray) const {
+        std::vector<Hit> hits;
+        Ray search = cameraRay(ray, 0);
+        search.to = std::min(search.to, end);
+        geometry_.meets(search, [&](const Hit& hit) {
+            if (materials_.blends(hit) && materials_.isThere(hit, &ray)) hits.push_back(hit);
+            return false;  // the ray goes on
+        });
+        const auto place = [](const Hit& hit) {
+            return std::tuple(hit.t, ~hit.id.instance, ~hit.id.triangle);
+        };
+        std::ranges::sort(hits, {}, place);
+        // A ray through an edge meets both of its triangles, which show one place.
+        const auto same = std::ranges::unique(hits, [](const Hit& a, const Hit& b) {
+            return a.id == b.id ||
+                   (a.id.instance == b.id.instance && isOnEdge(a) && isOnEdge(b) && b.t - a.t <= 1e-9 * a.t);
+        });
+        hits.erase(same.begin(), same.end());
+        return hits;
+    }
+
+    // Adds them to lit, blended "over" (Porter and Duff 1984, "Compositing Digital Images"). Returns the
+    // share of what lies behind them that is seen.
+    double blendedBefore(double end, const PixelRay& ray, std::uint64_t seed, Pixel& pixel) const {
+        double through = 1;
+        std::uint64_t layer = 0;
+        for (const Hit& hit : blendedHits(end, ray)) {
+            const double share = through * materials_.opacity(hit, ray);
+            if (share > 0) {
+                const Pixel here = shaded(hit, ray, streamOf(seed, layer));
+                pixel.lit += here.lit * share;
+                pixel.blended += here.shading * share;
             }
-            pixel.haze.scattered += here.haze.scattered * share;
-            pixel.lit += here.lit * share;
-            pixel.shading += here.shading * share;
             through -= share;
-            from = hit->t;
-            last = hit->id;
+            ++layer;
         }
-        pixel.lit += background(ray) * through;
+        return through;
+    }
+
+    // Channels other than lit are those of the nearest surface that is not blended.
+    Pixel alongRay(const PixelRay& ray, std::uint64_t seed) const {
+        const std::optional<Hit> solid = nearest(ray);
+        Pixel pixel;
+        if (solid)
+            pixel = shaded(*solid, ray, seed);
+        else
+            pixel.lit = background(ray);
+        return withBlended(std::move(pixel), solid ? solid->t : nowhere, ray, seed);
+    }
+
+    // The pixel with what is blended in front of it, which may lie on it: `end` is known to float32.
+    Pixel withBlended(Pixel pixel, double end, const PixelRay& ray, std::uint64_t seed) const {
+        if (!blends_) return pixel;
+        const glm::dvec3 behind = std::exchange(pixel.lit, glm::dvec3(0));
+        const double through = blendedBefore(end * (1 + 1e-6), ray, ~seed, pixel);
+        pixel.lit += behind * through;
+        pixel.hidden = 1 - through;
         return pixel;
     }
 
@@ -416,10 +463,12 @@ private:
             mean.lit += sample.lit * share;
             mean.shading += sample.shading * share;
             mean.haze.scattered += sample.haze.scattered * share;
+            mean.blended += sample.blended * share;
         }
         centre.lit = mean.lit;
         centre.haze.scattered = mean.haze.scattered;
         centre.shading = mean.shading;
+        centre.blended = mean.blended;
         return centre;
     }
 
@@ -433,6 +482,7 @@ private:
     std::optional<Haze> haze_;
     const Light* sun_ = nullptr;        // that casts
     std::vector<const Light*> locals_;  // points and spots that cast
+    const bool blends_;                 // some material does
     const double scene_radius_;         // m, of a sphere around all that is drawn
 };
 
@@ -442,9 +492,9 @@ private:
 constexpr int tileSide = 16;
 
 // What a picture holds beside its channels and their uncertainty, in the order in which tiles keep it.
-std::array<Image*, 4> besides(Picture& picture) {
+std::array<Image*, 5> besides(Picture& picture) {
     return {&picture.shadow_edge, &picture.local_shadow_edge, &picture.environment_costs,
-            &picture.surroundings};
+            &picture.surroundings, &picture.blended};
 }
 
 class Drawing {
@@ -477,6 +527,8 @@ public:
         if (request.environment_costs && request.scene.environment)
             picture_.environment_costs = Image(request.view.width, request.view.height, 9);
         if (request.surroundings) picture_.surroundings = Image(request.view.width, request.view.height, 2);
+        if (blendsSomewhere(request.scene))
+            picture_.blended = Image(request.view.width, request.view.height, 1);
         for (const Image* image : besides(picture_)) floats_ += image->components;
     }
 
@@ -543,17 +595,19 @@ private:
                 const glm::dvec3 value = channelValue(mode->number, pixel);
                 for (int c = 0; c < mode->width; ++c) values.push_back(static_cast<float>(value[c]));
             }
-            values.push_back(static_cast<float>(pixel.shading.uncertainty));
+            values.push_back(static_cast<float>(pixel.shading.uncertainty + pixel.blended.uncertainty));
             const auto take = [&](const Image& image, std::initializer_list<double> numbers) {
                 if (image.empty()) return;
                 for (const double number : numbers) values.push_back(static_cast<float>(number));
             };
             take(picture_.shadow_edge, {pixel.edge_distance, pixel.sun_radiance, pixel.sun_irradiance});
             take(picture_.local_shadow_edge, {pixel.local_edge, pixel.local_radiance});
-            const EnvironmentCosts& c = pixel.shading.costs;
+            EnvironmentCosts c = pixel.shading.costs;
+            c += pixel.blended.costs;
             take(picture_.environment_costs, {c.diffuse[0], c.diffuse[1], c.diffuse[2], c.split[0],
                                               c.split[1], c.split[2], c.sampled, c.wider, c.lobe});
             take(picture_.surroundings, {pixel.shading.surroundings.all, pixel.shading.surroundings.hidden});
+            take(picture_.blended, {pixel.hidden});
         });
         values.front() = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
         return values;

@@ -23,6 +23,8 @@ struct Picture {
     // Where points or spots cast, W x H x 2: the same of the nearest edge of their shadows, as a share of the
     // distance from the light, and of what all of them add.
     Image local_shadow_edge;
+    // Where materials blend, W x H x 1: the share that what is blended hides of what lies behind it.
+    Image blended;
     // Where it was asked for, of the environment's light, W x H x 9: EnvironmentCosts, its diffuse, its
     // split, sampled, wider and lobe; W/(sr m^2).
     Image environment_costs;

@@ -98,7 +98,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
                            const Settings& settings)
     : scene(seen),
       lights(lightsOf(scene, settings)),
-      draws(makeDrawList(scene.pose, shared.geometry, shared.materials, scene.view)),
+      draws(makeDrawList(scene.pose, shared.geometry, shared.materials, scene.view, settings.transparency)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings),
@@ -121,7 +121,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .frame_set = buffers.set(),
           .placeholders = buffers.placeholders(),
           .lists = buffers.lists(),
-          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings),
+          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, draws, settings),
           .gbuffer = gbuffer,
           .shadow = shadow,
       } {

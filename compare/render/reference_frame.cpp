@@ -143,6 +143,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     frame.channels = std::move(picture.channels);
     frame.shadow_edge = std::move(picture.shadow_edge);
     frame.local_shadow_edge = std::move(picture.local_shadow_edge);
+    frame.blended = std::move(picture.blended);
     frame.environment_costs = std::move(picture.environment_costs);
     if (!picture.surroundings.empty()) {
         frame.hidden_light = hiddenLight(picture.surroundings);

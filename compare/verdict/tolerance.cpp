@@ -3,6 +3,7 @@
 
 #include "compare/metrics/pixel.h"
 #include "compare/render/reference_frame.h"
+#include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/environment_cost.h"
@@ -226,6 +227,10 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
                 "reach and a texel";
         if (const EnvironmentCost environment(pair); environment.any())
             result.because += environment.because(mode);
+        if (mode.number == static_cast<int>(gpu::DEBUG_lit) && BlendedPixels(pair).any())
+            result.because +=
+                "; beyond what the picture changes by within two pixels where something is blended, which "
+                "the reference meets with its own rays";
         if (!reference.uncertainty.empty())
             result.because +=
                 "; beyond what the reference itself is known to at each pixel, with 99.9 % confidence";
@@ -298,7 +303,10 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
     const EnvironmentCost environment(pair);
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     const bool marched = path.settings.haze && path.settings.haze_march_steps > 0;
-    if (reference.uncertainty.empty() && !bits && !edges.any() && !environment.any() && !marched) return {};
+    const BlendedPixels blended(pair);
+    if (reference.uncertainty.empty() && !bits && !edges.any() && !environment.any() && !marched &&
+        !blended.any())
+        return {};
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const Image& test = pair.test.channels.at(mode.number);
     const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
@@ -308,7 +316,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
         const float* p = baseline.pixel(i);
         double open = bits ? double{*bits->pixel(i)} : 0;
         if (edges.any()) open += edges.allowed(mode, i);
-        open += environment.allowed(mode, i);
+        open += environment.allowed(mode, i) + blended.allowed(mode, i);
         open += marchAllowed(mode, pair, i);
         if (isLit(mode.number) && !reference.uncertainty.empty())
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};

@@ -4,7 +4,8 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
 // The least and the largest view depth drawn in each tile, over all samples of all its pixels; the least is
-// the larger one where nothing was drawn. One workgroup for each tile, one thread for four pixels.
+// the larger one where nothing was drawn. With lights_in_front from the viewer on, and to any depth where a
+// pixel shows the background. One workgroup for each tile, one thread for four pixels.
 // MULTISAMPLED: 0 to 1
 #include "shaders/lib/light_kernel.glsl"
 #include "shaders/lib/position.glsl"
@@ -25,7 +26,7 @@ shared uint nearest, deepest;
 
 void add(float z, inout float near, inout float deep) {
     near = max(near, z);
-    deep = z > 0.0 ? min(deep, z) : deep;  // 0: nothing was drawn there
+    deep = z > 0.0 || on(feature_lights_in_front) ? min(deep, z) : deep;  // 0: nothing was drawn there
 }
 
 void main() {
@@ -75,6 +76,10 @@ void main() {
         bool drawn = nearest > 0u;
         float least = drawn ? max(viewDepth(uintBitsToFloat(nearest)), 0.0) : MAX_BOUND_RADIUS;
         float largest = drawn ? max(viewDepth(uintBitsToFloat(deepest)), 0.0) : 0.0;
+        if (on(feature_lights_in_front)) {
+            least = 0.0;
+            largest = deepest > 0u ? largest : MAX_BOUND_RADIUS;
+        }
         tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] = vec2(least, largest);
     }
 }

@@ -89,7 +89,9 @@
     /* specularAlbedo() of ambient.glsl by a fit, not by its table */                                       \
     X(50, fitted_albedo,              frame,   0, PASSES_SHADE)                                             \
     /* a sum of HAZE_* of haze.h */                                                                         \
-    X(51, haze,                       frame,   0, PASSES_SHADE | PASS_BACKGROUND)
+    X(51, haze,                       frame,   0, PASSES_SHADE | PASS_BACKGROUND)                           \
+    /* tiles' lists hold the lights in front of the opaque surfaces too, for what is blended there */       \
+    X(52, lights_in_front,            frame,   0, PASS_LISTS)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace diptych {
 
@@ -110,6 +112,7 @@ DrawItem itemOf(const Instance& instance, const PrimitiveRange& range, const Mat
     if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
         flattens(instance.world_from_object))
         item.variant.set(gpu::FEATURE_vanishing_normals);
+    item.blended = materials.blends(range.material);
     item.masked = item.variant.get(gpu::FEATURE_alpha_mask) != 0;
     return item;
 }
@@ -143,6 +146,21 @@ void sort(DrawList& list) {
         };
         return key(a) < key(b);
     });
+    list.solid = list.items.size();
+}
+
+// `blended`: in the scene's order.
+void addBlended(DrawList& list, std::vector<DrawItem> blended, Transparency transparency) {
+    const bool sorts = transparency == Transparency::sorted;
+    if (sorts) std::ranges::stable_sort(blended, std::greater{}, &DrawItem::depth);
+    for (DrawItem& item : blended) {
+        if (sorts && item.variant.get(gpu::FEATURE_double_sided) != 0) {
+            item.sides = Sides::back;
+            list.items.push_back(item);
+            item.sides = Sides::front;
+        }
+        list.items.push_back(item);
+    }
 }
 
 // The clusters that `keeps`, as runs of the list; none of them: false.
@@ -164,7 +182,7 @@ bool addRuns(DrawList& list, DrawItem& item, std::span<const Cluster> clusters, 
 }  // namespace
 
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                      const View& view) {
+                      const View& view, Transparency transparency) {
     DrawList list;
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     for (const Instance& instance : pose.instances) {
@@ -178,9 +196,16 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         DrawItem item = itemOf(instance, range, materials);
         item.depths = viewDepths(fromCamera, -view.backward(), range);
         list.triangles += range.index_count / 3;
+        const ObjectBox box(range.bounds_min, range.bounds_max);
+        item.depth = glm::dot(-view.backward(), glm::dvec3(fromCamera * glm::dvec4(box.centre, 1)));
         add(list, item, instance, view.eye(), clipFromWorld);
     }
+    const auto first = std::stable_partition(list.items.begin(), list.items.end(),
+                                             [](const DrawItem& item) { return !item.blended; });
+    std::vector<DrawItem> blended(first, list.items.end());
+    list.items.erase(first, list.items.end());
     sort(list);
+    addBlended(list, std::move(blended), transparency);
     return list;
 }
 
@@ -189,7 +214,7 @@ DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materi
     DrawList list;
     for (const Instance& instance : pose.instances) {
         const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
-        if (range.index_count == 0 || !materials.castsShadow(range.material)) continue;
+        if (range.index_count == 0 || materials.blends(range.material)) continue;
         const glm::dmat4 clipFromObject = request.clip_from_world * fromEye(instance, request.eye);
         const ClipSides sides(clipFromObject, range);
         const auto keeps = [&](const ObjectBox& box) {

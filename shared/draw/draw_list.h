@@ -4,11 +4,14 @@
 
 #include "shared/contract/geometry.h"
 #include "shared/draw/geometry.h"
+#include "shared/frame/setting_values.h"
 #include "shared/material/materials.h"
 #include "shared/scene/view.h"
 
 #include <array>
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace diptych {
@@ -23,6 +26,13 @@ struct IndexRun {
     std::uint32_t first = 0, count = 0;
 };
 
+// The sides of its triangles that a draw shows.
+enum class Sides {
+    of_material,  // the front, or both where the material is double-sided
+    back,
+    front,
+};
+
 struct DrawItem {
     PrimitiveRange range;
     std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; none: the whole range is drawn
@@ -30,24 +40,33 @@ struct DrawItem {
     Variant variant;                        // the material's features and the primitive's
     bool mirrored = false;                  // the transform turns front faces round
     bool masked = false;                    // alpha mask
-    int distance = 0;                       // of the farthest corner: only its order counts
+    bool blended = false;                   // alpha blending
+    Sides sides = Sides::of_material;
+    int distance = 0;  // of the farthest corner: only its order counts
     ViewDepths depths;
+    double depth = 0;  // of its box's centre
 };
 
 struct DrawList {
     std::vector<gpu::Draw> draws;
-    std::vector<DrawItem> items;
+    std::vector<DrawItem> items;  // what is blended comes last
+    std::size_t solid = 0;        // of the items those that are not
     std::vector<IndexRun> runs;
     std::uint32_t culled = 0;     // instances that are not drawn
     std::uint64_t triangles = 0;  // that are drawn
+
+    std::span<const DrawItem> solids() const { return std::span(items).first(solid); }
+    std::span<const DrawItem> blended() const { return std::span(items).subspan(solid); }
 };
 
 // Orders opaque draws before masked ones, then from near to far by the farthest corner of the bounding box,
 // then by variant and material, then as in the scene. What encloses other things, a room or a ground, comes
 // after them, so most of what is hidden fails its depth test before it is shaded. An instance is left out
 // only where its bounding box lies wholly beyond one plane of the view.
+// Blended draws come after all others: from far to near by the centre of the bounding box, a double-sided one
+// twice, first its backs (`Transparency::sorted`), or as in the scene.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                      const View& view);
+                      const View& view, Transparency transparency = Transparency::sorted);
 
 // A box in clip space where w is 1 everywhere.
 struct ClipBox {

@@ -28,7 +28,7 @@ bool readsSpecularAlbedo(const GpuLights& lights, const Settings& settings) {
 }
 
 Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const View& view,
-                     const GBufferLayout& gbuffer, const Settings& settings) {
+                     const GBufferLayout& gbuffer, const DrawList& draws, const Settings& settings) {
     Variant variant;
     gpu::uint area = 0;
     if (lights.rect > 0) area |= gpu::AREA_RECTS;
@@ -46,6 +46,7 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_multiscatter, multiscatterOf(settings.multiscatter))
         .set(gpu::FEATURE_fitted_albedo,
              readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::fit)
+        .set(gpu::FEATURE_lights_in_front, !draws.blended().empty())
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;

@@ -48,6 +48,13 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
     return key;
 }
 
+PipelineKey blendedKey(const FrameInputs& inputs, const DrawItem& item) {
+    PipelineKey key = forwardKey(inputs, item, {});
+    key.fragment = Shader::forward_blended_frag;
+    key.blends = {Blend::over};
+    return key;
+}
+
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch) {
     PipelineKey key = forwardKey(inputs, item, batch);
     key.fragment = Shader::forward_light_batch_frag;

@@ -15,6 +15,9 @@ PipelineKey depthKey(const DrawItem& item);
 // a pass without a pre-pass sets depth_write.
 PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);
 
+// The same blended over what `lit` holds.
+PipelineKey blendedKey(const FrameInputs& inputs, const DrawItem& item);
+
 // The same for a batch of lights that is not the last: to the two partial sums.
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);
 

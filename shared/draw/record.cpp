@@ -32,17 +32,32 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
     vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
 }
 
-std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, const DrawList& draws, const KeyOf& keyOf) {
+std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const DrawItem> items,
+                                    const KeyOf& keyOf) {
     std::vector<PipelineKey> keys;
-    for (const DrawItem& item : draws.items) keys.push_back(keyOf(item));
+    for (const DrawItem& item : items) keys.push_back(keyOf(item));
     return inputs.pipelines.get(keys);
 }
 
 struct DrawSource {
-    const DrawList& draws;
+    std::span<const DrawItem> items;
+    std::span<const IndexRun> runs;
     VkBuffer buffer;   // Draw[draws.draws]
     bool culls_backs;  // of materials that are not double-sided
 };
+
+VkCullModeFlags culledOf(const DrawSource& source, const DrawItem& item) {
+    switch (item.sides) {
+        case Sides::back:
+            return VK_CULL_MODE_FRONT_BIT;
+        case Sides::front:
+            return VK_CULL_MODE_BACK_BIT;
+        case Sides::of_material:
+            break;
+    }
+    const bool twoSided = !source.culls_backs || item.variant.get(gpu::FEATURE_double_sided) != 0;
+    return twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+}
 
 template <class ConstantsOf>
 void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
@@ -51,21 +66,19 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
     const DrawItem* last = nullptr;
     VkPipeline lastPipeline = VK_NULL_HANDLE;
     for (std::size_t i = 0; i < pipelines.size(); ++i) {
-        const DrawItem& item = source.draws.items[i];
+        const DrawItem& item = source.items[i];
         if (pipelines[i] != lastPipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
         if (last == nullptr || item.range.material != last->range.material)
             bind(commands, inputs, gpu::SET_MATERIAL, inputs.materials.set(item.range.material));
-        const bool twoSided = !source.culls_backs || item.variant.get(gpu::FEATURE_double_sided) != 0;
-        vkCmdSetCullMode(commands, twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+        vkCmdSetCullMode(commands, culledOf(source, item));
         // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
         vkCmdSetFrontFace(commands,
                           item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         push(commands, inputs, constantsOf(item));
         const IndexRun whole{item.range.first_index, item.range.index_count};
         const std::span<const IndexRun> runs =
-            item.runs == 0 ? std::span(&whole, 1)
-                           : std::span(source.draws.runs).subspan(item.first_run, item.runs);
+            item.runs == 0 ? std::span(&whole, 1) : source.runs.subspan(item.first_run, item.runs);
         for (const IndexRun& run : runs)
             vkCmdDrawIndexed(commands, run.count, 1, run.first, item.range.vertex_offset, item.draw);
         last = &item;
@@ -80,11 +93,22 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
                                                  std::shared_ptr<const DescriptorSets> gbuffer,
                                                  gpu::uint surface) {
     return [&inputs, batch, surface, gbuffer = std::move(gbuffer),
-            pipelines = pipelinesOf(inputs, inputs.draws, keyOf)](VkCommandBuffer commands) {
+            pipelines = pipelinesOf(inputs, inputs.draws.solids(), keyOf)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, gbuffer.get());
-        recordItems(commands, inputs, {inputs.draws, inputs.draw_buffer, true}, pipelines,
-                    [&](const DrawItem& item) -> gpu::DrawConstants {
+        recordItems(commands, inputs, {inputs.draws.solids(), inputs.draws.runs, inputs.draw_buffer, true},
+                    pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
                         return {item.draw, item.range.material, batch.first, batch.end, surface};
+                    });
+    };
+}
+
+std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf) {
+    return [&inputs,
+            pipelines = pipelinesOf(inputs, inputs.draws.blended(), keyOf)](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, {}, nullptr);
+        recordItems(commands, inputs, {inputs.draws.blended(), inputs.draws.runs, inputs.draw_buffer, true},
+                    pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
+                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED};
                     });
     };
 }
@@ -92,9 +116,9 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
 std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, const DrawList& draws,
                                                    VkBuffer draw_buffer) {
     return [&inputs, &draws, draw_buffer,
-            pipelines = pipelinesOf(inputs, draws, depthKey)](VkCommandBuffer commands) {
+            pipelines = pipelinesOf(inputs, draws.items, depthKey)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, nullptr);
-        recordItems(commands, inputs, {draws, draw_buffer, false}, pipelines,
+        recordItems(commands, inputs, {draws.items, draws.runs, draw_buffer, false}, pipelines,
                     [](const DrawItem& item) -> gpu::DrawConstants {
                         return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED};
                     });

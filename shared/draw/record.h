@@ -10,14 +10,17 @@
 
 namespace diptych {
 
-// What records the draws of every item, in the list's order, each with the pipeline of its key. Pipelines
-// that do not exist yet are made at once, on all cores. `gbuffer`: SET_GBUFFER of shaders that read stored
-// depth. `surface`: of keys with FEATURE_encoded_surface. `inputs` must outlive what is returned.
+// What records the draws of every item that is not blended, in the list's order, each with the pipeline of
+// its key. Pipelines that do not exist yet are made at once, on all cores. `gbuffer`: SET_GBUFFER of shaders
+// that read stored depth. `surface`: of keys with FEATURE_encoded_surface. `inputs` must outlive what is
+// returned.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
                                                  const LightBatch& batch = {},
                                                  std::shared_ptr<const DescriptorSets> gbuffer = {},
                                                  gpu::uint surface = gpu::SURFACE_DECODED);
+// The same of those that are blended.
+std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf);
 // The same of other draws than the picture's, depth alone: what casts shadows does with both of its sides.
 // `draw_buffer`: Draw[draws.draws]. `draws` must outlive what is returned.
 std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, const DrawList& draws,

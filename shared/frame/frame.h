@@ -122,6 +122,9 @@ struct Frame {
     // edge of their shadows, across their rays, a share of the distance from the light; and what the surface
     // would reflect of them unshadowed, the largest component, W/(sr m^2).
     Image local_shadow_edge;
+    // Of the reference where surfaces are blended, W x H x 1: the share of each pixel that they hide of what
+    // lies behind them.
+    Image blended;
     // Of a reference that was asked for it, where an environment shines, W x H x 9, W/(sr m^2), the largest
     // components: what approximations of it are off by in lit_diffuse, by IblDiffuse; likewise in
     // lit_specular with --ibl split; with --ibl sampled what maps cannot hold; with either how far a lobe of

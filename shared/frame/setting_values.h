@@ -70,6 +70,12 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
+// In which order blended surfaces are drawn: sorted, draws from far to near; unsorted, as in the scene.
+enum class Transparency { sorted, unsorted };
+template <>
+inline constexpr auto enum_names<Transparency> = std::to_array<EnumName<Transparency>>(
+    {{Transparency::sorted, "sorted"}, {Transparency::unsorted, "unsorted"}});
+
 enum class SpecularAlbedo { table, fit };
 template <>
 inline constexpr auto enum_names<SpecularAlbedo> =

@@ -207,6 +207,18 @@ std::string toJson(const Settings& settings, int indent) {
     return object.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+namespace {
+
+// What an option was called before: --sort on|off.
+constexpr std::string_view earlier_name = "sort";
+std::string sortedOrNot(const std::string& value) {
+    if (value != "on" && value != "off")
+        throw std::runtime_error(fmt::format("--{} {}: not on or off", earlier_name, value));
+    return std::string(nameOf(value == "on" ? Transparency::sorted : Transparency::unsorted));
+}
+
+}  // namespace
+
 Settings settingsFromJson(const std::string& text, const Settings& base) {
     if (jsonShape(text).depth > json_depth)
         throw std::runtime_error(fmt::format("settings: nests deeper than {}", json_depth));
@@ -239,6 +251,12 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
                             oneLine(object[key].dump(-1, ' ', false, Json::error_handler_t::replace)),
                             inWords(Value::accepted())));
     });
+    if (unknown.erase(std::string(earlier_name)) != 0) {
+        const Json& value = object[std::string(earlier_name)];
+        settings.set(earlier_name, value.is_boolean()  ? (value.get<bool>() ? "on" : "off")
+                                   : value.is_string() ? value.get<std::string>()
+                                                       : value.dump());
+    }
     for (const char* option : {"debug", "channels", "exposure", "ev100", "no_tonemap", "frames", "fps",
                                "heat", "runs", "device", "validate", "baseline"})
         if (unknown.contains(option)) {
@@ -253,6 +271,7 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
 }
 
 void Settings::set(std::string_view option, const std::string& value) {
+    if (option == earlier_name) return set("transparency", sortedOrNot(value));
     visitField(*this, option, [&](const Field& field, auto& member) {
         using Value = CodecOf<decltype(member)>;
         if (!Value::read(member, ownWord(field, value)))

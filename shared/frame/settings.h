@@ -59,7 +59,7 @@ struct Settings {
     float evsm_bleed = 0.0f;
     float evsm_min_variance = 1e-8f;
     int msaa = 1;
-    bool sort = true;
+    Transparency transparency = Transparency::sorted;
     bool haze = false;
     float haze_density = 1.0f;
     Rgb haze_rayleigh{5.8e-6f, 13.5e-6f, 33.1e-6f};  // 1/m at height 0
@@ -166,7 +166,6 @@ inline constexpr std::string_view needs_reference = "has no meaning without --pa
 inline constexpr std::string_view every_light = "the reference evaluates every light";
 inline constexpr std::string_view traces_shadows = "the reference traces the shadows of every light";
 inline constexpr std::string_view only_reference = "the reference alone takes samples of what it shades";
-inline constexpr std::string_view not_blended = "no path blends yet";
 
 inline constexpr int largest_side = 16384;  // maxImageDimension2D of every Vulkan 1.3 device in use, or less
 inline constexpr int most_pages = 16384;
@@ -544,14 +543,12 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "1,4",
                 .sweep_with = "gbuffer,size"},
           &Settings::msaa);
-    visit(Field{.option = "sort",
-                .help = "sort transparent draws",
-                .off = "off",
-                .ignored = {.deferred = row::not_blended,
-                            .forward_plus = row::not_blended,
-                            .reference = "the reference blends by depth"},
-                .sweep = "all"},
-          &Settings::sort);
+    visit(Field{.option = "transparency",
+                .help = "how blended surfaces are put in order; --sort off is unsorted",
+                .ignored = {.reference = "the reference blends by depth"},
+                .sweep = "all",
+                .for_surfaces = "sorted"},
+          &Settings::transparency);
     visit(Field{.option = "haze",
                 .help = "aerial perspective: air that scatters the brightest sun's light and ambient light",
                 .off = "off",

@@ -90,7 +90,7 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene) : l
     std::vector<std::byte> data(scene.materials.size() * stride);
     for (const Material& material : scene.materials) {
         variants_.push_back(variantOf(material));
-        casts_.push_back(material.alpha_mode != AlphaMode::blend);
+        blends_.push_back(material.alpha_mode == AlphaMode::blend);
         const gpu::Material factors = gpuMaterial(material);
         std::memcpy(&data[(variants_.size() - 1) * stride], &factors, sizeof factors);
         for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)

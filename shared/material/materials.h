@@ -33,8 +33,8 @@ public:
     // The features that this material needs, all others off.
     const Variant& variant(std::uint32_t material) const { return variants_[material]; }
 
-    // Whether its surfaces throw a shadow: blended ones do not.
-    bool castsShadow(std::uint32_t material) const { return casts_[material]; }
+    // Whether its surfaces are blended over what lies behind them (alphaMode BLEND). Those throw no shadow.
+    bool blends(std::uint32_t material) const { return blends_[material]; }
 
     std::uint64_t imageBytes() const;
     std::uint64_t bufferBytes() const { return buffer_.size(); }
@@ -52,7 +52,7 @@ private:
     GpuBuffer buffer_;
     DescriptorSets sets_;
     std::vector<Variant> variants_;
-    std::vector<bool> casts_;
+    std::vector<bool> blends_;
     std::vector<std::string> notes_;
 };
 

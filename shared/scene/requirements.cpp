@@ -123,10 +123,8 @@ std::vector<Requirements::Line> Requirements::lines() const {
         "no texture has KHR_texture_transform");
     say(alpha_mask, "alpha test", "a material has alphaMode MASK",
         "no material has alphaMode MASK: depth passes read positions alone");
-    result.push_back({false, "alpha blending",
-                      alpha_blend
-                          ? "a material has alphaMode BLEND, but blending is not built yet: drawn opaque"
-                          : "no material has alphaMode BLEND"});
+    say(alpha_blend, "alpha blending", "a material has alphaMode BLEND: drawn over what is opaque",
+        "no material has alphaMode BLEND: no pass blends");
     say(double_sided, "back faces", "a material is double-sided: nothing of it is culled",
         "no material is double-sided: back faces are culled");
     say(occlusion, "occlusion textures", "a material has an occlusion texture",

@@ -92,7 +92,7 @@ LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose,
                 cornersOf(item.range, glm::dmat4(glm::mat4(seen.draws[item.draw].world_from_object))));
         for (const Instance& instance : pose.instances) {
             const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
-            if (range.index_count == 0 || !materials.castsShadow(range.material)) continue;
+            if (range.index_count == 0 || materials.blends(range.material)) continue;
             casting.push_back(cornersOf(range, instance.world_from_object));
             for (glm::dvec3& corner : casting.back()) corner -= view.eye();
         }

@@ -80,6 +80,7 @@ struct NegativeControl {
     Rgb ambient = {};
     const char* scene = "builtin:gallery";
     int shadows = -1;  // that many points and spots cast, and the sun; below 0 nothing does
+    float haze = 0;    // its density; 0: none
 };
 
 void PrintTo(const NegativeControl& control, std::ostream* out) {
@@ -98,6 +99,8 @@ TEST_P(VerdictNegativeControl, Fails) {
         settings.shadows = Shadows::pcf;
         settings.shadow_lights = GetParam().shadows;
     }
+    settings.haze = GetParam().haze > 0;
+    if (settings.haze) settings.haze_density = GetParam().haze;
     std::vector<Frame> frames = scene.bothPaths(settings);
     Renderer renderer(device(), changed, pipelines());
     frames[1] = drawnBy(Path::forward_plus, renderer, settings);
@@ -194,6 +197,15 @@ const NegativeControl negativeControls[] = {
      {},
      "builtin:points",
      1},
+    {"lit_haze",
+     [](Scene& s) {
+         for (Light& light : s.lights) light.intensity *= 1.0001f;
+     },
+     {},
+     "builtin:glass",
+     -1,
+     5},  // in thicker air nothing of the sun arrives
+    {"transmittance", nudge, {}, "builtin:suns", -1, 1000},
 };
 
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),

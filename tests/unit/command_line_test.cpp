@@ -359,7 +359,7 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
         return parseCommandLine({command, "--help"}).help.find("--" + option + " ") != std::string::npos;
     };
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
-        for (const char* option : {"time", "msaa", "sort"})
+        for (const char* option : {"time", "msaa"})
             EXPECT_FALSE(shows(command, option)) << command << " " << option;
         for (const char* option : {"gbuffer",        "pixel-lights",  "spp",           "reference-mode",
                                    "ambient",        "camera",        "shadows",       "shadow-kernel",
@@ -371,7 +371,7 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
     }
     for (const char* option : {"env", "ibl-intensity", "shadows", "time", "gbuffer", "spp"})
         EXPECT_TRUE(shows("render", option)) << option;
-    for (const char* option : {"msaa", "sort"}) EXPECT_FALSE(shows("render", option)) << option;
+    for (const char* option : {"msaa"}) EXPECT_FALSE(shows("render", option)) << option;
 }
 
 TEST(CommandLine, WhatWasMeantIsSaid) {

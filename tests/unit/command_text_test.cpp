@@ -62,7 +62,7 @@ std::vector<Settings> severalSettings() {
     add([](Settings& s) { s.lights = "point:64,spot:16"; });
     add([](Settings& s) { s.seed = 4294967295u; });
     add([](Settings& s) { s.shadows = Shadows::clipmap; });
-    add([](Settings& s) { s.sort = false; });
+    add([](Settings& s) { s.transparency = Transparency::unsorted; });
     add([](Settings& s) { s.haze = true; });
     add([](Settings& s) { s.reference_mode = ReferenceMode::scene; });
     all.emplace_back();

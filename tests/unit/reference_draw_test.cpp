@@ -211,6 +211,11 @@ TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
     add(scene, quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, 1));
     add(scene, quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}, 1));
     EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 8 + 0.75 * 1), 1e-6);
+    // Two at one place: the later one is in front.
+    scene.materials.push_back(m);
+    scene.materials.back().emissive = {4, 4, 4};
+    add(scene, quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}, 2));
+    EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 4 + 0.75 * (0.25 * 8 + 0.75 * 1)), 1e-6);
 }
 
 // A lamp on a ceiling whose float32 vertices are rounded to above it, in it or below it: its light arrives,

@@ -63,7 +63,7 @@ Settings everythingChanged() {
     s.evsm_bleed = 0.2f;
     s.evsm_min_variance = 1e-6f;
     s.msaa = 4;
-    s.sort = false;
+    s.transparency = Transparency::unsorted;
     s.haze = true;
     s.haze_density = 3.5f;
     s.haze_rayleigh = {1e-7f, 0.25f, 3e5f};
@@ -264,7 +264,7 @@ TEST(Settings, JsonAcceptsTheWordsOfTheCommandLine) {
         settingsFromJson(R"({"size": "8x4", "ambient": "1,2,3", "sort": "off", "lights": "none"})");
     EXPECT_EQ(s.size, (Size{8, 4}));
     EXPECT_EQ(s.ambient, (Rgb{1, 2, 3}));
-    EXPECT_FALSE(s.sort);
+    EXPECT_EQ(s.transparency, Transparency::unsorted) << "by its other name";
     EXPECT_EQ(s.lights, "");
 }
 
@@ -625,7 +625,7 @@ TEST(Settings, WhatIsNoSettingIsSentToWhereItBelongs) {
 
 TEST(Settings, OffAndNoneCallOffWhateverCanBe) {
     for (const char* option : {"prepass", "env", "ambient", "lights", "light-cutoff", "shadow-lights",
-                               "shadows", "evsm-bleed", "msaa", "sort", "haze", "haze-march-steps"})
+                               "shadows", "evsm-bleed", "msaa", "haze", "haze-march-steps"})
         for (const std::string word : {"off", "none"}) {
             Settings said;
             ASSERT_NO_THROW(said.set(option, word)) << option << " " << word;

@@ -25,13 +25,13 @@ std::string gridFault(const std::string& text) {
 TEST(TradeoffGrid, AProductAndAListOfThem) {
     const Grid grid =
         readGrids(R"({"settings": {"gbuffer": ["compact", "full"], "size": ["1/2", "8x4", [8, 4]],
-                                    "sort": false, "light_cutoff": [0.001, "1e-2"]}})",
+                                    "transparency": "unsorted", "light_cutoff": [0.001, "1e-2"]}})",
                   {})
             .front();
     ASSERT_EQ(grid.size(), 4u);
     EXPECT_EQ(grid[0], (Grid::value_type{"gbuffer", {"compact", "full"}}));
     EXPECT_EQ(grid[1], (Grid::value_type{"size", {"320x180", "8x4"}})) << "said twice, tried once";
-    EXPECT_EQ(grid[2], (Grid::value_type{"sort", {"off"}}));
+    EXPECT_EQ(grid[2], (Grid::value_type{"transparency", {"unsorted"}}));
     EXPECT_EQ(grid[3], (Grid::value_type{"light-cutoff", {"0.001", "0.01"}}));
     EXPECT_EQ(readGrids(R"([{"settings": {}}, {"settings": {"path": "deferred"}}])", {}).size(), 2u);
 }
@@ -76,7 +76,7 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
 TEST(TradeoffGrid, WhateverItHoldsIsPlannedOrRefused) {
     const std::string sound =
         R"([{"settings": {"gbuffer": ["compact", "full"], "size": ["1/2", "8x4", [8, 4]], "msaa": [1, 4]}},
-            {"settings": {"sort": [true, "off"], "light_cutoff": [0.001, "0e-2"]}}])";
+            {"settings": {"transparency": ["sorted", "unsorted"], "light_cutoff": [0.001, "0e-2"]}}])";
     const std::string pieces[] = {"[", "]", "{", "}", "\"", "\\n",  "\\u0000", "1e999",
                                   "/", "0", "-", ",", ":",  "\xff", "null"};
     std::mt19937 random(3);

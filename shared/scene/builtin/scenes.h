@@ -27,6 +27,8 @@ Scene lightmaps();
 
 // places.cpp: positions, visibility, transforms
 Scene coplanar();
+Scene glass();
+Scene crossed();
 Scene deep();
 Scene mirrored();
 Scene stretched();

@@ -271,12 +271,6 @@ void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, S
     }
     limitNotes(scene.notes, before, "materials");
     left.moveTo(scene.notes);
-    noteMaterials(
-        model, [&](std::size_t i) { return scene.materials[i].alpha_mode == AlphaMode::blend; },
-        "with alphaMode BLEND: drawn opaque by the paths, which do not blend yet; the reference blends in "
-        "mode scene",
-        scene);
-
     const bool needsDefault =
         std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {
             return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What is blended over the opaque picture: one pass of both paths.
+#pragma once
+
+#include "shared/draw/captures.h"
+#include "shared/draw/frame_inputs.h"
+
+#include <vector>
+
+namespace diptych {
+
+// Blends the view's blended draws over `lit`, which holds the opaque surfaces and the background, where
+// nothing opaque is in front of them: `depth`, which stays as it is. Adds no pass where there are none.
+void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit);
+
+// The same over the lit of the capture that is the list's last pass, where it has one: `images`' last ones,
+// which are put in the order in which they are ready. Other channels are those of the opaque surfaces.
+void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+                           std::vector<CapturedImage>& images);
+
+}  // namespace diptych

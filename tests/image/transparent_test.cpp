@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Blended surfaces over either path's opaque picture: against closed forms, the reference and each other.
+#include "compare/verdict/pair_reports.h"
+#include "shared/scene/builtin/builder.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace diptych::tests {
+namespace {
+
+constexpr Path rasterPaths[] = {Path::deferred, Path::forward_plus};
+
+Settings blendedPicture() {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {96, 54};
+    return settings;
+}
+
+// Squares that emit `colors` alone, each nearer to the camera than the one before; the first is opaque. All
+// cover the picture.
+Scene layers(const std::vector<glm::vec4>& colors) {
+    Builder b;
+    b.camera("front", {0, 0, 10}, {0, 0, 0}, 20, 0.1, 100);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const int material = b.material(fmt::format("layer {}", i), {glm::vec3(colors[i]), 0, 0.5f});
+        b.scene.materials.back().unlit = true;
+        b.scene.materials.back().base_color.a = colors[i].a;
+        if (i > 0) b.scene.materials.back().alpha_mode = AlphaMode::blend;
+        b.add("layer", quad({-9, -9, 0.1 * static_cast<double>(i)}, {18, 0, 0}, {0, 18, 0}), material,
+              glm::dvec3(0.0));
+    }
+    return std::move(b.scene);
+}
+
+std::vector<glm::vec4> someLayers(std::size_t count, float opacity) {
+    std::vector<glm::vec4> colors;
+    for (std::size_t i = 0; i <= count; ++i) {
+        const auto x = static_cast<float>(i);
+        colors.emplace_back(0.2f + std::fmod(0.37f * x, 0.8f), 0.9f - std::fmod(0.23f * x, 0.8f), 0.3f,
+                            opacity);
+    }
+    return colors;
+}
+
+glm::dvec3 pixelOf(const Frame& frame, int x, int y) {
+    const Image& image = frame.channels.at(lit);
+    return {double{image.at(x, y, 0)}, double{image.at(x, y, 1)}, double{image.at(x, y, 2)}};
+}
+
+Frame picture(Path path, const Scene& scene, const Settings& settings) {
+    Renderer renderer(device(), scene, pipelines());
+    return drawnBy(path, renderer, settings, {lit});
+}
+
+// Every layer rounds to float32 once or twice.
+TEST(Transparent, LayersAreBlendedOver) {
+    for (const std::size_t count : {1u, 2u, 8u, 32u})
+        for (const float opacity : {0.1f, 0.5f, 1.0f}) {
+            const std::vector<glm::vec4> colors = someLayers(count, opacity);
+            glm::dvec3 expected(colors.front());
+            for (std::size_t i = 1; i < colors.size(); ++i)
+                expected = glm::mix(expected, glm::dvec3(colors[i]), double{opacity});
+            for (const Path path : rasterPaths) {
+                const glm::dvec3 made = pixelOf(picture(path, layers(colors), blendedPicture()), 40, 20);
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(made[c], expected[c], 2e-7 * static_cast<double>(count + 4))
+                        << count << " " << opacity << " " << nameOf(path);
+            }
+        }
+}
+
+TEST(Transparent, WhatIsOpaqueHidesAllBehindItAndOpacity0Nothing) {
+    std::vector<glm::vec4> colors = someLayers(4, 0.5f);
+    colors[3].a = 1;
+    const std::vector<glm::vec4> front(colors.begin() + 3, colors.end());
+    std::vector<glm::vec4> more = front;
+    more.insert(more.begin() + 1, glm::vec4(5, 5, 5, 0));
+    for (const Path path : rasterPaths) {
+        const Image whole = picture(path, layers(colors), blendedPicture()).channels.at(lit);
+        EXPECT_EQ(differingPixels(whole, picture(path, layers(front), blendedPicture()).channels.at(lit)),
+                  0u);
+        EXPECT_EQ(differingPixels(whole, picture(path, layers(more), blendedPicture()).channels.at(lit)), 0u);
+    }
+}
+
+TEST(Transparent, BothPathsAreEqualBitForBit) {
+    for (const char* name : {"builtin:glass", "builtin:crossed"}) {
+        Renderer& renderer = uploaded(name).renderer;
+        std::optional<Image> first;
+        for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered}) {
+            Settings settings = blendedPicture();
+            settings.assign = assign;
+            settings.lights = "point:200,spot:56";
+            settings.light_cutoff = 0;
+            const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
+            EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+                << name << " " << nameOf(assign);
+            if (!first) first = frames[0].channels.at(lit);
+            EXPECT_EQ(differingPixels(*first, frames[0].channels.at(lit)), 0u)
+                << name << " " << nameOf(assign) << " leaves out a light";
+        }
+        for (const Shadows shadows : {Shadows::pcf, Shadows::evsm}) {
+            Settings settings = blendedPicture();
+            settings.shadows = shadows;
+            settings.haze = true;
+            settings.haze_density = 2000;
+            settings.transparency = Transparency::unsorted;
+            settings.ambient = {0.2f, 0.3f, 0.4f};
+            const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
+            EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+                << name << " " << nameOf(shadows);
+        }
+    }
+}
+
+// The G-buffer's channels are of what is opaque.
+TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
+    Scene scene = loadScene("builtin:glass"), opaque = scene;
+    for (Mesh& mesh : opaque.meshes)
+        std::erase_if(mesh.primitives, [&](const Primitive& p) {
+            return opaque.materials[static_cast<std::size_t>(p.material)].alpha_mode == AlphaMode::blend;
+        });
+    const std::vector<int> channels{lit, static_cast<int>(gpu::DEBUG_albedo),
+                                    static_cast<int>(gpu::DEBUG_depth),
+                                    static_cast<int>(gpu::DEBUG_lit_diffuse)};
+    for (const Path path : rasterPaths) {
+        Renderer renderer(device(), scene, pipelines()), without(device(), opaque, pipelines());
+        const Frame all = drawnBy(path, renderer, blendedPicture(), channels),
+                    rest = drawnBy(path, without, blendedPicture(), channels);
+        const auto most = [&](int mode) {
+            const DebugMode& m = debugMode(mode);
+            const Image &a = rest.channels.at(mode), &b = all.channels.at(mode);
+            return channelStats(m.metric, m.kind, a, b, everyPixel(a.pixels())).max;
+        };
+        EXPECT_GT(most(lit), 0.1) << nameOf(path);
+        EXPECT_EQ(most(channels[1]), 0) << nameOf(path);
+        EXPECT_EQ(most(channels[2]), 0) << nameOf(path);
+        // What blends is unlit in part, for which F0 is read, not a constant.
+        EXPECT_LT(most(channels[3]), 1e-6) << nameOf(path);
+    }
+}
+
+TEST(Transparent, WithoutBlendingThereIsNoPass) {
+    for (const auto& [name, blends] : {std::pair("builtin:glass", true), {"builtin:cutout", false}}) {
+        RenderOptions options;
+        options.channels = {lit};
+        options.runs = 1;
+        Settings settings = blendedPicture();
+        settings.path = Path::deferred;
+        const Frame frame = uploaded(name).renderer.draw(settings, options);
+        EXPECT_EQ(std::ranges::count(frame.passes, std::string("transparent"), &PassTime::name),
+                  blends ? 1 : 0)
+            << name;
+    }
+}
+
+// What fails of both paths against the reference.
+std::vector<std::string> failures(const char* name, const Settings& settings) {
+    Renderer& renderer = uploaded(name).renderer;
+    Settings truth = settings;
+    truth.path = Path::reference;
+    truth.transparency = Transparency::sorted;
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    std::vector<Frame> frames{renderer.draw(truth, options)};
+    for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
+    const Scene& scene = uploaded(name).scene;
+    const Requirements needs = requirements(scene, poseAt(scene, 0));
+    const DeviceInfo& info = device().info();
+    const Report report = makeReferenceReport(std::move(frames), {needs, needs, needs},
+                                              {info.name, info.driver, info.type}, {}, {{}}, {{}});
+    std::vector<std::string> failed;
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
+        for (const ChannelDiff& channel : report.comparisons.at(i).channels)
+            if (channel.verdict == Verdict::fail)
+                failed.push_back(fmt::format("{}: {}", channel.mode->name, channel.reason));
+    return failed;
+}
+
+TEST(Transparent, SortedIsTheReferencesOrder) {
+    Settings settings = blendedPicture();
+    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{});
+    settings.camera = "inside";
+    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{}) << "from inside of a ball";
+    settings.camera = Settings().camera;
+    settings.haze = true;
+    settings.haze_density = 2000;
+    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{}) << "in haze";
+}
+
+TEST(Transparent, AnotherOrderFails) {
+    Settings settings = blendedPicture();
+    settings.transparency = Transparency::unsorted;
+    const std::vector<std::string> failed = failures("builtin:crossed", settings);
+    ASSERT_EQ(failed.size(), 2u);
+    for (const std::string& each : failed) EXPECT_EQ(each.substr(0, 4), "lit:");
+}
+
+}  // namespace
+}  // namespace diptych::tests
