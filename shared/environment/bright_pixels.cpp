@@ -66,8 +66,7 @@ void BrightPixels::eachPart(int side, const Visit& visit) const {
         const double power = solid_[static_cast<std::size_t>(pixel.y)] / sum;
         for (const auto& [polar, weight] : rows) {
             const int across = partsAcross(wide * std::abs(std::sin(polar)), side);
-            // Of the tent over `across` midpoints; `across` is even, or the middle one is its peak.
-            double tent = 0;
+            double tent = 0;  // the sum of its weights
             for (int i = 0; i < across; ++i) tent += 1 - std::abs(2 * (i + 0.5) / across - 1);
             for (int i = 0; i < across; ++i) {
                 const double off = 2 * (i + 0.5) / across - 1;

@@ -14,7 +14,6 @@ public:
     // Takes from the picture what its pixels have above 8 times its mean, by their largest component.
     explicit BrightPixels(Environment& picture);
 
-    bool empty() const { return pixels_.empty(); }
     // Adds it. Integrals over all directions grow by what it has under the bilinear interpolation.
     void addTo(OctahedralMap& map) const;
     void addTo(NodeMap& map) const;
