@@ -365,7 +365,8 @@ private:
         pixel.lit = pixel.shading.all() + s.emission;
         takeHaze(pixel, s);
         pixel.surface = s;
-        return withBlended(std::move(pixel), pixel.depth, ray, seed);
+        const double end = pixel.depth;
+        return withBlended(std::move(pixel), end, ray, seed);
     }
 
     Pixel shaded(const Hit& hit, const PixelRay& ray, std::uint64_t seed) const {
