@@ -48,7 +48,8 @@ Json jsonOf(const BenchRow& row) {
             {"counters",
              {{"nonfinite_pixels", row.counters.nonfinite_pixels},
               {"overflowed_lists", row.counters.overflowed_lists},
-              {"lights", row.counters.lights}}},
+              {"lights", row.counters.lights},
+              {"unsorted_fragments", row.counters.unsorted.fragments}}},
             {"notes", row.notes}};
 }
 

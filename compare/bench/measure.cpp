@@ -134,7 +134,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
                      frame.counters,
                      frame.notes};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
-        row.counters.overflowed_lists = frames.overflowedLists(i);
+        frames.readCounters(i, row.counters);
         bench.rows.push_back(std::move(row));
     }
 }

@@ -78,6 +78,7 @@ Json jsonOf(const Frame& frame) {
              {{"nonfinite_pixels", counters.nonfinite_pixels},
               {"overflowed_lists", counters.overflowed_lists},
               {"lights", counters.lights},
+              {"unsorted", {{"fragments", counters.unsorted.fragments}, {"pixels", counters.unsorted.pixels}}},
               {"shadow_pages",
                {{"requested", counters.shadow_pages.requested},
                 {"resident", counters.shadow_pages.resident},

@@ -64,8 +64,8 @@ Image PreparedFrames::lit(std::size_t i) {
     return readLit(*state_->frames.at(i));
 }
 
-std::uint64_t PreparedFrames::overflowedLists(std::size_t i) const {
-    return state_->frames.at(i)->view.buffers.lists().overflowed();
+void PreparedFrames::readCounters(std::size_t i, FrameCounters& counters) const {
+    diptych::readCounters(state_->frames.at(i)->view, counters);
 }
 
 const Frame& PreparedFrames::described(std::size_t i) const {

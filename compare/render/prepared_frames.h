@@ -42,7 +42,7 @@ public:
     // lit of the frame drawn last, W x H x 3.
     Image lit(std::size_t i);
     // The number of light lists of that frame that overflowed.
-    std::uint64_t overflowedLists(std::size_t i) const;
+    void readCounters(std::size_t i, FrameCounters& counters) const;
     // The Frame as far as it is known without drawing: Settings, camera, lights, bytes, notes.
     const Frame& described(std::size_t i) const;
 

@@ -6,6 +6,7 @@
 #include "shared/draw/pipeline_parts.h"
 #include "shared/light/cutoff.h"
 #include "shared/scene/lights/casters.h"
+#include "shared/transparent/transparent.h"
 
 #include <fmt/format.h>
 
@@ -108,6 +109,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       haze(device, shared.uploader, settings, sunOf(scene.lights), scene.view.eye(), buffers.sets()),
       shadow(device, shared.uploader, scene.pose, shared.geometry, shared.materials, scene.view, draws,
              lights, scene.lights, buffers.sets(), settings),
+      fragments(device, draws, settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
       inputs{
           .device = device,
@@ -124,6 +126,9 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, draws, settings),
           .gbuffer = gbuffer,
           .shadow = shadow,
+          .transparency = settings.transparency,
+          .blended = blendedRange(draws, scene.view),
+          .fragments = &fragments,
       } {
     shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
                    castingSun(scene.lights, lights, settings));
@@ -177,11 +182,18 @@ Frame describedFrame(const PreparedFrame& prepared, const SharedResources& share
     return frame;
 }
 
+void readCounters(PreparedView& view, FrameCounters& counters) {
+    counters.overflowed_lists = view.buffers.lists().overflowed();
+    const FragmentLists::Overflow overflow = view.fragments.overflow();
+    counters.unsorted = {overflow.fragments, overflow.pixels};
+}
+
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
     return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
                 prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
-                prepared.view.shadow.bytes() + prepared.view.environment.bytes() + prepared.view.haze.bytes(),
+                prepared.view.shadow.bytes() + prepared.view.environment.bytes() + prepared.view.haze.bytes() +
+                prepared.view.fragments.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};
 }
 

@@ -11,6 +11,7 @@
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
 #include "shared/shadow/shadow_maps.h"
+#include "shared/transparent/fragment_lists.h"
 
 #include <cstdint>
 #include <memory>
@@ -58,6 +59,7 @@ public:
     EnvironmentLight environment;
     Haze haze;
     ShadowMaps shadow;
+    FragmentLists fragments;
     GBufferLayout gbuffer;
     FrameInputs inputs;
 };
@@ -78,6 +80,8 @@ void checkSize(const Device& device, const Size& size);
 // The Frame as far as it is known before drawing: names, Settings, camera, lights, notes of the scene.
 Frame describedFrame(const PreparedFrame& prepared, const SharedResources& shared, const Scene& scene,
                      const Settings& settings);
+// What the view's lists have counted in the last run.
+void readCounters(PreparedView& view, FrameCounters& counters);
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared);
 
 // lit as the last run left it, row 0 on top, R, G, B.

@@ -48,7 +48,7 @@ public:
         frame_ = describedFrame(prepared_, shared_, scene_, settings_);
         drawLit();
         lit_ = readLit(prepared_);
-        frame_.counters.overflowed_lists = prepared_.view.buffers.lists().overflowed();
+        readCounters(prepared_.view, frame_.counters);
         frame_.counters.nonfinite_pixels = nonfinitePixels(lit_);
         if (!options_.channels.empty()) capture();
         frame_.requested = options_.requested;

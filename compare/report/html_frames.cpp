@@ -80,6 +80,10 @@ std::string costs(const Frame& a, const Frame& b) {
         row("shadow pages, of which a coarser level serves", [](const Frame& f) {
             return fmt::format("{}, {}", f.counters.shadow_pages.requested, f.counters.shadow_pages.fallback);
         });
+    if (a.counters.unsorted.fragments + b.counters.unsorted.fragments > 0)
+        row("blended fragments without room in a list, and their pixels", [](const Frame& f) {
+            return fmt::format("{}, {}", f.counters.unsorted.fragments, f.counters.unsorted.pixels);
+        });
     row("flux of lights without a range that the cutoff takes",
         [](const Frame& f) { return fmt::format("{:.3g} %", 100 * f.counters.energy_cut); });
     count("NaN or infinite lit pixels", &FrameCounters::nonfinite_pixels);

@@ -52,6 +52,7 @@ void warn(TradeoffRow& row, const Frame& frame) {
     add(frame.counters.nonfinite_pixels, "pixel(s) of lit are NaN or infinite");
     add(frame.counters.overflowed_lists, "light list(s) found no room: every light was evaluated there");
     add(frame.counters.shadow_pages.fallback, "shadow page(s) found no room: a coarser level serves there");
+    add(frame.counters.unsorted.fragments, "blended fragment(s) found no room: blended as one layer");
     add(frame.counters.unreproduced_pixels, "pixel(s) of the capture are not the timed pipeline's");
 }
 

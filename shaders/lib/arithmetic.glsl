@@ -17,6 +17,9 @@ vec3 normalized(vec3 v) { return v / lengthOf(v); }
 float blend(float a, float b, float t) { return a * (1.0 - t) + b * t; }
 vec3 blend(vec3 a, vec3 b, float t) { return a * (1.0 - t) + b * t; }
 
+// 0 to 1, 0 of what is no number.
+float shareOf(float value) { return value > 0.0 ? min(value, 1.0) : 0.0; }
+
 // n: unit.
 vec3 reflection(vec3 v, vec3 n) { return v - n * (2.0 * dot(n, v)); }
 

@@ -9,9 +9,6 @@
 
 #include "shaders/lib/contract.glsl"
 
-// 0 to 1, 0 of what is no number.
-float shareOf(float value) { return value > 0.0 ? min(value, 1.0) : 0.0; }
-
 // `depth`: as in the map, 1 towards the light. The result grows away from it, from `nearest` (0 or -1) to 1.
 float depthAway(float depth, float nearest) { return blend(nearest, 1.0, 1.0 - shareOf(depth)); }
 

@@ -5,6 +5,7 @@
 #ifndef MSM_GLSL
 #define MSM_GLSL
 
+#include "shaders/lib/hamburger.glsl"
 #include "shaders/lib/moments.glsl"
 
 // Their section 4.3: the affine map that makes the most of 16 bits, 0 to 1 each; and back.
@@ -25,32 +26,11 @@ vec4 momentsOfQuantised(vec4 q) {
 }
 
 // The least share of the filter that lies before `depth` (Peters and Klein, algorithm 3, "Hamburger 4MSM"):
-// the distribution with these moments that has a place at `depth` and two others, z.x < z.y, has the least.
-// `bias` moves the moments towards those of a distribution whose Hankel matrix is far from singular, by more
-// than they are rounded by. Whatever the moments are, the result is 0 to 1.
+// of all distributions with these moments the one of three places has the least. `bias` moves the moments
+// towards those of a distribution whose Hankel matrix is far from singular, by more than they are rounded by.
+// Whatever the moments are, the result is 0 to 1.
 float least4MomentShadow(vec4 moments, float depth, float bias) {
-    const float LEAST = 1e-20;  // what is divided by
-    vec4 b = moments * (1.0 - bias) + vec4(0.5 * bias);
-    // The Hankel matrix of (1, b) is L D L^T.
-    float l32_d22 = b.z - b.x * b.y;
-    float d22 = max(b.y - b.x * b.x, 1e-9);
-    float d33_d22 = max((b.w - b.y * b.y) * d22 - l32_d22 * l32_d22, LEAST);
-    float l32 = l32_d22 / d22;
-    // Its inverse times (1, depth, depth^2): a polynomial whose roots are the two other places.
-    vec3 c = vec3(1.0, depth - b.x, 0.0);
-    c.z = (depth * depth - b.y - l32 * c.y) * (d22 / d33_d22);
-    c.y = c.y / d22 - l32 * c.z;
-    c.x = 1.0 - c.y * b.x - c.z * b.y;
-    float scale = abs(c.z) > LEAST ? c.z : LEAST, p = 0.5 * c.y / scale;
-    float root = sqrt(max(p * p - c.x / scale, 0.0));
-    vec2 z = vec2(-p - root, -p + root);
-    // Weights of the places before `depth`, by what a polynomial through the three places has to be.
-    float before = 0.0;
-    if (z.y < depth)
-        before = 1.0 - (z.x * z.y - b.x * (z.x + z.y) + b.y) / ((depth - z.x) * (depth - z.y));
-    else if (z.x < depth)
-        before = (depth * z.y - b.x * (depth + z.y) + b.y) / ((z.y - z.x) * (depth - z.x));
-    return shareOf(before);
+    return shareOf(threePlaces(moments * (1.0 - bias) + vec4(0.5 * bias), depth, 1e-9).before);
 }
 
 // Of a receiver at `depth` as in the map, by what feature_shadows stores.

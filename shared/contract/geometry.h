@@ -2,6 +2,7 @@
 #ifndef DIPTYCH_CONTRACT_GEOMETRY_H
 #define DIPTYCH_CONTRACT_GEOMETRY_H
 
+#include "transparency.h"
 #include "types.h"
 
 CONTRACT_BEGIN
@@ -33,6 +34,10 @@ struct DrawConstants {
     uint light_first;
     uint light_end;
     uint surface;  // SURFACE_*, with FEATURE_encoded_surface
+    // Of blended draws: the number of the draw's first triangle among those of all blended surfaces, in the
+    // scene's order.
+    uint triangle;
+    BlendedConstants blended;
 };
 
 CONTRACT_END

@@ -185,15 +185,19 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
                       const View& view, Transparency transparency) {
     DrawList list;
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
+    std::uint32_t blendedTriangles = 0;
     for (const Instance& instance : pose.instances) {
         const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
         if (range.index_count == 0) continue;
+        const std::uint32_t triangle = blendedTriangles;
+        if (materials.blends(range.material)) blendedTriangles += range.index_count / 3;
         const glm::dmat4 fromCamera = fromEye(instance, view.eye());
         if (ClipSides(clipFromWorld * fromCamera, range).exclude({range.bounds_min, range.bounds_max})) {
             ++list.culled;
             continue;
         }
         DrawItem item = itemOf(instance, range, materials);
+        item.triangle = triangle;
         item.depths = viewDepths(fromCamera, -view.backward(), range);
         list.triangles += range.index_count / 3;
         const ObjectBox box(range.bounds_min, range.bounds_max);

@@ -45,6 +45,8 @@ struct DrawItem {
     int distance = 0;  // of the farthest corner: only its order counts
     ViewDepths depths;
     double depth = 0;  // of its box's centre
+    // Of blended draws: of the range's first triangle among those of all blended surfaces of the scene.
+    std::uint32_t triangle = 0;
 };
 
 struct DrawList {

@@ -52,8 +52,14 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
     return variant;
 }
 
-DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images) {
+DescriptorSets blendedSet(const FrameInputs& inputs) {
     DescriptorSets sets(inputs.device, inputs.layouts.gbuffer, gbufferBindings(), 1);
+    inputs.placeholders.bindGBuffer(sets, inputs.layouts);
+    return sets;
+}
+
+DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images) {
+    DescriptorSets sets = blendedSet(inputs);
     for (std::uint32_t i = 0; i < images.gbuffer.size(); ++i) {
         // A missing attachment is never read; albedo, of the same kind, keeps its binding valid, and in
         // forward+, whose shaders declare none of them, any image does.

@@ -12,7 +12,9 @@
 
 namespace diptych {
 
-class ShadowMaps;  // shared/shadow: what follows is handed on to the paths
+// Of rooms above this one, handed on to the paths.
+class ShadowMaps;
+class FragmentLists;
 
 // One view of a scene under one Settings. What is referred to outlives it.
 struct FrameInputs {
@@ -30,6 +32,9 @@ struct FrameInputs {
     Variant variant;  // of the scene and the view: light kinds, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
     ShadowMaps& shadow;
+    Transparency transparency = Transparency::sorted;
+    gpu::BlendedConstants blended{};           // of all passes of blended surfaces
+    const FragmentLists* fragments = nullptr;  // Transparency::list
     gpu::uint longest_list = 0;  // packets of the longest light list that a pixel may walk
     bool prepass = true;         // forward+ draws depth first; prepareForwardPlus() decides
 };
@@ -42,6 +47,9 @@ struct FrameImages {
 
 // SET_GBUFFER of what `images` has. Made when they have memory, once a pass is prepared at the latest.
 DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images);
+
+// SET_GBUFFER of black texels and an empty buffer, for TRANSPARENCY_BINDINGS to be written to.
+DescriptorSets blendedSet(const FrameInputs& inputs);
 
 // Of local lights those that a pixel evaluates, about, and the directional ones.
 double lightsAtPixel(const FrameInputs& inputs);

@@ -4,6 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/transparency.h"
 
 #include <array>
 #include <cstddef>
@@ -16,7 +17,8 @@ namespace {
 constexpr auto frameTypes = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
 constexpr auto partialSumTypes = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
 constexpr auto gbufferTypes = bindingTypes(
-    {GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image}});
+    {GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
+     TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 }  // namespace
 
@@ -58,9 +60,19 @@ Placeholders::Placeholders(Device& device, Uploader& uploader, const Layouts& la
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     uploader.flush();
     texels_view_ = makeTexelView(device, "black texels", texels_, VK_FORMAT_R32G32B32A32_SFLOAT);
-    for (DescriptorSets* const sets : {&partial_sums_, &gbuffer_})
-        for (gpu::uint i = 0; i < sets->bindings(); ++i)
-            sets->image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    for (gpu::uint i = 0; i < partial_sums_.bindings(); ++i)
+        partial_sums_.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    storage_ = GpuBuffer(device, "no fragments", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    bindGBuffer(gbuffer_, layouts);
+}
+
+void Placeholders::bindGBuffer(DescriptorSets& gbuffer, const Layouts& layouts) const {
+    for (gpu::uint i = 0; i < gbuffer.bindings(); ++i) {
+        if (gbufferTypes[i] == binding_kind::storage_buffer)
+            gbuffer.buffer(0, i, storage_.handle());
+        else
+            gbuffer.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
 }
 
 void Placeholders::bindFrame(DescriptorSets& frame) const {

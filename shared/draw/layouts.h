@@ -40,10 +40,12 @@ public:
     // Writes the bindings of SET_FRAME that only some scenes and Settings fill: shadows, an environment,
     // haze.
     void bindFrame(DescriptorSets& frame) const;
+    // Writes all bindings of a SET_GBUFFER.
+    void bindGBuffer(DescriptorSets& gbuffer, const Layouts& layouts) const;
 
 private:
     GpuImage image_, array_;
-    GpuBuffer texels_;
+    GpuBuffer texels_, storage_;
     OwnedBufferView texels_view_;
     OwnedSampler nearest_;
     DescriptorSets partial_sums_, gbuffer_;

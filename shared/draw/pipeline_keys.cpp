@@ -55,6 +55,18 @@ PipelineKey blendedKey(const FrameInputs& inputs, const DrawItem& item) {
     return key;
 }
 
+PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader fragment) {
+    PipelineKey key{.vertex = Shader::surface_vert,
+                    .fragment = fragment,
+                    .variant = item.variant.only(featuresReadBy(gpu::PASS_DEPTH)),
+                    .input = VERTEX_ALL,
+                    .depth = depthFormat,
+                    .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
+                    .depth_write = false};
+    key.variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic));
+    return key;
+}
+
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch) {
     PipelineKey key = forwardKey(inputs, item, batch);
     key.fragment = Shader::forward_light_batch_frag;

@@ -17,6 +17,8 @@ PipelineKey forwardKey(const FrameInputs& inputs, const DrawItem& item, const Li
 
 // The same blended over what `lit` holds.
 PipelineKey blendedKey(const FrameInputs& inputs, const DrawItem& item);
+// Of a blended surface its opacity and its depth alone, tested and not written.
+PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader fragment);
 
 // The same for a batch of lights that is not the last: to the two partial sums.
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch);

@@ -75,12 +75,17 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
         // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
         vkCmdSetFrontFace(commands,
                           item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        push(commands, inputs, constantsOf(item));
+        const gpu::DrawConstants constants = constantsOf(item);
         const IndexRun whole{item.range.first_index, item.range.index_count};
         const std::span<const IndexRun> runs =
             item.runs == 0 ? std::span(&whole, 1) : source.runs.subspan(item.first_run, item.runs);
-        for (const IndexRun& run : runs)
+        for (const IndexRun& run : runs) {
+            // A run's first triangle, as gl_PrimitiveID begins at 0 in each.
+            gpu::DrawConstants ofRun = constants;
+            ofRun.triangle += (run.first - item.range.first_index) / 3;
+            if (&run == runs.data() || ofRun.triangle != constants.triangle) push(commands, inputs, ofRun);
             vkCmdDrawIndexed(commands, run.count, 1, run.first, item.range.vertex_offset, item.draw);
+        }
         last = &item;
         lastPipeline = pipelines[i];
     }
@@ -97,18 +102,21 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
         bindFrame(commands, inputs, batch, gbuffer.get());
         recordItems(commands, inputs, {inputs.draws.solids(), inputs.draws.runs, inputs.draw_buffer, true},
                     pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material, batch.first, batch.end, surface};
+                        return {item.draw, item.range.material, batch.first, batch.end, surface, 0, {}};
                     });
     };
 }
 
-std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf) {
-    return [&inputs,
+std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf,
+                                                   std::shared_ptr<const DescriptorSets> gbuffer,
+                                                   const gpu::BlendedConstants& constants) {
+    return [&inputs, constants, gbuffer = std::move(gbuffer),
             pipelines = pipelinesOf(inputs, inputs.draws.blended(), keyOf)](VkCommandBuffer commands) {
-        bindFrame(commands, inputs, {}, nullptr);
+        bindFrame(commands, inputs, {}, gbuffer.get());
         recordItems(commands, inputs, {inputs.draws.blended(), inputs.draws.runs, inputs.draw_buffer, true},
                     pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED};
+                        return {item.draw,       item.range.material, 0, 0, gpu::SURFACE_DECODED,
+                                item.triangle, constants};
                     });
     };
 }
@@ -120,7 +128,7 @@ std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, co
         bindFrame(commands, inputs, {}, nullptr);
         recordItems(commands, inputs, {draws.items, draws.runs, draw_buffer, false}, pipelines,
                     [](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED};
+                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED, 0, {}};
                     });
     };
 }
@@ -137,7 +145,17 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
     return [&inputs, pipeline, batch,
             sets = std::make_shared<const DescriptorSets>(std::move(gbuffer))](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, sets.get());
-        push(commands, inputs, {0, 0, batch.first, batch.end, gpu::SURFACE_DECODED});
+        push(commands, inputs, {0, 0, batch.first, batch.end, gpu::SURFACE_DECODED, 0, {}});
+        recordTriangle(commands, pipeline);
+    };
+}
+
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+                                                      std::shared_ptr<const DescriptorSets> gbuffer,
+                                                      const gpu::BlendedConstants& constants) {
+    return [&inputs, pipeline, constants, gbuffer = std::move(gbuffer)](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, {}, gbuffer.get());
+        push(commands, inputs, {0, 0, 0, 0, gpu::SURFACE_DECODED, 0, constants});
         recordTriangle(commands, pipeline);
     };
 }

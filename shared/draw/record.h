@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/contract/encoded_surface.h"
+#include "shared/contract/transparency.h"
 #include "shared/draw/light_batches.h"
 
 #include <functional>
@@ -19,8 +20,10 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
                                                  const LightBatch& batch = {},
                                                  std::shared_ptr<const DescriptorSets> gbuffer = {},
                                                  gpu::uint surface = gpu::SURFACE_DECODED);
-// The same of those that are blended.
-std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf);
+// The same of those that are blended. `gbuffer`: SET_GBUFFER of shaders that read TRANSPARENCY_BINDINGS.
+std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf,
+                                                   std::shared_ptr<const DescriptorSets> gbuffer = {},
+                                                   const gpu::BlendedConstants& constants = {});
 // The same of other draws than the picture's, depth alone: what casts shadows does with both of its sides.
 // `draw_buffer`: Draw[draws.draws]. `draws` must outlive what is returned.
 std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, const DrawList& draws,
@@ -31,6 +34,10 @@ void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
 // What records it with the sets of deferred lighting: frame, G-buffer, partial sums.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       DescriptorSets gbuffer, const LightBatch& batch);
+// The same of a shader that puts blended surfaces together.
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+                                                      std::shared_ptr<const DescriptorSets> gbuffer,
+                                                      const gpu::BlendedConstants& constants);
 // The same of a shader that reads the frame's set alone.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline);
 

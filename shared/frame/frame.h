@@ -42,11 +42,17 @@ struct ShadowPages {
     std::uint64_t drawn = 0;      // before the first frame; the others were there already
 };
 
+// Fragments of blended surfaces that --transparency list put in no order, and the pixels that have some.
+struct UnsortedFragments {
+    std::uint64_t fragments = 0, pixels = 0;
+};
+
 struct FrameCounters {
     std::uint64_t nonfinite_pixels = 0;  // in lit
     std::uint64_t overflowed_lists = 0;
     std::uint64_t lights = 0;  // every light, the sun too
     ShadowPages shadow_pages;
+    UnsortedFragments unsorted;
     // Where the lit of the capture differs from that of the timed pipeline.
     std::uint64_t unreproduced_pixels = 0;
     double energy_cut =

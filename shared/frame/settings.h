@@ -60,6 +60,7 @@ struct Settings {
     float evsm_min_variance = 1e-8f;
     int msaa = 1;
     Transparency transparency = Transparency::sorted;
+    int transparency_layers = 8;
     bool haze = false;
     float haze_density = 1.0f;
     Rgb haze_rayleigh{5.8e-6f, 13.5e-6f, 33.1e-6f};  // 1/m at height 0
@@ -549,6 +550,19 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all",
                 .for_surfaces = "sorted"},
           &Settings::transparency);
+    visit(Field{.option = "transparency-layers",
+                .help = "fragments of a pixel that --transparency list puts in order; the rest is blended as "
+                        "one layer behind them",
+                .valid = {"is 1 to 256",
+                          [](const Settings& s) {
+                              return s.transparency_layers >= 1 && s.transparency_layers <= 256;
+                          }},
+                .default_only = {"needs --transparency list",
+                                 [](const Settings& s) { return s.transparency == Transparency::list; }},
+                .ignored = {.reference = "the reference blends by depth"},
+                .sweep = "4,8,16",
+                .sweep_with = "transparency"},
+          &Settings::transparency_layers);
     visit(Field{.option = "haze",
                 .help = "aerial perspective: air that scatters the brightest sun's light and ambient light",
                 .off = "off",

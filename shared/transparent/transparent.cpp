@@ -3,21 +3,183 @@
 
 #include "shared/contract/debug_mode.h"
 #include "shared/draw/pipeline_keys.h"
+#include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 #include "shared/shadow/shadow_maps.h"
+#include "shared/transparent/fragment_lists.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace diptych {
 
-void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {
-    if (inputs.draws.blended().empty()) return;
-    Pass& pass = passes.draw("transparent").color(lit, Load::keep).depthTest(depth);
+namespace {
+
+constexpr VkFormat depthsFormat = VK_FORMAT_R32_SFLOAT, sumsFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr const char* name = "transparent";  // of every pass: their times are one
+
+// What the shading of blended surfaces reads, whatever it draws to.
+Pass& shades(Pass& pass, PassList& passes, const FrameInputs& inputs) {
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
-    pass.takes(shadingMs(passes, inputs, {}));
-    pass.record(recordBlended(inputs, [&](const DrawItem& item) { return blendedKey(inputs, item); }));
+    return pass.takes(shadingMs(passes, inputs, {}));
+}
+
+PipelineKey composeKey(Shader fragment) {
+    return {.vertex = Shader::full_screen_vert,
+            .fragment = fragment,
+            .variant = {},
+            .input = NO_VERTICES,
+            .colors = {litFormat},
+            .blends = {Blend::through}};
+}
+
+ImageRef addImage(PassList& passes, const char* image, VkFormat format) {
+    return passes.image({.name = image, .format = format, .life = Life::transient});
+}
+
+// What earlier passes of the same picture have left, which the pass's fragment shaders read.
+struct ReadImage {
+    gpu::uint binding;
+    ImageRef image;
+};
+std::shared_ptr<const DescriptorSets> reads(Pass& pass, PassList& passes, const FrameInputs& inputs,
+                                            const std::vector<ReadImage>& images) {
+    auto sets = std::make_shared<DescriptorSets>(blendedSet(inputs));
+    for (const ReadImage& read : images) pass.samples(read.image, inFragment);
+    pass.prepare([&passes, images, sets, sampler = inputs.layouts.nearest.get()] {
+        for (const auto& [binding, image] : images)
+            sets->image(0, binding, passes.view(image), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    });
+    return sets;
+}
+
+void addOver(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {
+    shades(passes.draw(name).color(lit, Load::keep).depthTest(depth), passes, inputs)
+        .record(recordBlended(inputs, [&](const DrawItem& item) { return blendedKey(inputs, item); }));
+}
+
+// Sums of all layers, then their mean over the picture. With `moments` the sums are weighted by moments that
+// a pass before has drawn.
+void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit, bool moments) {
+    const ImageRef depths = addImage(passes, "optical depth", depthsFormat);
+    ImageRef powers{};
+    if (moments) {
+        powers = addImage(passes, "moments of optical depth", sumsFormat);
+        passes.draw(name)
+            .color(depths, Load::clear)
+            .color(powers, Load::clear)
+            .depthTest(depth)
+            .record(recordBlended(
+                inputs,
+                [&](const DrawItem& item) {
+                    PipelineKey key = opacityKey(inputs, item, Shader::transparency_moments_frag);
+                    key.colors = {depthsFormat, sumsFormat};
+                    key.blends = {Blend::add, Blend::add};
+                    return key;
+                },
+                {}, inputs.blended));
+    }
+    const ImageRef sums = addImage(passes, "sums of blended surfaces", sumsFormat);
+    Pass& shade = passes.draw(name).color(sums, Load::clear);
+    std::shared_ptr<const DescriptorSets> read;
+    if (moments)
+        read = reads(shade, passes, inputs,
+                     {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_MOMENTS, powers}});
+    else
+        shade.color(depths, Load::clear);
+    shades(shade.depthTest(depth), passes, inputs)
+        .record(recordBlended(
+            inputs,
+            [&](const DrawItem& item) {
+                PipelineKey key = blendedKey(inputs, item);
+                key.fragment =
+                    moments ? Shader::forward_blended_moments_frag : Shader::forward_blended_weighted_frag;
+                key.colors = {sumsFormat};
+                key.blends = {Blend::add};
+                if (!moments) {
+                    key.colors.push_back(depthsFormat);
+                    key.blends.push_back(Blend::add);
+                }
+                return key;
+            },
+            std::move(read), inputs.blended));
+    Pass& compose = passes.draw(name).color(lit, Load::keep);
+    compose.record(recordFullScreen(
+        inputs, inputs.pipelines.get(composeKey(Shader::compose_sums_frag)),
+        reads(compose, passes, inputs,
+              {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_SUMS, sums}}),
+        inputs.blended));
+}
+
+// The nearest fragments of each pixel, found by their depths, then shaded, then put together: a part of the
+// picture's rows at a time.
+void addLists(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {
+    const FragmentLists& lists = *inputs.fragments;
+    const auto bound = std::make_shared<DescriptorSets>(blendedSet(inputs));
+    lists.bind(*bound);
+    gpu::BlendedConstants constants = inputs.blended;
+    constants.layers = lists.layers();
+    constants.width = passes.width();
+    constants.rows = lists.rows();
+    for (; constants.first_row < passes.height(); constants.first_row += constants.rows) {
+        lists.addClear(passes, constants.first_row == 0);
+        Pass& keys = passes.draw(name).depthTest(depth);
+        lists.use(passes, keys);
+        keys.record(recordBlended(
+            inputs,
+            [&](const DrawItem& item) { return opacityKey(inputs, item, Shader::transparency_keys_frag); },
+            bound, constants));
+        Pass& shade = passes.draw(name).depthTest(depth);
+        lists.use(passes, shade);
+        shades(shade, passes, inputs)
+            .record(recordBlended(
+                inputs,
+                [&](const DrawItem& item) {
+                    PipelineKey key = blendedKey(inputs, item);
+                    key.fragment = Shader::forward_blended_list_frag;
+                    key.colors = {};
+                    key.blends = {};
+                    return key;
+                },
+                bound, constants));
+        Pass& compose = passes.draw(name).color(lit, Load::keep);
+        lists.use(passes, compose);
+        compose.record(recordFullScreen(
+            inputs, inputs.pipelines.get(composeKey(Shader::compose_list_frag)), bound, constants));
+    }
+}
+
+}  // namespace
+
+gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
+    ViewDepths range{std::numeric_limits<double>::infinity(), 0};
+    for (const DrawItem& item : draws.blended())
+        range = {std::min(range.nearest, item.depths.nearest), std::max(range.farthest, item.depths.farthest)};
+    gpu::BlendedConstants constants{};
+    constants.nearest = static_cast<float>(std::max(range.nearest, view.camera.near));
+    constants.farthest = static_cast<float>(std::max(range.farthest, view.camera.near));
+    if (draws.blended().empty()) constants.nearest = constants.farthest = 1;
+    return constants;
+}
+
+void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {
+    if (inputs.draws.blended().empty()) return;
+    switch (inputs.transparency) {
+        case Transparency::sorted:
+        case Transparency::unsorted:
+            return addOver(passes, inputs, depth, lit);
+        case Transparency::weighted:
+            return addSums(passes, inputs, depth, lit, false);
+        case Transparency::moments:
+            return addSums(passes, inputs, depth, lit, true);
+        case Transparency::list:
+            return addLists(passes, inputs, depth, lit);
+    }
 }
 
 void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef depth,

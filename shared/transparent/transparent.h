@@ -9,6 +9,10 @@
 
 namespace diptych {
 
+// Distances between which the view's blended surfaces lie, m, none nearer than its near plane; both 1 where
+// there are none.
+gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view);
+
 // Blends the view's blended draws over `lit`, which holds the opaque surfaces and the background, where
 // nothing opaque is in front of them: `depth`, which stays as it is. Adds no pass where there are none.
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit);

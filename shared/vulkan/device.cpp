@@ -228,6 +228,9 @@ bool Device::countsFragments() const {
     vkGetPhysicalDeviceFeatures(state_->physical, &features);
     return features.occlusionQueryPrecise == VK_TRUE;
 }
+bool Device::sortsFragments() const {
+    return diptych::sortsFragments(state_->physical);
+}
 const DeviceProfile& Device::profile() const {
     return state_->profile;
 }

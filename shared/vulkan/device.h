@@ -52,6 +52,8 @@ public:
     Memory& memory();
     VkPipelineCache pipelineCache() const;  // for everything that makes pipelines, from any thread
     bool countsFragments() const;           // occlusion queries are exact
+    // Fragment shaders have 64-bit atomics on buffers and the number of their triangle.
+    bool sortsFragments() const;
     const DeviceProfile& profile() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 

@@ -6,6 +6,7 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
+#include "shared/contract/transparency.h"
 #include "shared/vulkan/binding_table.h"
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/driver_files.h"
@@ -85,17 +86,18 @@ bool reducesSubgroups(VkPhysicalDevice device) {
 constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kinds) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto sums = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-    constexpr auto gbuffer = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)});
+    constexpr auto gbuffer = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{
+        gpu::BINDING_DEPTH, "DEPTH", binding_kind::image}, TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto lists = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
     const auto count = [&](std::span<const VkDescriptorType> types) {
         std::uint32_t found = 0;
         for (const VkDescriptorType type : types) found += std::ranges::find(kinds, type) != kinds.end();
         return found;
     };
-    // A material's textures and the depth beside the G-buffer stand in no table.
+    // A material's textures stand in no table.
     const bool images = std::ranges::find(kinds, binding_kind::image) != kinds.end();
     const std::uint32_t drawing =
-        count(frame) + count(gbuffer) + count(sums) + (images ? gpu::SLOT_COUNT + 1 : 0);
+        count(frame) + count(gbuffer) + count(sums) + (images ? gpu::SLOT_COUNT : 0);
     return std::max(drawing, count(frame) + count(lists));
 }
 
@@ -144,6 +146,8 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     note("blending by attachment", f.v10.features.independentBlend == VK_TRUE);
     note("indirect draws of later instances", f.v10.features.drawIndirectFirstInstance == VK_TRUE);
     note("stores in fragment shaders", f.v10.features.fragmentStoresAndAtomics == VK_TRUE);
+    note("64-bit atomics in fragment shaders",
+         properties.apiVersion >= VK_API_VERSION_1_3 && sortsFragments(device));
     note("4 samples a pixel",
          (l.framebufferColorSampleCounts & l.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0);
     note(
@@ -251,6 +255,14 @@ bool knowsMemoryBudget(VkPhysicalDevice device) {
     });
 }
 
+bool sortsFragments(VkPhysicalDevice device) {
+    Features f;
+    vkGetPhysicalDeviceFeatures2(device, &f.v10);
+    const VkPhysicalDeviceFeatures& core = f.v10.features;
+    return core.fragmentStoresAndAtomics == VK_TRUE && core.shaderInt64 == VK_TRUE &&
+           core.geometryShader == VK_TRUE && f.v12.shaderBufferInt64Atomics == VK_TRUE;
+}
+
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
@@ -266,6 +278,11 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v10.features.independentBlend = there.independentBlend;
     wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;
     wanted.v10.features.fragmentStoresAndAtomics = there.fragmentStoresAndAtomics;
+    if (sortsFragments(physical)) {
+        wanted.v10.features.shaderInt64 = VK_TRUE;
+        wanted.v10.features.geometryShader = VK_TRUE;  // gl_PrimitiveID in fragment shaders
+        wanted.v12.shaderBufferInt64Atomics = VK_TRUE;
+    }
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .pNext = nullptr,

@@ -25,6 +25,9 @@ std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string
 
 bool knowsMemoryBudget(VkPhysicalDevice device);  // VK_EXT_memory_budget
 
+// Fragment shaders may use 64-bit atomics on buffers and the number of their triangle.
+bool sortsFragments(VkPhysicalDevice device);
+
 // With exactly the features that we use, and what the device has of those that are of help.
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family);
 

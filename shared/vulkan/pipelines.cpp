@@ -20,16 +20,32 @@ struct Specialization {
 };
 
 VkPipelineColorBlendAttachmentState blendState(Blend blend) {
+    struct Factors {
+        VkBlendFactor source, there, source_alpha, alpha_there;
+    };
+    constexpr VkBlendFactor one = VK_BLEND_FACTOR_ONE, zero = VK_BLEND_FACTOR_ZERO;
+    const auto factors = [&]() -> Factors {
+        switch (blend) {
+            case Blend::none:
+                break;
+            case Blend::add:
+                return {one, one, one, one};
+            case Blend::over:
+                return {one, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, one, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA};
+            case Blend::multiply:
+                return {zero, VK_BLEND_FACTOR_SRC_COLOR, zero, VK_BLEND_FACTOR_SRC_ALPHA};
+            case Blend::through:
+                return {one, VK_BLEND_FACTOR_SRC_ALPHA, zero, one};
+        }
+        return {one, zero, one, zero};
+    }();
     VkPipelineColorBlendAttachmentState state{};
     state.colorWriteMask = 0xf;
     state.blendEnable = blend != Blend::none;
-    state.srcColorBlendFactor = blend == Blend::multiply ? VK_BLEND_FACTOR_ZERO : VK_BLEND_FACTOR_ONE;
-    state.dstColorBlendFactor = blend == Blend::add    ? VK_BLEND_FACTOR_ONE
-                                : blend == Blend::over ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA
-                                                       : VK_BLEND_FACTOR_SRC_COLOR;
-    state.srcAlphaBlendFactor = state.srcColorBlendFactor;
-    state.dstAlphaBlendFactor =
-        blend == Blend::multiply ? VK_BLEND_FACTOR_SRC_ALPHA : state.dstColorBlendFactor;
+    state.srcColorBlendFactor = factors.source;
+    state.dstColorBlendFactor = factors.there;
+    state.srcAlphaBlendFactor = factors.source_alpha;
+    state.dstAlphaBlendFactor = factors.alpha_there;
     return state;
 }
 

@@ -23,6 +23,7 @@ enum class Blend : std::uint8_t {
     add,       // s + d
     over,      // s + (1 - s.a) d: s is premultiplied
     multiply,  // s d
+    through,   // s + s.a d: s.a is what comes through s; alpha stays d.a
 };
 
 // Added to the depth of every fragment: `constant` units of the depth format's least step at that depth, and

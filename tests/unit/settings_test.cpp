@@ -63,7 +63,8 @@ Settings everythingChanged() {
     s.evsm_bleed = 0.2f;
     s.evsm_min_variance = 1e-6f;
     s.msaa = 4;
-    s.transparency = Transparency::unsorted;
+    s.transparency = Transparency::list;
+    s.transparency_layers = 12;
     s.haze = true;
     s.haze_density = 3.5f;
     s.haze_rayleigh = {1e-7f, 0.25f, 3e5f};

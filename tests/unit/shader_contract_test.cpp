@@ -59,6 +59,8 @@ constexpr ModuleKind moduleKinds[] = {
     {"forward_", gpu::PASS_FORWARD},
     {"gbuffer.frag", gpu::PASS_GBUFFER},
     {"background.frag", gpu::PASS_BACKGROUND},
+    {"transparency_", gpu::PASS_FORWARD},
+    {"compose_", gpu::PASS_FORWARD},
     {"deferred_", gpu::PASS_LIGHTING},
     {"light_", gpu::PASS_LISTS},
     {"shadow_", gpu::PASS_SHADOWS},
@@ -208,6 +210,7 @@ std::vector<Declared> bindingTables() {
         const auto table = add(gpu::SET_GBUFFER, false);
         GBUFFER_BINDINGS(ROW)
         table("DEPTH", gpu::BINDING_DEPTH, Kind::image);
+        TRANSPARENCY_BINDINGS(ROW)
     }
     {
         const auto table = add(gpu::SET_LISTS, true);
@@ -254,7 +257,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 21u + 2 + 8 + 13 + 9);
+    EXPECT_EQ(bindingTables().size(), 21u + 2 + 8 + 5 + 13 + 9);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The mean radiance of a pixel's layers in front of what is there: radiance, and the share of what is behind
+// that comes through.
+#include "shaders/lib/contract.glsl"
+
+layout(set = SET_GBUFFER, binding = BINDING_BLENDED_DEPTHS) uniform sampler2D blended_depths;
+layout(set = SET_GBUFFER, binding = BINDING_BLENDED_SUMS) uniform sampler2D blended_sums;
+
+layout(location = 0) out vec4 out_lit;
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    vec4 sums = texelFetch(blended_sums, p, 0);
+    float transmittance = exp(-texelFetch(blended_depths, p, 0).r);
+    if (!(sums.a > 0.0)) discard;
+    out_lit = vec4(sums.rgb * ((1.0 - transmittance) / sums.a), transmittance);
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// INPUTS: 0 to 3
+
+// To the place of its pixel's list that its key has found.
+#include "shaders/lib/shade.glsl"
+#include "shaders/lib/blended.glsl"
+#include "shaders/lib/fragment_list.glsl"
+#include "shaders/lib/optical_depth.glsl"
+
+layout(early_fragment_tests) in;
+
+void main() {
+    uvec2 p = uvec2(gl_FragCoord.xy);
+    BlendedFragment f = blendedFragment();
+    if (!isListed(p) || f.opacity == 0.0) return;
+    uint pixel = listedPixel(p);
+    uint place = placeOf(pixel, fragmentKey(gl_FragCoord.z, constants.triangle + uint(gl_PrimitiveID)));
+    if (place < list_of.layers) {
+        fragments[place * listedPixels() + pixel] = vec4(f.radiance, f.opacity);
+        return;
+    }
+    addToSum(pixel, 0, f.radiance.r);
+    addToSum(pixel, 1, f.radiance.g);
+    addToSum(pixel, 2, f.radiance.b);
+    addToSum(pixel, 3, f.opacity);
+    addToSum(pixel, 4, opticalDepth(f.opacity, MOST_OPTICAL_DEPTH));
+    atomicAdd(fragment_keys[counter(0)], uint64_t(1));
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// INPUTS: 0 to 3
+
+// Sums of radiance and opacity, each layer weighted by what the layers before it let through.
+#include "shaders/lib/shade.glsl"
+#include "shaders/lib/blended.glsl"
+#include "shaders/lib/transparency_moments.glsl"
+
+layout(location = 0) out vec4 out_sums;
+
+void main() {
+    BlendedFragment f = blendedFragment();
+    float weight = transmittanceBefore(ivec2(gl_FragCoord.xy), gl_FragCoord.z);
+    out_sums = vec4(f.radiance, f.opacity) * weight;
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// INPUTS: 0 to 3
+
+// Which fragments of each pixel are its nearest ones.
+#include "shaders/lib/fragment_list.glsl"
+#include "shaders/lib/opacity.glsl"
+
+layout(early_fragment_tests) in;
+
+void main() {
+    uvec2 p = uvec2(gl_FragCoord.xy);
+    // What lets all through takes no room.
+    if (opacityOf(baseColor()) == 0.0 || !isListed(p)) return;
+    insertKey(listedPixel(p), fragmentKey(gl_FragCoord.z, constants.triangle + uint(gl_PrimitiveID)));
+}

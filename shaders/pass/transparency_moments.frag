@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// INPUTS: 0 to 3
+
+// Sums of optical depth, and of it times powers of depth.
+#include "shaders/lib/opacity.glsl"
+#include "shaders/lib/transparency_moments.glsl"
+
+layout(location = 0) out float out_optical_depth;
+layout(location = 1) out vec4 out_moments;
+
+void main() {
+    float optical_depth = opticalDepth(opacityOf(baseColor()), MOST_OPTICAL_DEPTH_OF_MOMENTS);
+    out_optical_depth = optical_depth;
+    out_moments = powersOf(momentDepth(gl_FragCoord.z)) * optical_depth;
+}
