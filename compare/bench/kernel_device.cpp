@@ -105,8 +105,12 @@ private:
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
         vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
         const gpu::DrawConstants constants{static_cast<gpu::uint>(workload_.tilesAcross()),
-                                           static_cast<gpu::uint>(workload_.list_capacity / 4), 0,
-                                           static_cast<gpu::uint>(length_ / 4), 0, 0, {}};
+                                           static_cast<gpu::uint>(workload_.list_capacity / 4),
+                                           0,
+                                           static_cast<gpu::uint>(length_ / 4),
+                                           0,
+                                           0,
+                                           {}};
         vkCmdPushConstants(commands, layouts_.pipeline,
                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                            &constants);

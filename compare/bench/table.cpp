@@ -54,9 +54,10 @@ std::string benchEnd(const Bench& bench) {
                                row.counters.nonfinite_pixels);
     for (const BenchRow& row : bench.rows)
         if (row.counters.unsorted.fragments > 0)
-            out += fmt::format("{}, {} lights: {} blended fragments of {} pixels found no room in their list\n",
-                               modeName(row.settings.path, row.settings.assign), row.counters.lights,
-                               row.counters.unsorted.fragments, row.counters.unsorted.pixels);
+            out +=
+                fmt::format("{}, {} lights: {} blended fragments of {} pixels found no room in their list\n",
+                            modeName(row.settings.path, row.settings.assign), row.counters.lights,
+                            row.counters.unsorted.fragments, row.counters.unsorted.pixels);
     if (bench.kernels) out += kernelTable(*bench.kernels);
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";

@@ -192,8 +192,8 @@ FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared)
     return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
                 prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
-                prepared.view.shadow.bytes() + prepared.view.environment.bytes() + prepared.view.haze.bytes() +
-                prepared.view.fragments.bytes(),
+                prepared.view.shadow.bytes() + prepared.view.environment.bytes() +
+                prepared.view.haze.bytes() + prepared.view.fragments.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};
 }
 

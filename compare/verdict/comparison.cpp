@@ -50,11 +50,11 @@ void readCounters(const Frame& frame, Comparison& comparison) {
             frame.name, counters.shadow_pages.fallback, counters.shadow_pages.requested,
             frame.settings.clipmap_pages));
     if (counters.unsorted.fragments > 0)
-        comparison.notes.push_back(
-            fmt::format("{}: {} blended fragment(s) of {} pixel(s) found no room in --transparency-layers {}: "
-                        "their mean is blended as one layer behind the others",
-                        frame.name, counters.unsorted.fragments, counters.unsorted.pixels,
-                        frame.settings.transparency_layers));
+        comparison.notes.push_back(fmt::format(
+            "{}: {} blended fragment(s) of {} pixel(s) found no room in --transparency-layers {}: "
+            "their mean is blended as one layer behind the others",
+            frame.name, counters.unsorted.fragments, counters.unsorted.pixels,
+            frame.settings.transparency_layers));
     if (counters.energy_cut > 0)
         comparison.notes.push_back(
             fmt::format("{}: --light-cutoff {} takes away {:.3g} % of the flux that lights without a range "

@@ -28,7 +28,9 @@ BlendedConstants list_of = constants.blended;
 uint listedPixels() { return list_of.width * list_of.rows; }
 
 // Whether the buffers hold the pixel.
-bool isListed(uvec2 pixel) { return pixel.y >= list_of.first_row && pixel.y - list_of.first_row < list_of.rows; }
+bool isListed(uvec2 pixel) {
+    return pixel.y >= list_of.first_row && pixel.y - list_of.first_row < list_of.rows;
+}
 
 uint listedPixel(uvec2 pixel) { return (pixel.y - list_of.first_row) * list_of.width + pixel.x; }
 

@@ -10,7 +10,8 @@ layout(location = 0) out vec4 out_lit;
 
 void main() {
     uvec2 p = uvec2(gl_FragCoord.xy);
-    if (!isListed(p)) discard;
+    out_lit = vec4(vec3(0.0), 1.0);  // of a pixel without fragments
+    if (!isListed(p)) return;
     uint pixel = listedPixel(p), layer = 0;
     vec3 radiance = vec3(0.0);
     float transmittance = 1.0;
@@ -20,7 +21,6 @@ void main() {
         transmittance *= 1.0 - f.a;
         ++layer;
     }
-    if (layer == 0) discard;
     float opacity = layer == list_of.layers ? sumAt(pixel, 3) : 0.0;
     if (opacity > 0.0) {
         float through = exp(-sumAt(pixel, 4));

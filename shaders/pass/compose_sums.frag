@@ -15,6 +15,6 @@ void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     vec4 sums = texelFetch(blended_sums, p, 0);
     float transmittance = exp(-texelFetch(blended_depths, p, 0).r);
-    if (!(sums.a > 0.0)) discard;
-    out_lit = vec4(sums.rgb * ((1.0 - transmittance) / sums.a), transmittance);
+    out_lit = vec4(vec3(0.0), 1.0);  // of a pixel without layers
+    if (sums.a > 0.0) out_lit = vec4(sums.rgb * ((1.0 - transmittance) / sums.a), transmittance);
 }

@@ -35,8 +35,8 @@ struct FrameInputs {
     Transparency transparency = Transparency::sorted;
     gpu::BlendedConstants blended{};           // of all passes of blended surfaces
     const FragmentLists* fragments = nullptr;  // Transparency::list
-    gpu::uint longest_list = 0;  // packets of the longest light list that a pixel may walk
-    bool prepass = true;         // forward+ draws depth first; prepareForwardPlus() decides
+    gpu::uint longest_list = 0;                // packets of the longest light list that a pixel may walk
+    bool prepass = true;                       // forward+ draws depth first; prepareForwardPlus() decides
 };
 
 struct FrameImages {

@@ -16,9 +16,9 @@ namespace {
 
 constexpr auto frameTypes = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
 constexpr auto partialSumTypes = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-constexpr auto gbufferTypes = bindingTypes(
-    {GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
-     TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
+constexpr auto gbufferTypes = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
+                                                BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
+                                            TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 }  // namespace
 

@@ -115,8 +115,8 @@ std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, co
         bindFrame(commands, inputs, {}, gbuffer.get());
         recordItems(commands, inputs, {inputs.draws.blended(), inputs.draws.runs, inputs.draw_buffer, true},
                     pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw,       item.range.material, 0, 0, gpu::SURFACE_DECODED,
-                                item.triangle, constants};
+                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED, item.triangle,
+                                constants};
                     });
     };
 }

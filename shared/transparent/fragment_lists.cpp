@@ -14,8 +14,8 @@ namespace diptych {
 
 namespace {
 
-constexpr VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags storage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
 std::uint64_t keyBytes(std::uint64_t pixels, std::uint32_t layers) {
     return (pixels * (layers + gpu::FRAGMENT_SUMS) + gpu::FRAGMENT_COUNTERS) * sizeof(std::uint64_t);
@@ -46,10 +46,10 @@ FragmentLists::FragmentLists(Device& device, const DrawList& draws, const Settin
     : device_(device) {
     if (settings.transparency != Transparency::list || draws.blended().empty()) return;
     if (!device.sortsFragments())
-        throw std::runtime_error(
-            fmt::format("--transparency list: {} lacks 64-bit atomics or stores in fragment shaders, or numbers "
-                        "of triangles there; use sorted, weighted or moments",
-                        device.info().name));
+        throw std::runtime_error(fmt::format(
+            "--transparency list: {} lacks 64-bit atomics or stores in fragment shaders, or numbers "
+            "of triangles there; use sorted, weighted or moments",
+            device.info().name));
     layers_ = static_cast<std::uint32_t>(settings.transparency_layers);
     width_ = static_cast<std::uint32_t>(settings.size.width);
     const auto height = static_cast<std::uint32_t>(settings.size.height);

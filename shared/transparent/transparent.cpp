@@ -109,11 +109,11 @@ void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageR
             },
             std::move(read), inputs.blended));
     Pass& compose = passes.draw(name).color(lit, Load::keep);
-    compose.record(recordFullScreen(
-        inputs, inputs.pipelines.get(composeKey(Shader::compose_sums_frag)),
-        reads(compose, passes, inputs,
-              {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_SUMS, sums}}),
-        inputs.blended));
+    compose.record(
+        recordFullScreen(inputs, inputs.pipelines.get(composeKey(Shader::compose_sums_frag)),
+                         reads(compose, passes, inputs,
+                               {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_SUMS, sums}}),
+                         inputs.blended));
 }
 
 // The nearest fragments of each pixel, found by their depths, then shaded, then put together: a part of the
@@ -149,8 +149,8 @@ void addLists(PassList& passes, const FrameInputs& inputs, ImageRef depth, Image
                 bound, constants));
         Pass& compose = passes.draw(name).color(lit, Load::keep);
         lists.use(passes, compose);
-        compose.record(recordFullScreen(
-            inputs, inputs.pipelines.get(composeKey(Shader::compose_list_frag)), bound, constants));
+        compose.record(recordFullScreen(inputs, inputs.pipelines.get(composeKey(Shader::compose_list_frag)),
+                                        bound, constants));
     }
 }
 
@@ -159,7 +159,8 @@ void addLists(PassList& passes, const FrameInputs& inputs, ImageRef depth, Image
 gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
     ViewDepths range{std::numeric_limits<double>::infinity(), 0};
     for (const DrawItem& item : draws.blended())
-        range = {std::min(range.nearest, item.depths.nearest), std::max(range.farthest, item.depths.farthest)};
+        range = {std::min(range.nearest, item.depths.nearest),
+                 std::max(range.farthest, item.depths.farthest)};
     gpu::BlendedConstants constants{};
     constants.nearest = static_cast<float>(std::max(range.nearest, view.camera.near));
     constants.farthest = static_cast<float>(std::max(range.farthest, view.camera.near));

@@ -86,8 +86,9 @@ bool reducesSubgroups(VkPhysicalDevice device) {
 constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kinds) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto sums = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-    constexpr auto gbuffer = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{
-        gpu::BINDING_DEPTH, "DEPTH", binding_kind::image}, TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
+    constexpr auto gbuffer = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
+                                               BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
+                                           TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto lists = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
     const auto count = [&](std::span<const VkDescriptorType> types) {
         std::uint32_t found = 0;

@@ -79,7 +79,9 @@ Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
     }
     PreparedFrames frames = renderer.prepare({&settings, 1});
     frames.draw(0);
-    EXPECT_EQ(frames.overflowedLists(0), 0u);
+    FrameCounters counters;
+    frames.readCounters(0, counters);
+    EXPECT_EQ(counters.overflowed_lists, 0u);
     return frames.lit(0);
 }
 

@@ -2,30 +2,14 @@
 // Optimisations that skip work on the device (uniforms gathered for each pixel, inputs that are not read,
 // normals of triangles) change no bit of the picture.
 #include "compare/render/frame_facts.h"
-#include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
+#include "tests/image/changed_view.h"
 #include "tests/image/scenes.h"
 
-#include <array>
 #include <functional>
 
 namespace diptych::tests {
 namespace {
-
-// lit, after `change` has modified the path's input.
-Image litWith(const Scene& scene, const Settings& settings,
-              const std::function<void(PreparedView&)>& change) {
-    SharedResources shared(device(), scene, pipelines());
-    const SceneView seen = makeSceneView(scene, viewRequest(settings));
-    PreparedView view(device(), shared, seen, settings);
-    change(view);
-    const PathFunctions& path = functionsOf(settings.path);
-    PassList passes(device(), static_cast<std::uint32_t>(settings.size.width),
-                    static_cast<std::uint32_t>(settings.size.height));
-    const FrameImages images = path.add(passes, view.inputs);
-    passes.run();
-    return readImages(passes, std::array{PassList::ReadBack{images.lit, 3}}).front();
-}
 
 Settings smallFrame(Path path) {
     Settings settings = smallPicture(GBufferEncoding::standard);

@@ -7,6 +7,7 @@
 #include "shared/contract/light.h"
 #include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
+#include "shared/contract/transparency.h"
 #include "shared/draw/packed_view.h"
 #include "shared/vulkan/spirv.h"
 #include "shared/vulkan/variant.h"
