@@ -97,6 +97,10 @@ std::vector<Size> benchSizes(const std::string& words) {
     return valuesOf(words, "--sizes", "size", &Settings::size);
 }
 
+std::vector<Transparency> benchTransparencies(const std::string& words) {
+    return valuesOf(words, "--transparencies", "transparency", &Settings::transparency);
+}
+
 std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
     std::vector<std::uint32_t> counts;
     for (const std::string& word : wordsOf(words, "--light-counts")) {
@@ -117,6 +121,8 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
         options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
     const std::vector<Assignment> assignments = options.assign.empty() ? all<Assignment>() : options.assign;
     const std::vector<Size> sizes = options.sizes.empty() ? std::vector{given.size} : options.sizes;
+    const std::vector<Transparency> transparencies =
+        options.transparencies.empty() ? std::vector{given.transparency} : options.transparencies;
     std::vector<std::optional<std::uint32_t>> counts(options.light_counts.begin(),
                                                      options.light_counts.end());
     if (counts.empty()) counts.emplace_back();
@@ -134,16 +140,18 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
         if (count) putLights(*count, group.scene, lit);
         for (const Size& size : sizes)
             for (const Assignment assign : assignments)
-                for (const Path path : paths) {
-                    Settings settings = lit;
-                    settings.path = path;
-                    settings.assign = assign;
-                    settings.size = size;
-                    if (const auto problem = settings.problem())
-                        skip({path, assign, std::nullopt, std::nullopt, *problem});
-                    else
-                        group.settings.push_back(settings);
-                }
+                for (const Path path : paths)
+                    for (const Transparency transparency : transparencies) {
+                        Settings settings = lit;
+                        settings.path = path;
+                        settings.assign = assign;
+                        settings.size = size;
+                        settings.transparency = transparency;
+                        if (const auto problem = settings.problem())
+                            skip({path, assign, std::nullopt, std::nullopt, std::nullopt, *problem});
+                        else
+                            group.settings.push_back(settings);
+                    }
         if (!group.settings.empty()) cases.groups.push_back(std::move(group));
     }
     if (cases.groups.empty())
@@ -161,24 +169,31 @@ std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, doubl
     return ms1 + slope * (static_cast<double>(lights) - static_cast<double>(n1));
 }
 
-std::string modeName(Path path, Assignment assign) {
-    return fmt::format("{}, {}", nameOf(path), nameOf(assign));
+namespace {
+std::string ending(std::optional<Transparency> transparency) {
+    return transparency ? fmt::format(", {}", nameOf(*transparency)) : "";
+}
+}  // namespace
+
+std::string modeName(Path path, Assignment assign, std::optional<Transparency> transparency) {
+    return fmt::format("{}, {}{}", nameOf(path), nameOf(assign), ending(transparency));
 }
 
 bool drawsAnotherPicture(Assignment assign) {
     return assign == Assignment::per_object;
 }
 
-std::string assignLabel(Assignment assign) {
-    return std::string(nameOf(assign)) + (drawsAnotherPicture(assign) ? " *" : "");
+std::string assignLabel(Assignment assign, std::optional<Transparency> transparency) {
+    return fmt::format("{}{}{}", nameOf(assign), drawsAnotherPicture(assign) ? " *" : "",
+                       ending(transparency));
 }
 
-std::string modeLabel(Path path, Assignment assign) {
-    return fmt::format("{}, {}", nameOf(path), assignLabel(assign));
+std::string modeLabel(Path path, Assignment assign, std::optional<Transparency> transparency) {
+    return fmt::format("{}, {}", nameOf(path), assignLabel(assign, transparency));
 }
 
 std::string skipName(const BenchSkip& skip) {
-    std::string name = modeName(skip.path, skip.assign);
+    std::string name = modeName(skip.path, skip.assign, skip.transparency);
     if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);
     if (skip.lights) name += fmt::format(", {} lights", *skip.lights);
     return name;

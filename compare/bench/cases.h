@@ -15,11 +15,12 @@ namespace diptych::bench {
 
 // As asked for; an empty list is what its comment says.
 struct BenchOptions {
-    std::vector<Path> paths;                  // both
-    std::vector<Assignment> assign;           // all
-    std::vector<Size> sizes;                  // --size
-    std::vector<std::uint32_t> light_counts;  // the scene's own lights; ascending
-    double max_ms = 2000;                     // a frame that takes longer is not repeated
+    std::vector<Path> paths;                   // both
+    std::vector<Assignment> assign;            // all
+    std::vector<Size> sizes;                   // --size
+    std::vector<Transparency> transparencies;  // --transparency
+    std::vector<std::uint32_t> light_counts;   // the scene's own lights; ascending
+    double max_ms = 2000;                      // a frame that takes longer is not repeated
     bool frames = true, kernels = true;
 };
 
@@ -27,6 +28,7 @@ struct BenchOptions {
 std::vector<Path> benchPaths(const std::string& words);
 std::vector<Assignment> benchAssignments(const std::string& words);
 std::vector<Size> benchSizes(const std::string& words);
+std::vector<Transparency> benchTransparencies(const std::string& words);
 std::vector<std::uint32_t> benchLightCounts(const std::string& words);  // each once, ascending
 
 // Settings of one scene that are timed in turn, so that a device that slows down does so for all alike.
@@ -41,6 +43,7 @@ struct BenchSkip {
     Assignment assign = Assignment::every;
     std::optional<Size> size;             // nothing: none
     std::optional<std::uint32_t> lights;  // nothing: none
+    std::optional<Transparency> transparency;
     std::string reason;
 };
 
@@ -59,13 +62,13 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
 std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, double>> measured,
                                   std::uint32_t lights);
 
-// "forward_plus, clustered"
-std::string modeName(Path path, Assignment assign);
+// "forward_plus, clustered"; with a transparency "forward_plus, clustered, list"
+std::string modeName(Path path, Assignment assign, std::optional<Transparency> transparency = {});
 // Whether the assignment shades fewer lights a pixel than there are, so that its time is of another picture.
 bool drawsAnotherPicture(Assignment assign);
 // Names with a star where that is so, and what the star means.
-std::string assignLabel(Assignment assign);
-std::string modeLabel(Path path, Assignment assign);
+std::string assignLabel(Assignment assign, std::optional<Transparency> transparency = {});
+std::string modeLabel(Path path, Assignment assign, std::optional<Transparency> transparency = {});
 inline constexpr const char* starMeans =
     "* draws another picture: only some of the lights are shaded per pixel, the others by object";
 // "forward_plus, every, 640x360, 1024 lights"

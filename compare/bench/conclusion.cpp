@@ -25,7 +25,8 @@ double confidenceOf(int n, int k) {
 }
 
 bool comparable(const BenchRow& a, const BenchRow& b) {
-    return a.settings.size == b.settings.size && a.counters.lights == b.counters.lights;
+    return a.settings.size == b.settings.size && a.counters.lights == b.counters.lights &&
+           a.transparency == b.transparency;
 }
 
 void findPass(Conclusion& c) {
@@ -68,8 +69,9 @@ PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<dou
 
 std::string Conclusion::inWords() const {
     const Settings &a = faster->settings, &b = slower->settings;
-    const auto mode = [](const Settings& s) {
-        return fmt::format("{} ({})", nameOf(s.path), nameOf(s.assign));
+    const auto mode = [this](const Settings& s) {
+        return fmt::format("{} ({}{})", nameOf(s.path), nameOf(s.assign),
+                           faster->transparency ? fmt::format(", {}", nameOf(*faster->transparency)) : "");
     };
     std::string words = fmt::format(
         "{}x{}, {} lights: {} takes {} ms, {} takes {:.2f} times as long: the median ratio of {} pairs of "

@@ -63,7 +63,8 @@ std::string rows(const Bench& bench) {
             passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
         out += "<tr>" + numberCell(fmt::format("{}", row.counters.lights)) +
                numberCell(fmt::format("{}x{}", row.settings.size.width, row.settings.size.height)) +
-               cell(std::string(nameOf(row.settings.path))) + cell(assignLabel(row.settings.assign)) +
+               cell(std::string(nameOf(row.settings.path))) +
+               cell(assignLabel(row.settings.assign, row.transparency)) +
                numberCell(msText(row.time.median)) + numberCell(msText(row.time.min)) +
                numberCell(msText(row.time.max)) + numberCell(fmt::format("{:.3g}", assignMs(row))) +
                numberCell(fmt::format("{:.1f} %", 100 * assignShare(row))) +

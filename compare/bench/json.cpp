@@ -22,9 +22,10 @@ Json jsonOf(const Size& size) {
 Json jsonOf(const BenchRow& row) {
     Json passes = Json::array();
     for (const PassTime& pass : row.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
-    return {{"name", modeName(row.settings.path, row.settings.assign)},
+    return {{"name", modeName(row.settings.path, row.settings.assign, row.transparency)},
             {"path", nameOf(row.settings.path)},
             {"assign", nameOf(row.settings.assign)},
+            {"transparency", nameOf(row.settings.transparency)},
             {"same_picture", !drawsAnotherPicture(row.settings.assign)},
             {"scene", row.scene},
             {"camera", row.camera},
@@ -75,8 +76,8 @@ Json jsonOf(const KernelReport& kernels) {
 Json jsonOf(const Conclusion& c) {
     return {{"size", jsonOf(c.faster->settings.size)},
             {"lights", c.faster->counters.lights},
-            {"faster", modeName(c.faster->settings.path, c.faster->settings.assign)},
-            {"slower", modeName(c.slower->settings.path, c.slower->settings.assign)},
+            {"faster", modeName(c.faster->settings.path, c.faster->settings.assign, c.faster->transparency)},
+            {"slower", modeName(c.slower->settings.path, c.slower->settings.assign, c.slower->transparency)},
             {"ratio", c.ratio.median},
             {"interval", {c.ratio.low, c.ratio.high}},
             {"confidence", c.ratio.confidence},

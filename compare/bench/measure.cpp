@@ -22,12 +22,19 @@ constexpr int fewestProfiled = 3;
 // A first frame slower than this many times --max-ms is not drawn again, although drivers compile during it.
 constexpr double compiling = 4;
 
-BenchSkip skipOf(const Settings& settings, const BenchGroup& group, std::string reason) {
-    return {settings.path, settings.assign, settings.size, group.lights, std::move(reason)};
+// Named only where there are several.
+std::optional<Transparency> transparencyOf(const Bench& bench, const Settings& settings) {
+    if (bench.options.transparencies.size() < 2) return std::nullopt;
+    return settings.transparency;
+}
+
+BenchSkip skipOf(const Bench& bench, const Settings& settings, const BenchGroup& group, std::string reason) {
+    return {settings.path,    settings.assign, settings.size, group.lights, transparencyOf(bench, settings),
+            std::move(reason)};
 }
 
 bool isMode(const Settings& a, const Settings& b) {
-    return a.path == b.path && a.assign == b.assign && a.size == b.size;
+    return a.path == b.path && a.assign == b.assign && a.size == b.size && a.transparency == b.transparency;
 }
 
 // Why the Settings need not be tried with so many lights, judging by the times with fewer; empty if they must
@@ -36,7 +43,8 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     if (!group.lights) return {};
     for (const BenchSkip& skip : bench.skips)
         if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
-            skip.lights && *skip.lights < *group.lights)
+            skip.transparency == transparencyOf(bench, settings) && skip.lights &&
+            *skip.lights < *group.lights)
             return fmt::format("over --max-ms {:.6g} with {} lights already", bench.options.max_ms,
                                *skip.lights);
     std::vector<std::pair<std::uint32_t, double>> measured;
@@ -97,7 +105,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
         if (std::string reason = hopeless(bench, group, settings); reason.empty())
             tried.push_back(settings);
         else
-            bench.skips.push_back(skipOf(settings, group, std::move(reason)));
+            bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
     if (tried.empty()) return;
     Renderer renderer(device, scene);
     PreparedFrames frames = renderer.prepare(tried);
@@ -105,7 +113,10 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);
     double done = 0;
     const auto step = [&](std::size_t i, const std::string& what) {
-        progress.at(done++ / steps, fmt::format("{} {}", modeName(tried[i].path, tried[i].assign), what));
+        progress.at(
+            done++ / steps,
+            fmt::format("{} {}", modeName(tried[i].path, tried[i].assign, transparencyOf(bench, tried[i])),
+                        what));
     };
     std::vector<std::size_t> timed;  // of `frames`
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -115,7 +126,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
         if (ms <= bench.options.max_ms)
             timed.push_back(i);
         else
-            bench.skips.push_back(skipOf(tried[i], group,
+            bench.skips.push_back(skipOf(bench, tried[i], group,
                                          fmt::format("its first frame took {} ms; --max-ms {:.6g}",
                                                      msText(ms), bench.options.max_ms)));
     }
@@ -132,7 +143,8 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
                      std::move(times[k].passes),
                      frame.bytes,
                      frame.counters,
-                     frame.notes};
+                     frame.notes,
+                     transparencyOf(bench, tried[i])};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
         frames.readCounters(i, row.counters);
         bench.rows.push_back(std::move(row));

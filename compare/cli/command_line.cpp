@@ -119,6 +119,8 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     if (!parsed.bench_paths.empty()) bench.paths = benchPaths(parsed.bench_paths);
     if (!parsed.bench_assign.empty()) bench.assign = benchAssignments(parsed.bench_assign);
     if (!parsed.bench_sizes.empty()) bench.sizes = benchSizes(parsed.bench_sizes);
+    if (!parsed.bench_transparencies.empty())
+        bench.transparencies = benchTransparencies(parsed.bench_transparencies);
     if (!parsed.light_counts.empty()) bench.light_counts = benchLightCounts(parsed.light_counts);
     bench.max_ms = parsed.max_ms;
     if (!(parsed.max_ms > 0) || !std::isfinite(parsed.max_ms))

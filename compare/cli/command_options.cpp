@@ -246,6 +246,9 @@ void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.add_option("--assign", parsed.bench_assign, "the assignments (all that can be drawn)")
         ->type_name(acceptedValues("assign") + ",...");
     app.add_option("--sizes", parsed.bench_sizes, "picture sizes (--size)")->type_name("WxH,...");
+    app.add_option("--transparencies", parsed.bench_transparencies,
+                   "ways to put blended surfaces in order (--transparency)")
+        ->type_name(acceptedValues("transparency") + ",...");
     app.add_option(
            "--light-counts", parsed.light_counts,
            "so many lights in turn: of builtin:spheres, of a --lights file whose name holds {}, or of a "

@@ -31,7 +31,8 @@ struct ParsedOptions {
     std::vector<std::string> not_built;  // options that parse but cannot be done
     int frames = 1;
     double fps = 30;
-    std::string bench_paths, bench_assign, bench_sizes, light_counts, kernels = "on", keep = "all";
+    std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, light_counts, kernels = "on",
+                                                                                            keep = "all";
     double max_ms = 2000;
 };
 

@@ -193,7 +193,7 @@ public:
           lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
                     request.casters, request.shadowed_environment, request.multiscatter,
                     request.environment_turned),
-          blends_(blendsSomewhere(request.scene)),
+          blends_(request.blended && blendsSomewhere(request.scene)),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         if (request.air) haze_.emplace(*request.air, eye_);
         if (request.environment_costs) lighting_.takeCosts();
@@ -528,7 +528,7 @@ public:
         if (request.environment_costs && request.scene.environment)
             picture_.environment_costs = Image(request.view.width, request.view.height, 9);
         if (request.surroundings) picture_.surroundings = Image(request.view.width, request.view.height, 2);
-        if (blendsSomewhere(request.scene))
+        if (request.blended && blendsSomewhere(request.scene))
             picture_.blended = Image(request.view.width, request.view.height, 1);
         for (const Image* image : besides(picture_)) floats_ += image->components;
     }

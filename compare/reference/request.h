@@ -34,6 +34,7 @@ struct Request {
     glm::dvec3 ambient{0};          // radiance from all directions, W/(sr m^2); attenuated by occlusion
     Multiscatter multiscatter = Multiscatter::off;
     std::optional<Air> air = {};
+    bool blended = true;                    // whether surfaces of alphaMode BLEND are there at all
     std::vector<std::size_t> casters = {};  // into `lights`: those that cast shadows
     bool shadowed_environment = false;      // whether the environment is shadowed too
     bool shadows() const { return !casters.empty() || shadowed_environment; }

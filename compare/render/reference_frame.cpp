@@ -117,6 +117,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .ambient = doubles(settings.ambient),
         .multiscatter = settings.multiscatter,
         .air = airOf(view.lights, settings),
+        .blended = settings.transparency != Transparency::off,
         .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}
                                                     : castingLights(view.lights, settings.shadow_lights),
         .environment_costs = options.environment_errors && scene.environment && settings.ibl_intensity > 0,

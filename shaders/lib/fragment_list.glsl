@@ -40,7 +40,10 @@ uint64_t fragmentKey(float z, uint triangle) {
     return (uint64_t(~floatBitsToUint(max(z, 0.0))) << 32) | uint64_t(~(triangle + 1u));
 }
 
+// A key beyond that of the last place finds no room: places only ever get smaller keys, so one that is read
+// too early is no less.
 void insertKey(uint pixel, uint64_t key) {
+    if (key > fragment_keys[(list_of.layers - 1u) * listedPixels() + pixel]) return;
     for (uint i = 0; i < list_of.layers && key != NO_FRAGMENT; ++i) {
         uint64_t there = atomicMin(fragment_keys[i * listedPixels() + pixel], key);
         key = max(there, key);

@@ -153,6 +153,8 @@ void sort(DrawList& list) {
 void addBlended(DrawList& list, std::vector<DrawItem> blended, Transparency transparency) {
     const bool sorts = transparency == Transparency::sorted;
     if (sorts) std::ranges::stable_sort(blended, std::greater{}, &DrawItem::depth);
+    // Whose picture does not depend on it: what comes after a full list's fragments is done with at once.
+    if (transparency == Transparency::list) std::ranges::stable_sort(blended, std::less{}, &DrawItem::depth);
     for (DrawItem& item : blended) {
         if (sorts && item.variant.get(gpu::FEATURE_double_sided) != 0) {
             item.sides = Sides::back;
@@ -190,7 +192,10 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
         if (range.index_count == 0) continue;
         const std::uint32_t triangle = blendedTriangles;
-        if (materials.blends(range.material)) blendedTriangles += range.index_count / 3;
+        if (materials.blends(range.material)) {
+            if (transparency == Transparency::off) continue;
+            blendedTriangles += range.index_count / 3;
+        }
         const glm::dmat4 fromCamera = fromEye(instance, view.eye());
         if (ClipSides(clipFromWorld * fromCamera, range).exclude({range.bounds_min, range.bounds_max})) {
             ++list.culled;

@@ -66,7 +66,8 @@ struct DrawList {
 // after them, so most of what is hidden fails its depth test before it is shaded. An instance is left out
 // only where its bounding box lies wholly beyond one plane of the view.
 // Blended draws come after all others: from far to near by the centre of the bounding box, a double-sided one
-// twice, first its backs (`Transparency::sorted`), or as in the scene.
+// twice, first its backs (`Transparency::sorted`), or as in the scene; there are none of `Transparency::off`.
+// For `Transparency::list` they come from near to far, which spares it work.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view, Transparency transparency = Transparency::sorted);
 

@@ -545,9 +545,11 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "gbuffer,size"},
           &Settings::msaa);
     visit(Field{.option = "transparency",
-                .help = "how blended surfaces are put in order; --sort off is unsorted",
-                .ignored = {.reference = "the reference blends by depth"},
-                .sweep = "all",
+                .help =
+                    "how blended surfaces are put in order; off: they are not drawn; --sort off is unsorted",
+                .ignored = {.reference = "the reference blends by depth",
+                            .unless = [](const Settings& s) { return s.transparency == Transparency::off; }},
+                .sweep = "sorted,unsorted,weighted,moments,list",
                 .for_surfaces = "sorted"},
           &Settings::transparency);
     visit(Field{.option = "transparency-layers",

@@ -180,6 +180,8 @@ void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth,
             return addSums(passes, inputs, depth, lit, true);
         case Transparency::list:
             return addLists(passes, inputs, depth, lit);
+        case Transparency::off:
+            return;
     }
 }
 
