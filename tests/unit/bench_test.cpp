@@ -200,7 +200,7 @@ Bench several() {
                       {{"assign froxels", 0.5}, {"assign lights", 0.5}, {"shade", 7}}),
                   row("forward_plus", "clustered", "64x48", 1024, 40, {{"assign lights", 10}, {"shade", 30}}),
                   row("deferred", "every", "32x24", 16, 3, {{"shade", 3}})};
-    bench.skips = {{Path::deferred, Assignment::every, Size{64, 48}, 4096, "would take <long>"}};
+    bench.skips = {{Path::deferred, Assignment::every, Size{64, 48}, 4096, {}, "would take <long>"}};
     KernelReport kernels{{640, 352}, 16, 48, 512, 9, 2, {}, {"a note"}};
     kernels.rows = {{"by hand", 1.25, {}, {}}, {"uniform buffer", 2.5, 2.0, 2.4}};
     bench.kernels = kernels;
