@@ -120,6 +120,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .draws = draws,
           .lights = lights,
           .draw_buffer = buffers.draws(),
+          .sorted_indices = buffers.sortedIndices(),
           .frame_set = buffers.set(),
           .placeholders = buffers.placeholders(),
           .lists = buffers.lists(),

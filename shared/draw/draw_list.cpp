@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/draw_list.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -165,6 +167,44 @@ void addBlended(DrawList& list, std::vector<DrawItem> blended, Transparency tran
     }
 }
 
+// Triangles of the list's blended draws, as they are sorted.
+void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, const View& view) {
+    struct Triangle {
+        double depth;
+        std::uint32_t item, number;
+    };
+    std::vector<Triangle> triangles;
+    std::vector<std::span<const std::uint32_t>> indices;
+    for (const DrawItem& item : list.blended()) {
+        // The depth of an object's point is dot(depth, (point, 1)).
+        const glm::dvec4 depth = glm::transpose(fromEye(pose.instances[item.instance], view.eye())) *
+                                 glm::dvec4(-view.backward(), 0);
+        const TriangleView of = geometry.triangles(item.range);
+        const auto number = static_cast<std::uint32_t>(indices.size());
+        const auto corner = [&](std::size_t i) { return glm::dvec3(of.positions[of.indices[i]]); };
+        for (std::uint32_t i = 0; i < of.indices.size() / 3; ++i) {
+            const std::size_t first = 3 * std::size_t{i};
+            const glm::dvec3 centroid = (corner(first) + corner(first + 1) + corner(first + 2)) / 3.0;
+            triangles.push_back({glm::dot(depth, glm::dvec4(centroid, 1)), number, i});
+        }
+        indices.push_back(of.indices);
+    }
+    if (3 * triangles.size() > std::numeric_limits<std::uint32_t>::max())
+        throw std::runtime_error(fmt::format(
+            "--transparency triangles: {} blended triangles are more than one buffer of indices holds; use "
+            "--transparency sorted",
+            triangles.size()));
+    std::ranges::stable_sort(triangles, std::greater{}, &Triangle::depth);
+    list.sorted_indices.reserve(3 * triangles.size());
+    for (const Triangle& t : triangles) {
+        if (list.sorted_runs.empty() || list.sorted_runs.back().item != t.item)
+            list.sorted_runs.push_back({t.item, {static_cast<std::uint32_t>(list.sorted_indices.size()), 0}});
+        list.sorted_runs.back().run.count += 3;
+        const auto corners = indices[t.item].subspan(3 * std::size_t{t.number}, 3);
+        list.sorted_indices.insert(list.sorted_indices.end(), corners.begin(), corners.end());
+    }
+}
+
 // The clusters that `keeps`, as runs of the list; none of them: false.
 template <class Keeps>
 bool addRuns(DrawList& list, DrawItem& item, std::span<const Cluster> clusters, const Keeps& keeps) {
@@ -188,7 +228,8 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
     DrawList list;
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     std::uint32_t blendedTriangles = 0;
-    for (const Instance& instance : pose.instances) {
+    for (std::uint32_t i = 0; i < pose.instances.size(); ++i) {
+        const Instance& instance = pose.instances[i];
         const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
         if (range.index_count == 0) continue;
         const std::uint32_t triangle = blendedTriangles;
@@ -203,6 +244,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         }
         DrawItem item = itemOf(instance, range, materials);
         item.triangle = triangle;
+        item.instance = i;
         item.depths = viewDepths(fromCamera, -view.backward(), range);
         list.triangles += range.index_count / 3;
         const ObjectBox box(range.bounds_min, range.bounds_max);
@@ -215,6 +257,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
     list.items.erase(first, list.items.end());
     sort(list);
     addBlended(list, std::move(blended), transparency);
+    if (transparency == Transparency::triangles) sortTriangles(list, pose, geometry, view);
     return list;
 }
 

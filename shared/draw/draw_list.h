@@ -26,6 +26,12 @@ struct IndexRun {
     std::uint32_t first = 0, count = 0;
 };
 
+// Triangles of one draw that follow one another in an order of all draws' triangles.
+struct SortedRun {
+    std::uint32_t item = 0;  // into DrawList::blended()
+    IndexRun run;            // into DrawList::sorted_indices
+};
+
 // The sides of its triangles that a draw shows.
 enum class Sides {
     of_material,  // the front, or both where the material is double-sided
@@ -37,6 +43,7 @@ struct DrawItem {
     PrimitiveRange range;
     std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; none: the whole range is drawn
     std::uint32_t draw = 0;                 // into DrawList::draws
+    std::uint32_t instance = 0;             // into Pose::instances
     Variant variant;                        // the material's features and the primitive's
     bool mirrored = false;                  // the transform turns front faces round
     bool masked = false;                    // alpha mask
@@ -54,6 +61,9 @@ struct DrawList {
     std::vector<DrawItem> items;  // what is blended comes last
     std::size_t solid = 0;        // of the items those that are not
     std::vector<IndexRun> runs;
+    // Transparency::triangles: what is blended, triangle by triangle; else empty.
+    std::vector<std::uint32_t> sorted_indices;
+    std::vector<SortedRun> sorted_runs;
     std::uint32_t culled = 0;     // instances that are not drawn
     std::uint64_t triangles = 0;  // that are drawn
 
@@ -66,8 +76,11 @@ struct DrawList {
 // after them, so most of what is hidden fails its depth test before it is shaded. An instance is left out
 // only where its bounding box lies wholly beyond one plane of the view.
 // Blended draws come after all others: from far to near by the centre of the bounding box, a double-sided one
-// twice, first its backs (`Transparency::sorted`), or as in the scene; there are none of `Transparency::off`.
-// For `Transparency::list` they come from near to far, which spares it work.
+// twice, first its backs (`Transparency::sorted`), or as in the scene. With `Transparency::triangles` they
+// stay as in the scene, and `sorted_runs` has the order in which their triangles are drawn: from far to near
+// by the view depth of the centroid, and where two are equal as in the scene.
+// There are none of `Transparency::off`; for `Transparency::list` they come from near to far, which spares it
+// work.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view, Transparency transparency = Transparency::sorted);
 

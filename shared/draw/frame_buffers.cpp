@@ -33,6 +33,9 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                           VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     packed_view_texels_ = makeTexelView(device, "packed view", packed_view_, VK_FORMAT_R32G32B32A32_UINT);
     draws_ = makeBuffer<gpu::Draw>(device, uploader, "draws", draws.draws, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    if (!draws.sorted_indices.empty())
+        sorted_indices_ = makeBuffer<std::uint32_t>(device, uploader, "sorted indices", draws.sorted_indices,
+                                                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights,
                                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     spot_cones_ = makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones,

@@ -24,16 +24,18 @@ public:
     VkDescriptorSet set() const { return sets_[0]; }
     DescriptorSets& sets() { return sets_; }
     VkBuffer draws() const { return draws_.handle(); }
+    VkBuffer sortedIndices() const { return sorted_indices_.handle(); }
     const Placeholders& placeholders() const { return placeholders_; }
     LightLists& lists() { return lists_; }
     const ObjectLightBuffers& objects() const { return objects_; }
     std::uint64_t bytes() const {
-        return view_.size() + packed_view_.size() + draws_.size() + lights_.size() + spot_cones_.size() +
-               area_lights_.size() + ltc_.bytes() + albedo_.size() + lists_.bytes() + objects_.bytes();
+        return view_.size() + packed_view_.size() + draws_.size() + sorted_indices_.size() + lights_.size() +
+               spot_cones_.size() + area_lights_.size() + ltc_.bytes() + albedo_.size() + lists_.bytes() +
+               objects_.bytes();
     }
 
 private:
-    GpuBuffer view_, packed_view_, draws_, lights_, spot_cones_, area_lights_, albedo_;
+    GpuBuffer view_, packed_view_, draws_, sorted_indices_, lights_, spot_cones_, area_lights_, albedo_;
     OwnedBufferView packed_view_texels_, lights_view_, spot_cones_view_, area_lights_view_, albedo_view_;
     LtcImage ltc_;
     LightLists lists_;

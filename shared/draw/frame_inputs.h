@@ -25,8 +25,9 @@ struct FrameInputs {
     const Materials& materials;
     const DrawList& draws;
     const GpuLights& lights;
-    VkBuffer draw_buffer;       // Draw[draws.draws]
-    VkDescriptorSet frame_set;  // SET_FRAME
+    VkBuffer draw_buffer;                      // Draw[draws.draws]
+    VkBuffer sorted_indices = VK_NULL_HANDLE;  // DrawList::sorted_indices; none where those are empty
+    VkDescriptorSet frame_set;                 // SET_FRAME
     const Placeholders& placeholders;
     LightLists& lists;
     Variant variant;  // of the scene and the view: light kinds, emission, projection, G-buffer encoding

@@ -85,6 +85,12 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
                     {range.first_index, range.index_count, range.bounds_min, range.bounds_max});
             }
             range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
+            if (scene.materials[range.material].alpha_mode == AlphaMode::blend) {
+                range.kept_indices = static_cast<std::uint32_t>(kept_indices_.size());
+                range.kept_positions = static_cast<std::uint32_t>(kept_positions_.size());
+                kept_indices_.insert(kept_indices_.end(), p.indices.begin(), p.indices.end());
+                kept_positions_.insert(kept_positions_.end(), p.positions.begin(), p.positions.end());
+            }
             ranges_.back().push_back(range);
         }
     }
@@ -97,11 +103,18 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
         makeBuffer<std::uint32_t>(device, uploader, "indices", indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
-void Geometry::bind(VkCommandBuffer commands, VkBuffer draws) const {
+TriangleView Geometry::triangles(const PrimitiveRange& range) const {
+    if (range.kept_indices == PrimitiveRange::not_kept) return {};
+    return {std::span(kept_positions_).subspan(range.kept_positions),
+            std::span(kept_indices_).subspan(range.kept_indices, range.index_count)};
+}
+
+void Geometry::bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices) const {
     const std::array buffers{positions_.handle(), attributes_.handle(), draws};
     const std::array<VkDeviceSize, 3> offsets{};
     vkCmdBindVertexBuffers(commands, 0, 3, buffers.data(), offsets.data());
-    vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(commands, indices != VK_NULL_HANDLE ? indices : indices_.handle(), 0,
+                         VK_INDEX_TYPE_UINT32);
 }
 
 }  // namespace diptych

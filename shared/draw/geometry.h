@@ -19,6 +19,14 @@ struct PrimitiveRange {
     bool vanishing_normals = false;           // somewhere in a triangle the interpolated normal may be zero
     glm::dvec3 bounds_min{0}, bounds_max{0};  // object
     std::uint32_t first_cluster = 0, cluster_count = 0;
+    static constexpr std::uint32_t not_kept = ~0u;
+    std::uint32_t kept_indices = not_kept, kept_positions = 0;  // for Geometry::triangles()
+};
+
+// The triangles of a primitive on the host.
+struct TriangleView {
+    std::span<const glm::vec3> positions;    // object, m
+    std::span<const std::uint32_t> indices;  // into these, three a triangle
 };
 
 class Geometry {
@@ -32,12 +40,22 @@ public:
     std::span<const Cluster> clusters(const PrimitiveRange& range) const {
         return std::span(clusters_).subspan(range.first_cluster, range.cluster_count);
     }
-    void bind(VkCommandBuffer commands, VkBuffer draws) const;
+    // In the scene's order. Only of primitives whose material blends: nothing is kept of others, and theirs
+    // are empty.
+    TriangleView triangles(const PrimitiveRange& range) const;
+    // `indices`: others than the scene's.
+    void bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices = VK_NULL_HANDLE) const;
     std::uint64_t bytes() const { return positions_.size() + attributes_.size() + indices_.size(); }
+    // On the host, of what blends.
+    std::uint64_t hostBytes() const {
+        return kept_positions_.size() * sizeof(glm::vec3) + kept_indices_.size() * sizeof(std::uint32_t);
+    }
 
 private:
     std::vector<std::vector<PrimitiveRange>> ranges_;
     std::vector<Cluster> clusters_;
+    std::vector<glm::vec3> kept_positions_;  // of what blends
+    std::vector<std::uint32_t> kept_indices_;
     GpuBuffer positions_, attributes_, indices_;
 };
 

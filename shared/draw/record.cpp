@@ -59,35 +59,78 @@ VkCullModeFlags culledOf(const DrawSource& source, const DrawItem& item) {
     return twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
 }
 
+// Records draws of a source's items, and between them only what changes.
+template <class ConstantsOf>
+class ItemRecorder {
+public:
+    ItemRecorder(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
+                 const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf)
+        : commands_(commands),
+          inputs_(inputs),
+          source_(source),
+          pipelines_(pipelines),
+          constants_of_(constantsOf) {}
+
+    // What draw() draws until the next one.
+    void take(std::size_t i) {
+        const DrawItem& item = source_.items[i];
+        if (last_ == nullptr || pipelines_[i] != pipelines_[taken_])
+            vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[i]);
+        if (last_ == nullptr || item.range.material != last_->range.material)
+            bind(commands_, inputs_, gpu::SET_MATERIAL, inputs_.materials.set(item.range.material));
+        vkCmdSetCullMode(commands_, culledOf(source_, item));
+        // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
+        vkCmdSetFrontFace(commands_,
+                          item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        constants_ = constants_of_(item);
+        push(commands_, inputs_, constants_);
+        last_ = &item;
+        taken_ = i;
+    }
+    // `triangle`: of the run's first one among those of the item.
+    void draw(const IndexRun& run, std::uint32_t triangle = 0) const {
+        gpu::DrawConstants ofRun = constants_;
+        ofRun.triangle += triangle;
+        if (triangle != 0) push(commands_, inputs_, ofRun);
+        vkCmdDrawIndexed(commands_, run.count, 1, run.first, last_->range.vertex_offset, last_->draw);
+    }
+
+private:
+    VkCommandBuffer commands_;
+    const FrameInputs& inputs_;
+    const DrawSource& source_;
+    const std::vector<VkPipeline>& pipelines_;
+    const ConstantsOf& constants_of_;
+    gpu::DrawConstants constants_{};
+    const DrawItem* last_ = nullptr;
+    std::size_t taken_ = 0;
+};
+
 template <class ConstantsOf>
 void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
                  const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
     inputs.geometry.bind(commands, source.buffer);
-    const DrawItem* last = nullptr;
-    VkPipeline lastPipeline = VK_NULL_HANDLE;
+    ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
     for (std::size_t i = 0; i < pipelines.size(); ++i) {
+        recorder.take(i);
         const DrawItem& item = source.items[i];
-        if (pipelines[i] != lastPipeline)
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
-        if (last == nullptr || item.range.material != last->range.material)
-            bind(commands, inputs, gpu::SET_MATERIAL, inputs.materials.set(item.range.material));
-        vkCmdSetCullMode(commands, culledOf(source, item));
-        // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
-        vkCmdSetFrontFace(commands,
-                          item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        const gpu::DrawConstants constants = constantsOf(item);
         const IndexRun whole{item.range.first_index, item.range.index_count};
         const std::span<const IndexRun> runs =
             item.runs == 0 ? std::span(&whole, 1) : source.runs.subspan(item.first_run, item.runs);
-        for (const IndexRun& run : runs) {
-            // A run's first triangle, as gl_PrimitiveID begins at 0 in each.
-            gpu::DrawConstants ofRun = constants;
-            ofRun.triangle += (run.first - item.range.first_index) / 3;
-            if (&run == runs.data() || ofRun.triangle != constants.triangle) push(commands, inputs, ofRun);
-            vkCmdDrawIndexed(commands, run.count, 1, run.first, item.range.vertex_offset, item.draw);
-        }
-        last = &item;
-        lastPipeline = pipelines[i];
+        // A run's first triangle, as gl_PrimitiveID begins at 0 in each.
+        for (const IndexRun& run : runs) recorder.draw(run, (run.first - item.range.first_index) / 3);
+    }
+}
+
+// The same, triangle by triangle.
+template <class ConstantsOf>
+void recordSorted(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
+                  const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
+    inputs.geometry.bind(commands, source.buffer, inputs.sorted_indices);
+    ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
+    for (const SortedRun& run : inputs.draws.sorted_runs) {
+        recorder.take(run.item);
+        recorder.draw(run.run);
     }
 }
 
@@ -113,11 +156,14 @@ std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, co
     return [&inputs, constants, gbuffer = std::move(gbuffer),
             pipelines = pipelinesOf(inputs, inputs.draws.blended(), keyOf)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, gbuffer.get());
-        recordItems(commands, inputs, {inputs.draws.blended(), inputs.draws.runs, inputs.draw_buffer, true},
-                    pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED, item.triangle,
-                                constants};
-                    });
+        const DrawSource source{inputs.draws.blended(), inputs.draws.runs, inputs.draw_buffer, true};
+        const auto constantsOf = [&](const DrawItem& item) -> gpu::DrawConstants {
+            return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED, item.triangle, constants};
+        };
+        if (inputs.draws.sorted_runs.empty())
+            recordItems(commands, inputs, source, pipelines, constantsOf);
+        else
+            recordSorted(commands, inputs, source, pipelines, constantsOf);
     };
 }
 

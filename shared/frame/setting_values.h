@@ -70,13 +70,15 @@ template <>
 inline constexpr auto enum_names<AreaLights> = std::to_array<EnumName<AreaLights>>(
     {{AreaLights::ltc, "ltc"}, {AreaLights::representative, "representative"}});
 
-// How blended surfaces are put in order: sorted, draws from far to near; unsorted, as in the scene. By sums
-// that need no order: weighted, by depth; moments, by what is in front. list: by fragment. off: not drawn.
-enum class Transparency { sorted, unsorted, weighted, moments, list, off };
+// How blended surfaces are put in order: sorted, draws from far to near; unsorted, as in the scene;
+// triangles, those of all draws from far to near. By sums that need no order: weighted, by depth; moments, by
+// what is in front. list: by fragment. off: not drawn.
+enum class Transparency { sorted, unsorted, triangles, weighted, moments, list, off };
 template <>
 inline constexpr auto enum_names<Transparency> =
     std::to_array<EnumName<Transparency>>({{Transparency::sorted, "sorted"},
                                            {Transparency::unsorted, "unsorted"},
+                                           {Transparency::triangles, "triangles"},
                                            {Transparency::weighted, "weighted"},
                                            {Transparency::moments, "moments"},
                                            {Transparency::list, "list"},

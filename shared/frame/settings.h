@@ -549,7 +549,7 @@ void Settings::rows(Visit&& visit) {
                     "how blended surfaces are put in order; off: they are not drawn; --sort off is unsorted",
                 .ignored = {.reference = "the reference blends by depth",
                             .unless = [](const Settings& s) { return s.transparency == Transparency::off; }},
-                .sweep = "sorted,unsorted,weighted,moments,list",
+                .sweep = "sorted,unsorted,triangles,weighted,moments,list",
                 .for_surfaces = "sorted"},
           &Settings::transparency);
     visit(Field{.option = "transparency-layers",

@@ -173,6 +173,7 @@ void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth,
     switch (inputs.transparency) {
         case Transparency::sorted:
         case Transparency::unsorted:
+        case Transparency::triangles:
             return addOver(passes, inputs, depth, lit);
         case Transparency::weighted:
             return addSums(passes, inputs, depth, lit, false);

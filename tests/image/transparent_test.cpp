@@ -158,8 +158,7 @@ TEST(Transparent, WithoutBlendingThereIsNoPass) {
 }
 
 // What fails of both paths against the reference.
-std::vector<std::string> failures(const char* name, const Settings& settings) {
-    Renderer& renderer = uploaded(name).renderer;
+std::vector<std::string> failures(const Scene& scene, Renderer& renderer, const Settings& settings) {
     Settings truth = settings;
     truth.path = Path::reference;
     truth.transparency = Transparency::sorted;
@@ -168,7 +167,6 @@ std::vector<std::string> failures(const char* name, const Settings& settings) {
     options.runs = 0;
     std::vector<Frame> frames{renderer.draw(truth, options)};
     for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
-    const Scene& scene = uploaded(name).scene;
     const Requirements needs = requirements(scene, poseAt(scene, 0));
     const DeviceInfo& info = device().info();
     const Report report = makeReferenceReport(std::move(frames), {needs, needs, needs},
@@ -179,6 +177,9 @@ std::vector<std::string> failures(const char* name, const Settings& settings) {
             if (channel.verdict == Verdict::fail)
                 failed.push_back(fmt::format("{}: {}", channel.mode->name, channel.reason));
     return failed;
+}
+std::vector<std::string> failures(const char* name, const Settings& settings) {
+    return failures(uploaded(name).scene, uploaded(name).renderer, settings);
 }
 
 TEST(Transparent, SortedIsTheReferencesOrder) {
@@ -198,6 +199,76 @@ TEST(Transparent, AnotherOrderFails) {
     const std::vector<std::string> failed = failures("builtin:crossed", settings);
     ASSERT_EQ(failed.size(), 2u);
     for (const std::string& each : failed) EXPECT_EQ(each.substr(0, 4), "lit:");
+}
+
+// Two rows of panes, each one draw, one row's panes between the other's: their centres do not say which is in
+// front. In both the nearer panes come first.
+Scene interleavedRows() {
+    Builder b;
+    b.camera("front", {0.6, 0.9, 6}, {0, 0, 0}, 30, 0.1, 100);
+    b.add("floor", quad({-3, -1.2, 2}, {6, 0, 0}, {0, 0, -5}),
+          b.material("floor", {{0.5f, 0.48f, 0.45f}, 0, 0.6f}), glm::dvec3(0.0));
+    for (const int row : {0, 1}) {
+        const int material =
+            b.material(row == 0 ? "red" : "blue",
+                       {row == 0 ? glm::vec3(0.8f, 0.1f, 0.1f) : glm::vec3(0.1f, 0.2f, 0.8f), 0, 0.5f});
+        b.scene.materials.back().alpha_mode = AlphaMode::blend;
+        b.scene.materials.back().base_color.a = 0.5f;
+        b.scene.materials.back().double_sided = row == 0;
+        Primitive all;
+        for (int pane = 0; pane < 4; ++pane) {
+            const Primitive one =
+                quad({-0.9 + 0.1 * row, -0.8, 1 - 0.5 * pane - 0.25 * row}, {1.6, 0, 0}, {0, 1.5, 0});
+            const auto first = static_cast<std::uint32_t>(all.positions.size());
+            for (const std::uint32_t i : one.indices) all.indices.push_back(first + i);
+            const auto append = [](auto& to, const auto& from) {
+                to.insert(to.end(), from.begin(), from.end());
+            };
+            append(all.positions, one.positions);
+            append(all.normals, one.normals);
+            append(all.tangents, one.tangents);
+            append(all.texcoords[0], one.texcoords[0]);
+        }
+        b.add("row", all, material, glm::dvec3(0.0));
+    }
+    b.sun({-0.4, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 2);
+    b.point({-0.5, 1.4, 2.2}, {1.0f, 0.7f, 0.4f}, 2, 6);
+    return std::move(b.scene);
+}
+
+TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
+    const Scene scene = interleavedRows();
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = blendedPicture();
+    EXPECT_EQ(failures(scene, renderer, settings).size(), 2u) << "sorted";
+    settings.transparency = Transparency::triangles;
+    EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{});
+    const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
+    EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u);
+    // One order more of the same draws: their lists of lights stay theirs.
+    Settings every = settings, object = settings;
+    every.assign = Assignment::every;
+    object.assign = Assignment::per_object;
+    for (const Path path : rasterPaths)
+        EXPECT_EQ(differingPixels(drawnBy(path, renderer, every, {lit}).channels.at(lit),
+                                  drawnBy(path, renderer, settings, {lit}).channels.at(lit)),
+                  0u)
+            << nameOf(path);
+    EXPECT_EQ(differingPixels(drawnBy(Path::forward_plus, renderer, every, {lit}).channels.at(lit),
+                              drawnBy(Path::forward_plus, renderer, object, {lit}).channels.at(lit)),
+              0u);
+}
+
+// Balls seen from outside and from inside, 32 layers in a row, one draw's backs before its fronts.
+TEST(Transparent, TrianglesAreRightWhereDrawsAre) {
+    Settings settings = blendedPicture();
+    settings.transparency = Transparency::triangles;
+    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{});
+    settings.camera = "inside";
+    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{}) << "from inside of a ball";
+    // Panes through each other.
+    settings.camera = Settings().camera;
+    EXPECT_EQ(failures("builtin:crossed", settings).size(), 2u);
 }
 
 }  // namespace

@@ -14,6 +14,9 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
+#include <memory>
+#include <random>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -145,6 +148,128 @@ TEST(DrawList, TransformsAreThoseOfPositionsAndNormals) {
                                 glm::vec3(glm::cross(glm::dvec3(1, 0.5, 0.25), glm::dvec3(0, 1, 1))));
         const glm::dvec3 expected = glm::normalize(glm::cross(x, y)) * (mirrors ? -1.0 : 1.0);
         EXPECT_LT(glm::distance(glm::normalize(normal), expected), 1e-5);
+    }
+}
+
+// Blended squares of material 1 at these heights above the plane z = 0, in that order; the first primitive is
+// opaque, the second has the heights, the third only the last of them.
+struct BlendedSquares {
+    Scene scene = squares();
+    Uploader uploader{probeDevice()};
+    std::unique_ptr<Geometry> geometry;
+    std::unique_ptr<Materials> materials;
+
+    explicit BlendedSquares(const std::vector<float>& heights) {
+        scene.materials[1].alpha_mode = AlphaMode::blend;
+        std::vector<Primitive>& primitives = scene.meshes[0].primitives;
+        Primitive several = primitives[1];
+        primitives[1] = {};
+        primitives[1].material = 1;
+        for (const float height : heights) {
+            Primitive& all = primitives[1];
+            for (std::size_t i = 0; i < 6; ++i)
+                all.indices.push_back(several.indices[i] + static_cast<std::uint32_t>(all.positions.size()));
+            for (glm::vec3& p : several.positions) p.z = height;
+            all.positions.insert(all.positions.end(), several.positions.begin(), several.positions.end());
+        }
+        primitives[1].normals.assign(primitives[1].positions.size(), {0, 0, 1});
+        primitives[1].tangents.assign(primitives[1].positions.size(), {1, 0, 0, 1});
+        primitives.push_back(several);
+        geometry = std::make_unique<Geometry>(probeDevice(), uploader, scene);
+        materials = std::make_unique<Materials>(probeDevice(), uploader, scene);
+        uploader.flush();
+    }
+    DrawList listOf(const std::vector<std::pair<int, glm::dmat4>>& instances, const View& view,
+                    Transparency transparency = Transparency::triangles) const {
+        Pose pose;
+        for (const auto& [primitive, transform] : instances)
+            pose.instances.push_back({0, primitive, 0, transform});
+        return makeDrawList(pose, *geometry, *materials, view, transparency);
+    }
+};
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> runsOf(const DrawList& list) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+    for (const SortedRun& run : list.sorted_runs) runs.emplace_back(run.item, run.run.count);
+    return runs;
+}
+
+// A comb in another one, 10, 12 and 14 m away, and 11, 13 and 15 m. Both triangles of a square are as far.
+TEST(DrawList, TrianglesOfAllBlendedDrawsAreSortedTogether) {
+    const BlendedSquares squares({0, -4, -2});
+    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
+    const DrawList list = squares.listOf({{0, at(3)}, {1, at(10)}, {0, at(30)}, {1, at(11)}}, viewAlongZ());
+    ASSERT_EQ(list.solids().size(), 2u);
+    ASSERT_EQ(list.blended().size(), 2u) << "one item a draw, whatever the number of its runs";
+    EXPECT_EQ(runsOf(list), (std::vector<std::pair<std::uint32_t, std::uint32_t>>{
+                                {1, 6}, {0, 6}, {1, 6}, {0, 6}, {1, 6}, {0, 6}}));
+    EXPECT_EQ(list.sorted_indices,
+              (std::vector<std::uint32_t>{4, 5, 6,  4, 6,  7,  4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11,
+                                          8, 9, 10, 8, 10, 11, 0, 1, 2, 0, 2, 3, 0, 1, 2,  0, 2,  3}));
+    for (std::size_t i = 0; i < list.sorted_runs.size(); ++i) EXPECT_EQ(list.sorted_runs[i].run.first, 6 * i);
+}
+
+TEST(DrawList, TrianglesThatFollowOneAnotherAreOneRunAndEqualOnesAreAsInTheScene) {
+    const BlendedSquares squares({0, -4, -2});
+    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
+    EXPECT_EQ(runsOf(squares.listOf({{1, at(10)}, {1, at(20)}}, viewAlongZ())),
+              (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1, 18}, {0, 18}}));
+    // The third primitive lies where the second's last square does.
+    EXPECT_EQ(runsOf(squares.listOf({{2, at(10)}, {1, at(10)}}, viewAlongZ())),
+              (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1, 6}, {0, 6}, {1, 12}}));
+    EXPECT_EQ(runsOf(squares.listOf({{1, at(10)}, {2, at(10)}}, viewAlongZ())),
+              (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 12}, {1, 6}, {0, 6}}));
+}
+
+TEST(DrawList, NothingIsSortedOfWhatIsCulledOpaqueOrDrawnInAnotherOrder) {
+    const BlendedSquares squares({0, -4, -2});
+    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
+    const DrawList behind = squares.listOf({{1, at(-10)}, {0, at(10)}, {2, at(10)}}, viewAlongZ());
+    EXPECT_EQ(behind.culled, 1u);
+    EXPECT_EQ(behind.sorted_indices.size(), 6u);
+    for (const Transparency other : {Transparency::sorted, Transparency::unsorted}) {
+        const DrawList list = squares.listOf({{1, at(10)}, {2, at(10)}}, viewAlongZ(), other);
+        EXPECT_EQ(list.blended().size(), 2u);
+        EXPECT_TRUE(list.sorted_runs.empty() && list.sorted_indices.empty());
+    }
+    EXPECT_EQ(squares.geometry->hostBytes(), 16 * sizeof(glm::vec3) + 24 * sizeof(std::uint32_t));
+    EXPECT_TRUE(squares.geometry->triangles(squares.geometry->range(0, 0)).indices.empty());
+    const Scene opaque = diptych::squares();
+    Uploader uploader(probeDevice());
+    EXPECT_EQ(Geometry(probeDevice(), uploader, opaque).hostBytes(), 0u);
+}
+
+// Depths of centroids, from the scene's own positions: however an instance and the view are turned.
+TEST(DrawList, TrianglesNeverComeNearerBeforeFarther) {
+    const BlendedSquares squares({0, 3, -4, 1, -2, 2});
+    std::mt19937 random(5);
+    const auto number = [&] { return std::uniform_real_distribution(-1.0, 1.0)(random); };
+    View view = viewAlongZ();
+    view.camera.world_from_camera =
+        glm::rotate(glm::translate(glm::dmat4(1), eye), 0.7, glm::normalize(glm::dvec3(1, 2, -1)));
+    std::vector<std::pair<int, glm::dmat4>> instances;
+    for (int i = 0; i < 20; ++i) {
+        const glm::dvec3 centre = view.eye() - view.backward() * (30 + 10 * number()) +
+                                  5.0 * glm::dvec3(number(), number(), number());
+        instances.emplace_back(1 + i % 2, glm::scale(glm::rotate(glm::translate(glm::dmat4(1), centre),
+                                                                 3 * number(), glm::dvec3(0.6, 0, 0.8)),
+                                                     glm::dvec3(1, -2, 0.5)));
+    }
+    const DrawList list = squares.listOf(instances, view);
+    ASSERT_EQ(list.sorted_indices.size(), 10u * 6 * 7);
+    double last = 1e9;
+    for (const SortedRun& run : list.sorted_runs) {
+        const auto& [primitive, transform] = instances[list.blended()[run.item].instance];
+        const Primitive& p = squares.scene.meshes[0].primitives[static_cast<std::size_t>(primitive)];
+        for (std::uint32_t i = run.run.first; i < run.run.first + run.run.count; i += 3) {
+            double depth = 0;
+            for (std::uint32_t c = 0; c < 3; ++c) {
+                const glm::dvec4 place(glm::dvec3(p.positions[list.sorted_indices[i + c]]), 1);
+                depth -= glm::dot(view.backward(), glm::dvec3(transform * place) - view.eye()) / 3;
+            }
+            EXPECT_LE(depth, last + 1e-12);
+            last = depth;
+        }
     }
 }
 

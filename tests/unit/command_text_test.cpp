@@ -63,6 +63,7 @@ std::vector<Settings> severalSettings() {
     add([](Settings& s) { s.seed = 4294967295u; });
     add([](Settings& s) { s.shadows = Shadows::clipmap; });
     add([](Settings& s) { s.transparency = Transparency::unsorted; });
+    add([](Settings& s) { s.transparency = Transparency::triangles; });
     add([](Settings& s) { s.haze = true; });
     add([](Settings& s) { s.reference_mode = ReferenceMode::scene; });
     all.emplace_back();

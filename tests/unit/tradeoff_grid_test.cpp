@@ -76,7 +76,7 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
 TEST(TradeoffGrid, WhateverItHoldsIsPlannedOrRefused) {
     const std::string sound =
         R"([{"settings": {"gbuffer": ["compact", "full"], "size": ["1/2", "8x4", [8, 4]], "msaa": [1, 4]}},
-            {"settings": {"transparency": ["sorted", "unsorted"], "light_cutoff": [0.001, "0e-2"]}}])";
+            {"settings": {"transparency": ["sorted", "triangles"], "light_cutoff": [0.001, "0e-2"]}}])";
     const std::string pieces[] = {"[", "]", "{", "}", "\"", "\\n",  "\\u0000", "1e999",
                                   "/", "0", "-", ",", ":",  "\xff", "null"};
     std::mt19937 random(3);
