@@ -4,6 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
+#include "shared/shadow/blended_receivers.h"
 #include "shared/shadow/scene_bounds.h"
 
 #include <fmt/format.h>
@@ -83,13 +84,15 @@ std::vector<glm::vec4> ClipmapShadow::texels(const View& view, double bias) cons
     return texels;
 }
 
-void ClipmapShadow::prepare(const FrameInputs& inputs) {
+void ClipmapShadow::prepare(const FrameInputs& inputs, const View& view) {
     PassList passes(device_, extent_.width, extent_.height);
     const ImageRef depth = passes.image("depth", depthFormat);
     passes.draw("depth of shadow pages").depth(depth, Load::clear).record(recordDraws(inputs, depthKey));
     addMarkPasses(passes, inputs, depth, OF_PREPARING);
     passes.run();
-    served_ = atlas_->cache().serve(clipmap_, readMarks());
+    std::vector<gpu::uint> marks = readMarks();
+    BlendedReceivers{inputs.draws, pose_, inputs.geometry, view}.mark(clipmap_, marks);
+    served_ = atlas_->cache().serve(clipmap_, marks);
     cold_ = atlas_->cache().stale(served_.resident).size();
 }
 

@@ -27,11 +27,12 @@ public:
     // What follows ShadowLight in the shaders' texels. Pages have no slots before prepare().
     std::vector<glm::vec4> texels(const View& view, double bias) const;
 
-    // Draws the depth of what the view shows, marks the pages that it needs, and gives them slots. Both paths
-    // are served by these marks, whatever depth they have themselves. Frame's set must hold View and
-    // texels().
-    void prepare(const FrameInputs& inputs);
-    // A frame's own marks, which the next frame's pages would be chosen by: passes named "mark shadow pages".
+    // Draws the depth of what the view shows, marks the pages that it needs and those of what is blended, and
+    // gives them slots. Both paths are served by these marks, whatever depth they have themselves. Frame's
+    // set must hold View and texels(). `view`: of the constructor.
+    void prepare(const FrameInputs& inputs, const View& view);
+    // A frame's own marks of what is opaque, which the next frame's pages would be chosen by: passes named
+    // "mark shadow pages".
     // Before the list runs for the first time, pages that are not drawn yet are. Once a view.
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth);
 

@@ -4,6 +4,7 @@
 #include "shared/draw/frame_buffers.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
+#include "shared/shadow/blended_receivers.h"
 
 #include <array>
 #include <bit>
@@ -94,13 +95,13 @@ std::optional<DepthRange> DepthBounds::range(const View& view) const {
     return DepthRange{viewDepth(gpu, bits.nearest), viewDepth(gpu, bits.deepest)};
 }
 
-std::optional<DepthRange> shownDepths(const FrameInputs& inputs, const View& view) {
+std::optional<DepthRange> shownDepths(const FrameInputs& inputs, const Pose& pose, const View& view) {
     PassList passes(inputs.device, static_cast<std::uint32_t>(view.width),
                     static_cast<std::uint32_t>(view.height));
     DepthBounds bounds(inputs.device);
     bounds.addPasses(passes, inputs);
     passes.run();
-    return bounds.range(view);
+    return united(bounds.range(view), BlendedReceivers{inputs.draws, pose, inputs.geometry, view}.depths());
 }
 
 DepthVariation depthVariation(const FrameInputs& inputs, Uploader& uploader, const Pose& pose,
@@ -125,7 +126,7 @@ DepthVariation depthVariation(const FrameInputs& inputs, Uploader& uploader, con
                                 .variant = inputs.variant,
                                 .gbuffer = inputs.gbuffer,
                                 .shadow = inputs.shadow};
-        if (const std::optional<DepthRange> range = shownDepths(there, moved)) {
+        if (const std::optional<DepthRange> range = shownDepths(there, pose, moved)) {
             near.push_back(range->near);
             far.push_back(range->far);
         }

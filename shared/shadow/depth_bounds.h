@@ -18,7 +18,8 @@ class DepthBounds {
 public:
     explicit DepthBounds(Device& device);
 
-    // Passes named "shadow depth bounds": what `inputs` draws, depth alone, in the list's size.
+    // Passes named "shadow depth bounds": what `inputs` draws that is not blended, depth alone, in the list's
+    // size.
     void addPasses(PassList& passes, const FrameInputs& inputs);
     // Of the last run that has ended; nothing where the picture shows nothing. `view`: of the run's inputs.
     std::optional<DepthRange> range(const View& view) const;
@@ -33,8 +34,8 @@ private:
     GpuBuffer bounds_, seen_;
 };
 
-// Draws now, and waits.
-std::optional<DepthRange> shownDepths(const FrameInputs& inputs, const View& view);
+// Draws now, and waits; with those of what is blended. `inputs` of `pose` and `view`.
+std::optional<DepthRange> shownDepths(const FrameInputs& inputs, const Pose& pose, const View& view);
 
 // How much the shown depths vary while the camera moves to the right in `steps` steps of `step` m: standard
 // deviations, shares of the means. 0 where fewer than two of the pictures show anything.

@@ -211,7 +211,7 @@ void SunShadow::fitToDepth(const FrameInputs& inputs, Uploader& uploader, const 
                            const Bounds& bounds, const glm::dvec3& to_light) {
     constexpr int steps = 8;
     depth_bounds_.emplace(inputs.device);
-    request_.shown = shownDepths(inputs, view);
+    request_.shown = shownDepths(inputs, pose, view);
     if (!request_.shown) {
         notes_.emplace_back("--shadow-fit depth: the picture shows nothing, so cascades cover the view");
         return;
@@ -266,7 +266,7 @@ std::vector<glm::vec4> SunShadow::clipmapTexels() const {
 
 void SunShadow::choosePages(const FrameInputs& inputs) {
     if (!clipmap_) return;
-    clipmap_->prepare(inputs);
+    clipmap_->prepare(inputs, *view_);
     const std::vector<glm::vec4> texels = clipmapTexels();
     uploader_->buffer(light_, std::as_bytes(std::span(texels)));
     uploader_->flush();

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The sun's shadow on what is blended, far in front of what is opaque: maps that cover what the picture
+// shows, and pages that it reads, cover it too.
+#include "compare/render/frame_facts.h"
+#include "tests/image/shadow_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::tests {
+namespace {
+
+// A blended pane 2 m before the camera, a wall 38 m behind it, through a lens of 10 degrees. Three strips
+// throw their shadows on the pane; they are not seen, and their shadows on the wall would lie beside it.
+Scene paneUnderStrips() {
+    std::vector<Primitive> standing{
+        rectangle({-15, -15, -40}, {30, 0, 0}, {0, 30, 0}),
+        rectangle({-0.15f, -0.1f, -2}, {0.3f, 0, 0}, {0, 0.2f, 0}, 2),
+    };
+    for (const float x : {1.08f, 1.18f, 1.28f})
+        standing.push_back(rectangle({x, 0.8f, -0.76f}, {0.04f, 0, 0}, {0, 0.4f, 0}));
+    Light sun = sunAt(45);
+    sun.direction = -glm::normalize(glm::dvec3(1.2, 1, 1.24));
+    Scene scene = groundUnder(sun, std::move(standing));
+    scene.meshes[0].primitives.erase(scene.meshes[0].primitives.begin());  // the ground
+    scene.materials[2].alpha_mode = AlphaMode::blend;
+    scene.materials[2].base_color = {0.9f, 0.9f, 0.9f, 0.8f};
+    scene.materials[2].metallic = 0;
+    scene.materials[0].base_color = {0.2f, 0.2f, 0.2f, 1};
+    scene.cameras[0].world_from_camera = glm::dmat4(1);
+    scene.cameras[0].yfov = glm::radians(10.0);
+    return scene;
+}
+
+// Of the pane's pixels the share that is off by more than half of the shadow.
+double wrongShare(const Frame& frame, const Frame& reference) {
+    const Image &made = frame.channels.at(lit), &truth = reference.channels.at(lit);
+    std::vector<float> seen;
+    for (std::size_t i = 0; i < truth.pixels(); ++i)
+        if (*reference.blended.pixel(i) > 0) seen.push_back(*truth.pixel(i));
+    const auto [least, most] = std::ranges::minmax(seen);
+    EXPECT_GT(most, 3 * least) << "no shadow lies on the pane";
+    EXPECT_GT(seen.size(), 1000u);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < truth.pixels(); ++i)
+        if (*reference.blended.pixel(i) > 0)
+            wrong += std::abs(*made.pixel(i) - *truth.pixel(i)) > (most - least) / 2;
+    return static_cast<double>(wrong) / static_cast<double>(seen.size());
+}
+
+// Edges of shadows lie within a pixel: a fiftieth of the pane. Texels of 2 cm are as wide as two of its
+// pixels.
+TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
+    const Scene scene = paneUnderStrips();
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.shadows = Shadows::pcf;
+    Settings truth = settings;
+    truth.path = Path::reference;
+    RenderOptions options;
+    options.channels = {lit};
+    options.runs = 0;
+    const Frame reference = renderer.draw(truth, options);
+    Settings depth = settings, pages = settings;
+    depth.shadow_fit = ShadowFit::depth;
+    pages.shadows = Shadows::clipmap;
+    pages.clipmap_page_size = 64;
+    pages.clipmap_pages = 2048;
+    for (const Settings& each : {settings, depth, pages}) {
+        const std::vector<Frame> frames = bothPaths(renderer, each, {lit});
+        EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u);
+        EXPECT_LE(wrongShare(frames[0], reference), 6.0 / 77)
+            << nameOf(each.shadows) << " " << nameOf(each.shadow_fit);
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
