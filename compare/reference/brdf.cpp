@@ -51,6 +51,7 @@ Brdf::Brdf(const Surface& s, const Compensation& compensation)
       albedo_(s.albedo),
       dielectric_f0_(s.dielectric_f0),
       metallic_(s.metallic),
+      scattered_(1 - s.transmission),
       dielectric_f90_(s.dielectric_f90),
       alpha_(square(std::max(s.roughness, least_roughness))),
       n_dot_v_(std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0)),
@@ -81,7 +82,15 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const double base = compensation_.base.value_or(1 - std::max({layer.r, layer.g, layer.b}));
     const glm::dvec3 mixed =
         layer * compensation_.dielectric * (1 - metallic_) + metal * compensation_.metal * metallic_;
-    return {albedo_ * ((1 - metallic_) * base * n_dot_l / std::numbers::pi), mixed * (lobe * n_dot_l)};
+    return {albedo_ * ((1 - metallic_) * scattered_ * base * n_dot_l / std::numbers::pi),
+            mixed * (lobe * n_dot_l)};
+}
+
+glm::dvec3 transmitted(const Surface& s) {
+    const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
+    const glm::dvec3 layer = fresnel(s.dielectric_f0, s.dielectric_f90, schlick(cosine));
+    const double enters = 1 - std::max({layer.r, layer.g, layer.b});
+    return s.albedo * (s.transmission * (1 - s.metallic) * enters);
 }
 
 }  // namespace diptych::reference

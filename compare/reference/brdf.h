@@ -18,6 +18,11 @@ struct Compensation {
     std::optional<double> base;
 };
 
+// Of light from straight behind a surface without thickness what reaches the viewer, for each component
+// (KHR_materials_transmission without its roughness): what the layer lets in and the base neither scatters
+// nor absorbs.
+glm::dvec3 transmitted(const Surface& surface);
+
 class Brdf {
 public:
     explicit Brdf(const Surface& surface, const Compensation& compensation = {});
@@ -38,7 +43,7 @@ private:
     Compensation compensation_;
     glm::dvec3 normal_, to_viewer_;
     glm::dvec3 albedo_, dielectric_f0_;
-    double metallic_, dielectric_f90_, alpha_, n_dot_v_, lambda_v_;
+    double metallic_, scattered_, dielectric_f90_, alpha_, n_dot_v_, lambda_v_;
 };
 
 }  // namespace diptych::reference

@@ -89,16 +89,16 @@ bool Materials::isThere(const Hit& hit, const PixelRay* ray) const {
 
 bool Materials::throwsShadow(const Hit& hit) const {
     const Material& m = material(hit);
-    if (m.alpha_mode == AlphaMode::mask) return !isCutOut(m, baseColor(hit, nullptr).a);
-    return m.alpha_mode != AlphaMode::blend;
+    if (isSeenThrough(m)) return false;
+    return m.alpha_mode != AlphaMode::mask || !isCutOut(m, baseColor(hit, nullptr).a);
 }
 
 bool Materials::blends(const Hit& hit) const {
-    return material(hit).alpha_mode == AlphaMode::blend;
+    return isSeenThrough(material(hit));
 }
 
-double Materials::opacity(const Hit& hit, const PixelRay& ray) const {
-    if (!blends(hit)) return 1;
+double Materials::coverage(const Hit& hit, const PixelRay& ray) const {
+    if (material(hit).alpha_mode != AlphaMode::blend) return 1;
     return std::clamp(baseColor(hit, &ray).a, 0.0, 1.0);
 }
 
@@ -176,6 +176,7 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
         glm::dvec3(m.specular_color) * glm::dvec3(lookUp(hit, m.specular_color_texture, true, &ray));
     s.dielectric_f90 = double{m.specular} * lookUp(hit, m.specular_texture, false, &ray).a;
     s.dielectric_f0 = glm::min(r * r * tint, glm::dvec3(1)) * s.dielectric_f90;
+    s.transmission = double{m.transmission};
     return s;
 }
 

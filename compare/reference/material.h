@@ -21,6 +21,11 @@ inline bool hasLightmap(const Material& m) {
     return !m.unlit && m.lightmap_texture.texture >= 0 && m.lightmap_intensity != 0;
 }
 
+// Whether it is blended over what lies behind it.
+inline bool isSeenThrough(const Material& m) {
+    return m.alpha_mode == AlphaMode::blend || (!m.unlit && m.transmission > 0);
+}
+
 class Materials {
 public:
     Materials(const Scene& scene, const Geometry& geometry)
@@ -37,8 +42,9 @@ public:
 
     // Whether it is blended over what lies behind it.
     bool blends(const Hit& hit) const;
-    // The base colour's alpha if the material blends, otherwise 1.
-    double opacity(const Hit& hit, const PixelRay& ray) const;
+    // The base colour's alpha if the material's mode is BLEND, otherwise 1: the share of the place that the
+    // surface covers.
+    double coverage(const Hit& hit, const PixelRay& ray) const;
 
 private:
     const Material& material(const Hit& hit) const;

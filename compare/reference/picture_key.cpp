@@ -50,6 +50,7 @@ void addScene(Key& key, const Request& request) {
         key.add(glm::vec4(m.specular_color, m.specular));
         key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, 0));
         key.add(m.alpha_cutoff);
+        key.add(m.transmission);
         key.add(m.lightmap_intensity);
         for (const TextureSlot* slot :
              {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,

@@ -176,8 +176,7 @@ private:
 // ---- one pixel ---------------------------------------------------------------------------------------
 
 bool blendsSomewhere(const Scene& scene) {
-    return std::ranges::any_of(scene.materials,
-                               [](const Material& m) { return m.alpha_mode == AlphaMode::blend; });
+    return std::ranges::any_of(scene.materials, isSeenThrough);
 }
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
@@ -413,18 +412,22 @@ private:
     }
 
     // Adds them to lit, blended "over" (Porter and Duff 1984, "Compositing Digital Images"). Returns the
-    // share of what lies behind them that is seen.
+    // share of what lies behind them that is seen. What a surface lets through has no colour: the paths blend
+    // by one number, and the model is theirs (shared/transparent/README.md). The haze before a surface counts
+    // as much as it hides of what is behind, which has its own.
     double blendedBefore(double end, const PixelRay& ray, std::uint64_t seed, Pixel& pixel) const {
         double through = 1;
         std::uint64_t layer = 0;
         for (const Hit& hit : blendedHits(end, ray)) {
-            const double share = through * materials_.opacity(hit, ray);
-            if (share > 0) {
+            const double covered = through * materials_.coverage(hit, ray);
+            if (covered > 0) {
                 const Pixel here = shaded(hit, ray, streamOf(seed, layer));
-                pixel.lit += here.lit * share;
-                pixel.blended += here.shading * share;
+                const double share =
+                    covered * (1 - std::clamp(luminance(transmitted(*here.surface)), 0.0, 1.0));
+                pixel.lit += (here.lit - here.haze.scattered) * covered + here.haze.scattered * share;
+                pixel.blended += here.shading * covered;
+                through -= share;
             }
-            through -= share;
             ++layer;
         }
         return through;

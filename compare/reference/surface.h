@@ -24,6 +24,7 @@ struct Surface {
     bool lightmapped = false;     // whether the material has a lightmap, which may be black here
     glm::dvec3 dielectric_f0{0};  // F0 of the dielectric layer alone; the BRDF mixes it with the metal's
     double dielectric_f90 = 1;
+    double transmission = 0;  // share of what enters the base that passes it, instead of being scattered
     int material = -1;
     glm::dvec2 texcoord{0};
     // What a normal map is read with and holds; 0 without one or where its scale is 0.

@@ -25,6 +25,7 @@ struct Brdf {
 Brdf makeBrdf(Surface s, vec3 v) {
     Brdf b;
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
+    if (on(feature_transmission)) b.diffuse *= 1.0 - s.transmission;
     b.f0 = specularF0(s);
     b.f90 = vec3(blend(s.dielectric_f90, 1.0, s.metallic));
     b.base_f0 = max(s.dielectric_f0.r, max(s.dielectric_f0.g, s.dielectric_f0.b));

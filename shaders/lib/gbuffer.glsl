@@ -90,6 +90,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     s.lightmap = vec3(0.0);
     s.lightmapped = false;
     s.object_irradiance = vec3(0.0);  // not stored
+    s.transmission = 0.0;             // what is blended is not
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (fullGBuffer()) {

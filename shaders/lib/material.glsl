@@ -109,6 +109,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.lightmap = vec3(0.0);
     s.lightmapped = on(feature_lightmap_texture);
     s.object_irradiance = vec3(0.0);
+    s.transmission = on(feature_transmission) ? m.transmission : 0.0;
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
         s.object_irradiance +=
             on(feature_double_sided) && !gl_FrontFacing ? v_irradiance_behind : v_irradiance;

@@ -19,6 +19,7 @@ struct Surface {
     bool lightmapped;       // whether the material has a lightmap, which may be black here
     vec3 dielectric_f0;     // KHR_materials_ior, _specular
     float dielectric_f90;
+    float transmission;     // share of what enters that leaves behind, not as diffuse light; blended draws
     uint material_id;
     vec2 texcoord;          // forward+ only
     // What a normal map is read with and holds; 0 without one or where its scale is 0. For channels alone,

@@ -11,7 +11,9 @@ layout(early_fragment_tests) in;
 
 void main() {
     uvec2 p = uvec2(gl_FragCoord.xy);
-    // What lets all through takes no room.
-    if (opacityOf(baseColor()) == 0.0 || !isListed(p)) return;
+    vec4 base_color = baseColor();
+    cutOut(base_color);
+    // What covers nothing takes no room.
+    if (coverageOf(base_color) == 0.0 || !isListed(p)) return;
     insertKey(listedPixel(p), fragmentKey(gl_FragCoord.z, constants.triangle + uint(gl_PrimitiveID)));
 }

@@ -11,7 +11,11 @@ layout(location = 0) out float out_optical_depth;
 layout(location = 1) out vec4 out_moments;
 
 void main() {
-    float optical_depth = opticalDepth(opacityOf(baseColor()), MOST_OPTICAL_DEPTH_OF_MOMENTS);
+    vec4 base_color = baseColor();
+    cutOut(base_color);
+    float opacity = coverageOf(base_color);
+    if (on(feature_transmission)) opacity = opacityOf(surfaceFromMaterial(base_color), base_color);
+    float optical_depth = opticalDepth(opacity, MOST_OPTICAL_DEPTH_OF_MOMENTS);
     out_optical_depth = optical_depth;
     out_moments = powersOf(momentDepth(gl_FragCoord.z)) * optical_depth;
 }

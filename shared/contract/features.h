@@ -91,7 +91,9 @@
     /* a sum of HAZE_* of haze.h */                                                                         \
     X(51, haze,                       frame,   0, PASSES_SHADE | PASS_BACKGROUND)                           \
     /* tiles' lists hold the lights in front of the opaque surfaces too, for what is blended there */       \
-    X(52, lights_in_front,            frame,   0, PASS_LISTS)
+    X(52, lights_in_front,            frame,   0, PASS_LISTS)                                               \
+    /* TRANSMISSION_* of material.h */                                                                      \
+    X(53, transmission,               item,    0, PASSES_SHADE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -28,6 +28,11 @@ CONTRACT_CONST(uint, SLOT_COUNT, 0 MATERIAL_SLOTS(DIPTYCH_SLOT_ONE));
 #undef DIPTYCH_SLOT_ONE
 CONTRACT_CONST(uint, BINDING_MATERIAL, SLOT_COUNT);  // of SET_MATERIAL, after the slots: uniform Material
 
+// KHR_materials_transmission as a surface without thickness, which is blended: FEATURE_transmission. What of
+// the base colour's alpha it covers, as of all that is blended, or all of what it is drawn on.
+CONTRACT_CONST(uint, TRANSMISSION_COVERED, 1);
+CONTRACT_CONST(uint, TRANSMISSION_WHOLE, 2);
+
 // KHR_texture_transform of one slot: uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
 struct TextureTransform {
     vec3 u;
@@ -53,6 +58,7 @@ struct Material {
     float occlusion_strength;
     float alpha_cutoff;
     float lightmap_intensity;
+    float transmission;    // KHR_materials_transmission's transmissionFactor
     uint second_texcoord;  // bit SLOT_*: that slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
 };

@@ -85,7 +85,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
                     {range.first_index, range.index_count, range.bounds_min, range.bounds_max});
             }
             range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
-            if (scene.materials[range.material].alpha_mode == AlphaMode::blend) {
+            if (blends(scene.materials[range.material])) {
                 range.kept_indices = static_cast<std::uint32_t>(kept_indices_.size());
                 range.kept_positions = static_cast<std::uint32_t>(kept_positions_.size());
                 kept_indices_.insert(kept_indices_.end(), p.indices.begin(), p.indices.end());

@@ -64,6 +64,8 @@ PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader f
                     .depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL,
                     .depth_write = false};
     key.variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic));
+    // What passes a surface depends on all that it is.
+    if (item.variant.get(gpu::FEATURE_transmission) != 0) key.variant = forwardKey(inputs, item, {}).variant;
     return key;
 }
 

@@ -35,7 +35,12 @@ Variant variantOf(const Material& material) {
     }
     if (material.alpha_mode == AlphaMode::mask) variant.set(gpu::FEATURE_alpha_mask);
     if (material.double_sided) variant.set(gpu::FEATURE_double_sided);
-    if (material.unlit) variant.set(gpu::FEATURE_unlit);
+    if (material.unlit)
+        variant.set(gpu::FEATURE_unlit);
+    else if (material.transmission > 0)
+        variant.set(gpu::FEATURE_transmission, material.alpha_mode == AlphaMode::blend
+                                                   ? gpu::TRANSMISSION_COVERED
+                                                   : gpu::TRANSMISSION_WHOLE);
     return variant;
 }
 
@@ -52,6 +57,7 @@ gpu::Material gpuMaterial(const Material& m) {
     g.occlusion_strength = m.occlusion_strength;
     g.alpha_cutoff = m.alpha_cutoff;
     g.lightmap_intensity = m.lightmap_intensity;
+    g.transmission = m.transmission;
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
         const TextureSlot& texture = m.*materialSlots[slot].texture;
         if (texture.texcoord == 1) g.second_texcoord |= 1u << slot;
@@ -90,7 +96,7 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene) : l
     std::vector<std::byte> data(scene.materials.size() * stride);
     for (const Material& material : scene.materials) {
         variants_.push_back(variantOf(material));
-        blends_.push_back(material.alpha_mode == AlphaMode::blend);
+        blends_.push_back(diptych::blends(material));
         const gpu::Material factors = gpuMaterial(material);
         std::memcpy(&data[(variants_.size() - 1) * stride], &factors, sizeof factors);
         for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)

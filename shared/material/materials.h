@@ -33,7 +33,8 @@ public:
     // The features that this material needs, all others off.
     const Variant& variant(std::uint32_t material) const { return variants_[material]; }
 
-    // Whether its surfaces are blended over what lies behind them (alphaMode BLEND). Those throw no shadow.
+    // Whether its surfaces are blended over what lies behind them (blends() of the scene). Those throw no
+    // shadow.
     bool blends(std::uint32_t material) const { return blends_[material]; }
 
     std::uint64_t imageBytes() const;

@@ -17,7 +17,7 @@ namespace {
 
 void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::set<int>& textures) {
     r.alpha_mask |= m.alpha_mode == AlphaMode::mask;
-    r.alpha_blend |= m.alpha_mode == AlphaMode::blend;
+    r.alpha_blend |= blends(m);
     r.double_sided |= m.double_sided;
     r.unlit |= m.unlit;
     r.dielectric_specular |= m.unlit || m.ior != 1.5f || m.specular != 1.0f ||
@@ -123,7 +123,8 @@ std::vector<Requirements::Line> Requirements::lines() const {
         "no texture has KHR_texture_transform");
     say(alpha_mask, "alpha test", "a material has alphaMode MASK",
         "no material has alphaMode MASK: depth passes read positions alone");
-    say(alpha_blend, "alpha blending", "a material has alphaMode BLEND: drawn over what is opaque",
+    say(alpha_blend, "alpha blending",
+        "a material has alphaMode BLEND or lets light through: drawn over what is opaque",
         "no material has alphaMode BLEND: no pass blends");
     say(double_sided, "back faces", "a material is double-sided: nothing of it is culled",
         "no material is double-sided: back faces are culled");

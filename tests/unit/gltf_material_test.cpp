@@ -210,6 +210,14 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
          [](const Material& m) { return m.metallic; },
          1,
          "metallicFactor 1.00000001 is outside 0 to 1: taken as 1"},
+        {{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1.5}}}}}},
+         [](const Material& m) { return m.transmission; },
+         1,
+         "material 0: transmissionFactor 1.5 is outside 0 to 1: taken as 1"},
+        {{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", -1e30}}}}}},
+         [](const Material& m) { return m.transmission; },
+         0,
+         "material 0: transmissionFactor -1e+30 is outside 0 to 1: taken as 0"},
         {specular({{"specularFactor", 1.5}}), [](const Material& m) { return m.specular; }, 1,
          "specularFactor 1.5 "},
         {specular({{"specularColorFactor", {-1, 1, 1}}}),
@@ -247,4 +255,34 @@ TEST(GltfMaterial, EmissionBeyondAnyFloatIsRefused) {
         withMaterial({{"emissiveFactor", {1e38, 0, 0}},
                       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 10}}}}}});
     EXPECT_TRUE(f.error().ends_with(": material 0: emits 1e+39, beyond any float")) << f.error();
+}
+
+// Thin surfaces: the factor is read, and once a scene it is said what is not modelled.
+TEST(GltfMaterial, TransmissionIsReadAndWhatIsNotModelledIsSaid) {
+    const Json transmits = {{"KHR_materials_transmission",
+                             {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 0}}}}},
+                            {"KHR_materials_volume", {{"thicknessFactor", 0.1}, {"attenuationDistance", 2}}}};
+    GltfFile f = withMaterial({{"name", "glass"}, {"extensions", transmits}});
+    f.json["extensionsRequired"] = {"KHR_materials_transmission", "KHR_materials_volume"};
+    const Scene scene = f.load();
+    EXPECT_EQ(scene.materials[0].transmission, 0.75f);
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::opaque);
+    EXPECT_TRUE(blends(scene.materials[0]));
+    EXPECT_TRUE(scene.images.empty()) << "the texture is not read";
+    for (const char* said :
+         {"1 material (glass) with KHR_materials_transmission: blended, without thickness; refraction, blur",
+          "1 material (glass) with a transmissionTexture: not read, transmissionFactor counts everywhere",
+          "1 material (glass) with KHR_materials_volume: thickness and attenuation are not modelled"})
+        EXPECT_TRUE(mentions(scene.notes, said)) << said;
+
+    const Material plain = materialOf({{"extensions", {{"KHR_materials_transmission", Json::object()}}}});
+    EXPECT_EQ(plain.transmission, 0) << "its default";
+    EXPECT_FALSE(blends(plain));
+    const Json unlit = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                        {"KHR_materials_unlit", Json::object()}};
+    EXPECT_FALSE(blends(materialOf({{"extensions", unlit}}))) << "which the extension forbids";
+    EXPECT_NE(
+        withMaterial({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", "all"}}}}}})
+            .error(),
+        "");
 }

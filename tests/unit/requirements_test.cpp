@@ -82,6 +82,7 @@ TEST(Requirements, EachFeatureAsksForItself) {
         {"normal", [](Material& m) { m.normal_texture.texture = 0; }, &Requirements::normal_maps},
         {"mask", [](Material& m) { m.alpha_mode = AlphaMode::mask; }, &Requirements::alpha_mask},
         {"blend", [](Material& m) { m.alpha_mode = AlphaMode::blend; }, &Requirements::alpha_blend},
+        {"transmission", [](Material& m) { m.transmission = 0.5f; }, &Requirements::alpha_blend},
         {"two sides", [](Material& m) { m.double_sided = true; }, &Requirements::double_sided},
         {"uv set",
          [](Material& m) {

@@ -56,6 +56,7 @@ public:
         m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
         readEmission(m);
         readSpecular(m);
+        readTransmission(m);
         readLightmap(m);
         return m;
     }
@@ -182,6 +183,12 @@ private:
         m.lightmap_intensity = static_cast<float>(lightmap_->intensity);
     }
 
+    void readTransmission(Material& m) {
+        const auto* e = extension(file_.extensions, "KHR_materials_transmission");
+        if (e)
+            m.transmission = within("transmissionFactor", numberIn(*e, "transmissionFactor", 0, who_), 0, 1);
+    }
+
     void readSpecular(Material& m) {
         if (const auto* e = extension(file_.extensions, "KHR_materials_ior")) {
             const double ior = numberIn(*e, "ior", 1.5, who_);
@@ -215,6 +222,27 @@ void noteMaterials(const tinygltf::Model& model, const Test& test, const char* w
     if (count)
         scene.notes.push_back(
             fmt::format("{} material{} ({}) {}", count, count == 1 ? "" : "s", oneLine(names), what));
+}
+
+// What the model of thin transmission leaves out, once a scene.
+void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& drawn, Scene& scene) {
+    const auto transmits = [&](std::size_t i) { return drawn[i] && scene.materials[i].transmission > 0; };
+    const auto extensionOf = [&](std::size_t i, const char* name) {
+        return extension(model.materials[i].extensions, name);
+    };
+    noteMaterials(
+        model, transmits,
+        "with KHR_materials_transmission: blended, without thickness; refraction, blur by roughness "
+        "and the colour of what passes are not modelled",
+        scene);
+    const auto textured = [&](std::size_t i) {
+        return transmits(i) && extensionOf(i, "KHR_materials_transmission")->Has("transmissionTexture");
+    };
+    noteMaterials(model, textured,
+                  "with a transmissionTexture: not read, transmissionFactor counts everywhere", scene);
+    const auto thick = [&](std::size_t i) { return drawn[i] && extensionOf(i, "KHR_materials_volume"); };
+    noteMaterials(model, thick, "with KHR_materials_volume: thickness and attenuation are not modelled",
+                  scene);
 }
 
 std::vector<bool> drawnMaterials(const tinygltf::Model& model, const Scene& scene) {
@@ -271,6 +299,7 @@ void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, S
     }
     limitNotes(scene.notes, before, "materials");
     left.moveTo(scene.notes);
+    noteTransmission(model, drawn, scene);
     const bool needsDefault =
         std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {
             return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),

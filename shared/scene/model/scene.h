@@ -71,6 +71,7 @@ struct Material {
     float specular = 1;  // KHR_materials_specular
     glm::vec3 specular_color{1, 1, 1};
     float lightmap_intensity = 1;  // factor of the lightmap; see contract/material.h
+    float transmission = 0;        // KHR_materials_transmission: of a surface without thickness
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
@@ -79,6 +80,11 @@ struct Material {
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture, lightmap_texture;
 };
+
+// Whether it is drawn over what lies behind it, which is seen through it.
+inline bool blends(const Material& m) {
+    return m.alpha_mode == AlphaMode::blend || (m.transmission > 0 && !m.unlit);
+}
 
 // Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions; normals
 // and tangents are never empty once a scene has been loaded.

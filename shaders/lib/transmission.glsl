@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// KHR_materials_transmission as a surface without thickness.
+#ifndef TRANSMISSION_GLSL
+#define TRANSMISSION_GLSL
+
+#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/position.glsl"
+
+// Of light from straight behind: what the specular layer does not reflect, and the base neither scatters nor
+// absorbs. Its colour is that of the base; one share stands for all components, that of the luminance.
+float transmittedShare(Surface s) {
+    Brdf b = makeBrdf(s, viewVector(s.position));
+    float base = 1.0 - (b.base_f0 + (b.base_f90 - b.base_f0) * schlickWeight(b.n_dot_v));
+    float color = dot(s.albedo, vec3(0.2126, 0.7152, 0.0722));
+    return clamp(s.transmission * (1.0 - s.metallic) * base * color, 0.0, 1.0);
+}
+
+#endif
