@@ -144,6 +144,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
     inputs.longest_list = lists.any()               ? lists.grid().all_end
                           : objects.features() != 0 ? objects.longest()
                                                     : lights.local();
+    checkLightsOfBlended(inputs);
     notes = functionsOf(settings.path).prepare(inputs, settings);
     shadow.choosePages(inputs);
     std::ranges::move(shadow.notes(), std::back_inserter(notes));

@@ -8,10 +8,13 @@
 #include "shared/shadow/shadow_maps.h"
 #include "shared/transparent/fragment_lists.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -166,6 +169,15 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
     constants.farthest = static_cast<float>(std::max(range.farthest, view.camera.near));
     if (draws.blended().empty()) constants.nearest = constants.farthest = 1;
     return constants;
+}
+
+void checkLightsOfBlended(const FrameInputs& inputs) {
+    const gpu::uint most = inputs.device.profile().packets_per_draw;
+    if (inputs.draws.blended().empty() || inputs.longest_list <= most) return;
+    throw std::runtime_error(fmt::format(
+        "blended surfaces: a list of lights has {} packets, one draw on {} walks {}; use --assign clustered "
+        "or tiled, --light-cutoff, or --transparency off",
+        inputs.longest_list, inputs.device.info().name, most));
 }
 
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {

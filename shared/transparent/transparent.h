@@ -13,6 +13,10 @@ namespace diptych {
 // there are none.
 gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view);
 
+// Throws std::runtime_error where blended surfaces are lit by longer lists than one draw walks: fragments
+// that are blended have no sums that a second draw could go on from.
+void checkLightsOfBlended(const FrameInputs& inputs);
+
 // Blends the view's blended draws over `lit`, which holds the opaque surfaces and the background, where
 // nothing opaque is in front of them: `depth`, which stays as it is. Adds no pass where there are none.
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit);

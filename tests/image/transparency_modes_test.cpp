@@ -395,5 +395,22 @@ TEST(TransparencyModes, PartsOfAPictureJoin) {
     EXPECT_EQ(differingPixels(whole, parts), 0u);
 }
 
+// Whatever is drawn in batches elsewhere cannot be where something is blended: an error says so.
+TEST(TransparencyModes, ListsThatOneDrawDoesNotWalkAreAnError) {
+    Settings settings = pictureOf(Transparency::sorted);
+    settings.assign = Assignment::every;
+    settings.lights = fmt::format("point:{}", device().profile().packets_per_draw + 1);
+    const Scene scene = loadScene("builtin:glass");
+    try {
+        litWith(scene, settings, nothing);
+        FAIL() << "drawn";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("--assign clustered"), std::string::npos) << error.what();
+    }
+    settings.transparency = Transparency::off;
+    settings.size = {8, 8};
+    EXPECT_NO_THROW(litWith(scene, settings, nothing));
+}
+
 }  // namespace
 }  // namespace diptych::tests
