@@ -61,6 +61,15 @@ std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Fra
     return {};
 }
 
+// Whether something blended covers the pixel, of a Frame that knows: in front of the background it is what
+// the pixel shows.
+bool showsBlended(const Frame& frame, std::size_t pixel) {
+    if (!frame.blended.empty()) return *frame.blended.pixel(pixel) > 0;
+    const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
+    if (frame.unblended.empty() || lit == frame.channels.end()) return false;
+    return distance(lit->second.pixel(pixel), frame.unblended.pixel(pixel), lit->second.components) != 0;
+}
+
 }  // namespace
 
 bool isBlack(const Image& image, const Coverage& coverage) {
@@ -90,7 +99,7 @@ Coverage coverage(const Frame& a, const Frame& b) {
     checkAlike(p, q, p.pixels());
     Coverage coverage{std::vector<std::uint8_t>(p.pixels()), 0, true};
     for (std::size_t i = 0; i < p.pixels(); ++i)
-        if (p.data[i] != value || q.data[i] != value) {
+        if (p.data[i] != value || q.data[i] != value || showsBlended(a, i) || showsBlended(b, i)) {
             coverage.covered[i] = 1;
             ++coverage.count;
         }

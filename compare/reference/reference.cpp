@@ -56,7 +56,7 @@ struct Pixel {
     Shading shading;    // of the nearest surface that is not blended
     Shading blended;    // of those in front of it, as seen
     double hidden = 0;  // the share of it that they hide
-    glm::dvec3 lit{0};
+    glm::dvec3 lit{0}, unblended{0};
     double sun_visibility = 0;
     double edge_distance = std::numeric_limits<double>::infinity(), sun_radiance = 0, sun_irradiance = 0;
     double local_visibility = 0;
@@ -450,6 +450,7 @@ private:
         const glm::dvec3 behind = std::exchange(pixel.lit, glm::dvec3(0));
         const double through = blendedBefore(end * (1 + 1e-6), ray, ~seed, pixel);
         pixel.lit += behind * through;
+        pixel.unblended = behind;
         pixel.hidden = 1 - through;
         return pixel;
     }
@@ -465,11 +466,13 @@ private:
             const PixelRay ray = rays_.through(x + at.x, y + at.y, std::sqrt(share));
             const Pixel sample = alongRay(ray, streamOf(~seed, static_cast<std::uint64_t>(i)));
             mean.lit += sample.lit * share;
+            mean.unblended += sample.unblended * share;
             mean.shading += sample.shading * share;
             mean.haze.scattered += sample.haze.scattered * share;
             mean.blended += sample.blended * share;
         }
         centre.lit = mean.lit;
+        centre.unblended = mean.unblended;
         centre.haze.scattered = mean.haze.scattered;
         centre.shading = mean.shading;
         centre.blended = mean.blended;
@@ -496,9 +499,9 @@ private:
 constexpr int tileSide = 16;
 
 // What a picture holds beside its channels and their uncertainty, in the order in which tiles keep it.
-std::array<Image*, 5> besides(Picture& picture) {
-    return {&picture.shadow_edge, &picture.local_shadow_edge, &picture.environment_costs,
-            &picture.surroundings, &picture.blended};
+std::array<Image*, 6> besides(Picture& picture) {
+    return {&picture.shadow_edge,  &picture.local_shadow_edge, &picture.environment_costs,
+            &picture.surroundings, &picture.blended,           &picture.unblended};
 }
 
 class Drawing {
@@ -531,8 +534,10 @@ public:
         if (request.environment_costs && request.scene.environment)
             picture_.environment_costs = Image(request.view.width, request.view.height, 9);
         if (request.surroundings) picture_.surroundings = Image(request.view.width, request.view.height, 2);
-        if (request.blended && blendsSomewhere(request.scene))
+        if (request.blended && blendsSomewhere(request.scene)) {
             picture_.blended = Image(request.view.width, request.view.height, 1);
+            picture_.unblended = Image(request.view.width, request.view.height, 3);
+        }
         for (const Image* image : besides(picture_)) floats_ += image->components;
     }
 
@@ -612,6 +617,7 @@ private:
                                               c.split[1], c.split[2], c.sampled, c.wider, c.lobe});
             take(picture_.surroundings, {pixel.shading.surroundings.all, pixel.shading.surroundings.hidden});
             take(picture_.blended, {pixel.hidden});
+            take(picture_.unblended, {pixel.unblended.x, pixel.unblended.y, pixel.unblended.z});
         });
         values.front() = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
         return values;

@@ -25,6 +25,8 @@ struct Picture {
     Image local_shadow_edge;
     // Where materials blend, W x H x 1: the share that what is blended hides of what lies behind it.
     Image blended;
+    // Where materials blend, W x H x 3: lit without what is blended.
+    Image unblended;
     // Where it was asked for, of the environment's light, W x H x 9: EnvironmentCosts, its diffuse, its
     // split, sampled, wider and lobe; W/(sr m^2).
     Image environment_costs;

@@ -145,6 +145,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     frame.shadow_edge = std::move(picture.shadow_edge);
     frame.local_shadow_edge = std::move(picture.local_shadow_edge);
     frame.blended = std::move(picture.blended);
+    frame.unblended = std::move(picture.unblended);
     frame.environment_costs = std::move(picture.environment_costs);
     if (!picture.surroundings.empty()) {
         frame.hidden_light = hiddenLight(picture.surroundings);

@@ -115,6 +115,13 @@ private:
         bounds_.at(read.mode).add(*read.surface, std::move(image));
     }
 
+    // Keeps lit as it was before something was blended over it, where lit is wanted at all.
+    void takeUnblended(const CapturedImage& read, Image image) {
+        if (!isRequested(lit)) return;
+        keepInFile(image.data);
+        (read.surface ? frame_.unblended_through_gbuffer : frame_.unblended) = std::move(image);
+    }
+
     // Draws every channel from the timed frame's images. lit itself stays the timed pipeline's.
     void capture() {
         PassList& passes = prepared_.passes;
@@ -124,6 +131,7 @@ private:
         std::vector<CapturedImage> captured =
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         readCaptured(first, captured, [this](const CapturedImage& read, Image image) {
+            if (read.before_blending) return takeUnblended(read, std::move(image));
             if (read.surface) return takeEncoded(read, std::move(image));
             if (read.mode == lit) {
                 frame_.counters.unreproduced_pixels =

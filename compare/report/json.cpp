@@ -116,6 +116,16 @@ Json jsonOf(const Report& report, const CloserPath& closer) {
     return {{"scene", reference.scene}, {"camera", jsonOf(reference.camera)}, {"channels", channels}};
 }
 
+Json jsonOf(const AfterBlending& blended) {
+    return {{"blended_pixels", blended.covered},
+            {"pixels_before", blended.before},
+            {"pixels", blended.pixels},
+            {"pixels_allowed", blended.allowed},
+            {"largest", finiteOrNull(blended.largest)},
+            {"pixel", {blended.x, blended.y}},
+            {"verdict", blended.passed() ? "pass" : "fail"}};
+}
+
 Json jsonOf(const Report& report, const Comparison& comparison) {
     const Frame& baseline = report.baseline(comparison);
     Json channels = Json::array();
@@ -126,18 +136,20 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         found[std::string(feature.feature)] = feature.found;
         for (const VisualCheck& check : feature.checks) checks.push_back(jsonOf(feature, check));
     }
-    return {{"scene", baseline.scene},
-            {"camera", jsonOf(baseline.camera)},
-            {"baseline", baseline.name},
-            {"test", report.test(comparison).name},
-            {"verdict", comparison.passed() ? "pass" : "fail"},
-            {"covered_pixels", comparison.coverage.count},
-            {"emptiness", comparison.emptiness.empty() ? Json(nullptr) : Json(comparison.emptiness)},
-            {"failures", comparison.failures},
-            {"notes", comparison.notes},
-            {"channels", channels},
-            {"marks", checks},
-            {"marks_found", found}};
+    return {
+        {"scene", baseline.scene},
+        {"camera", jsonOf(baseline.camera)},
+        {"baseline", baseline.name},
+        {"test", report.test(comparison).name},
+        {"verdict", comparison.passed() ? "pass" : "fail"},
+        {"covered_pixels", comparison.coverage.count},
+        {"emptiness", comparison.emptiness.empty() ? Json(nullptr) : Json(comparison.emptiness)},
+        {"after_blending", comparison.after_blending ? jsonOf(*comparison.after_blending) : Json(nullptr)},
+        {"failures", comparison.failures},
+        {"notes", comparison.notes},
+        {"channels", channels},
+        {"marks", checks},
+        {"marks_found", found}};
 }
 
 }  // namespace

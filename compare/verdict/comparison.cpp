@@ -80,6 +80,17 @@ void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& compariso
     }
 }
 
+// Where lit was asked for, whether what is blended makes a difference of its own. A rule that judges lit says
+// itself what it may differ by: then it is noted.
+void readBlending(const FramePair& pair, std::span<const Rule> rules, Comparison& comparison) {
+    const DebugMode& lit = debugMode(static_cast<int>(gpu::DEBUG_lit));
+    if (!pair.baseline.isRequested(lit.number) || !pair.test.isRequested(lit.number)) return;
+    comparison.after_blending = afterBlending(pair);
+    if (!comparison.after_blending) return;
+    const std::string fault = faultOf(*comparison.after_blending);
+    if (!fault.empty()) (ruleFor(rules, lit.name) ? comparison.notes : comparison.failures).push_back(fault);
+}
+
 // The forward+ Frame of this pair's scene and camera that tells what its encoding may do.
 const Frame* explaining(const Report& report, const Frame& left, const Frame& right) {
     if (!isReferenceFrame(left) && !isReferenceFrame(right)) return nullptr;
@@ -240,6 +251,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                             "compare " + std::string(channel.mode->name));
     });
 
+    readBlending(pair, options.rules, comparison);
     for (const Frame* frame : {&left, &right}) {
         readCounters(*frame, comparison);
         readNoise(*frame, cpu, options.allow_noise, comparison);

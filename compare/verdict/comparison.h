@@ -5,6 +5,7 @@
 #include "compare/checks/visual_checks.h"
 #include "compare/metrics/channel.h"
 #include "compare/run/progress.h"
+#include "compare/verdict/after_blending.h"
 #include "compare/verdict/channel_diff.h"
 #include "compare/verdict/closer_path.h"
 #include "compare/verdict/rules.h"
@@ -25,7 +26,8 @@ struct Comparison {
     Coverage coverage;
     std::vector<std::string>
         failures;  // in addition to the channels', e.g. a capture that is not the timed frame
-    std::vector<std::string> notes;  // what a reader must know although it is no failure
+    std::vector<std::string> notes;               // what a reader must know although it is no failure
+    std::optional<AfterBlending> after_blending;  // where something is blended; a failure has its own line
     // Why the verdict says little: the pictures show hardly anything, or hardly a pixel was judged closely.
     std::string emptiness;
     std::vector<std::string>

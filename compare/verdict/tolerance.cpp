@@ -298,17 +298,21 @@ double encodingBound(const DebugMode& mode, const FramePair& pair) {
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
     if (!isShaded(mode.number) || isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
+    const bool marched = path.settings.haze && path.settings.haze_march_steps > 0;
+    if (reference.uncertainty.empty() && !allowedByBits(mode, pair) && !ShadowEdges(pair).any() &&
+        !EnvironmentCost(pair).any() && !marched && !BlendedPixels(pair).any())
+        return {};
+    return openErrors(mode, pair, pair.baseline.channels.at(mode.number), pair.test.channels.at(mode.number));
+}
+
+std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
+                               const Image& test) {
+    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Image* const bits = allowedByBits(mode, pair);
     const ShadowEdges edges(pair);
     const EnvironmentCost environment(pair);
-    const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
-    const bool marched = path.settings.haze && path.settings.haze_march_steps > 0;
     const BlendedPixels blended(pair);
-    if (reference.uncertainty.empty() && !bits && !edges.any() && !environment.any() && !marched &&
-        !blended.any())
-        return {};
-    const Image& baseline = pair.baseline.channels.at(mode.number);
-    const Image& test = pair.test.channels.at(mode.number);
     const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
     std::vector<double> errors;
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {

@@ -33,6 +33,10 @@ double encodingBound(const DebugMode& mode, const FramePair& pair);
 // and for channels other than lit ones.
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair);
 
+// The same of any two images of the channel in a comparison with the reference, also where nothing is open.
+std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
+                               const Image& test);
+
 // Their 99.9th percentile.
 std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair);
 

@@ -27,6 +27,7 @@ struct CapturedImage {
     ImageRef image;
     std::size_t pass = 0;                   // the number of its group's
     std::optional<gpu::uint> surface = {};  // forward+: SURFACE_*, where it is not of the path's own
+    bool before_blending = false;           // lit as it is before something is blended over it
 };
 
 // The channels that a capture makes: of surfaces as they are; and, forward+ only, of surfaces that went

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/frame/frame.h"
 
+#include "shared/contract/debug_mode.h"
+
 #include <fmt/format.h>
 
 namespace diptych {
@@ -8,6 +10,9 @@ namespace diptych {
 void letGo(const Frame& frame, int mode) {
     for (const auto* pictures : {&frame.channels, &frame.through_gbuffer, &frame.encoding_bound})
         if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second.data);
+    if (mode == static_cast<int>(gpu::DEBUG_lit))
+        for (const Image* image : {&frame.unblended, &frame.unblended_through_gbuffer})
+            if (!image->empty()) letGo(image->data);
 }
 
 void letGo(const Frame& frame) {

@@ -114,6 +114,9 @@ struct Frame {
     // Forward+ only, of the same channels: how far the bits of settings.gbuffer may move them at each pixel,
     // W x H x 1, W/(sr m^2). A channel that this scene leaves dark has none.
     std::map<int, Image> encoding_bound;
+    // Of a path or the reference in whose view something may be blended: lit before that, W x H x 3; and
+    // forward+ only, the same of through_gbuffer. Else empty.
+    Image unblended, unblended_through_gbuffer;
     std::array<float, 3> background{};  // colour of background pixels in pictures, W/(sr m^2)
     std::map<int, ChannelNoise> noise;  // of every channel, if the frame was drawn twice
     // Of the reference, if something was sampled: half the 95 % confidence interval of lit, W x H x 1, W/(sr

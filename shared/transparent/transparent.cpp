@@ -2,6 +2,7 @@
 #include "shared/transparent/transparent.h"
 
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/encoded_surface.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
@@ -206,8 +207,14 @@ void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef
     });
     if (lit == images.end() || inputs.draws.blended().empty()) return;
     addTransparent(passes, inputs, depth, lit->image);
-    lit->pass = passes.size() - 1;
-    std::rotate(lit, lit + 1, images.end());
+    CapturedImage blended = *lit;
+    blended.pass = passes.size() - 1;
+    // Of surfaces that bound an encoding nobody asks what lit was.
+    if (lit->surface.value_or(gpu::SURFACE_DECODED) == gpu::SURFACE_DECODED)
+        lit->before_blending = true;
+    else
+        images.erase(lit);
+    images.push_back(blended);
 }
 
 }  // namespace diptych

@@ -22,7 +22,8 @@ void checkLightsOfBlended(const FrameInputs& inputs);
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit);
 
 // The same over the lit of the capture that is the list's last pass, where it has one: `images`' last ones,
-// which are put in the order in which they are ready. Other channels are those of the opaque surfaces.
+// which are put in the order in which they are ready. Other channels are those of the opaque surfaces; lit is
+// among them once more, before_blending, of the same image at an earlier pass.
 void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                            std::vector<CapturedImage>& images);
 

@@ -90,7 +90,7 @@ public:
 
     // Images as the last run left them, row 0 on top: the first `components` float32 of every texel of one
     // level and layer, side by side. Copied in one submit, as far as staging memory of 64 MiB allows, and
-    // unpacked on all cores. Of transients only those that the last pass that ran had.
+    // unpacked on all cores. Of transients only those alive at the last pass that ran.
     struct ReadBack {
         ImageRef image;
         int components = 1;

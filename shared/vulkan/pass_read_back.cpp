@@ -59,7 +59,7 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
     std::vector<Use> uses;
     for (const ReadBack& request : requests) {
         const Resource& found = resource(request.image);
-        if (found.life == Life::transient && found.last != last_run_)
+        if (found.life == Life::transient && (last_run_ < found.first || last_run_ > found.last))
             throw std::logic_error("PassList: " + found.image->info().name +
                                    " is a transient and cannot be read back");
         uses.push_back(

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/after_blending.h"
+
+#include "compare/metrics/pixel.h"
+#include "compare/verdict/tolerance.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+constexpr int litNumber = static_cast<int>(gpu::DEBUG_lit);
+
+// lit before and after something was blended, W x H x 3.
+struct Blending {
+    const Image* before = nullptr;
+    const Image* after = nullptr;
+};
+
+Blending blendingOf(const Frame& frame) {
+    const auto lit = frame.channels.find(litNumber);
+    if (lit == frame.channels.end() || frame.unblended.empty()) return {};
+    return {&frame.unblended, &lit->second};
+}
+
+// The same of surfaces that went through the G-buffer's encoding, where it loses something: a pair of both
+// paths is judged by what that does not explain.
+Blending encodedBlendingOf(const Frame& forward, const Frame& other) {
+    const auto lit = forward.through_gbuffer.find(litNumber);
+    if (forward.settings.path != Path::forward_plus || other.settings.path != Path::deferred ||
+        other.settings.gbuffer == GBufferEncoding::full ||
+        forward.settings.gbuffer != other.settings.gbuffer || lit == forward.through_gbuffer.end() ||
+        forward.unblended_through_gbuffer.empty())
+        return blendingOf(forward);
+    return {&forward.unblended_through_gbuffer, &lit->second};
+}
+
+bool isBlended(const Blending& of, std::size_t i) {
+    return metrics::distance(of.before->pixel(i), of.after->pixel(i), of.after->components) != 0;
+}
+
+void take(AfterBlending& found, double error, std::size_t pixel, int width) {
+    if (found.pixels++ > 0 && !(error > found.largest)) return;
+    found.largest = error;
+    found.x = static_cast<int>(pixel) % width;
+    found.y = static_cast<int>(pixel) / width;
+}
+
+AfterBlending ofPaths(const FramePair& pair, const Blending& a, const Blending& b) {
+    AfterBlending found;
+    const DebugMode& lit = debugMode(litNumber);
+    const PixelError error(lit.metric, lit.kind, *a.after, pair.coverage);
+    for (std::size_t i = 0; i < a.after->pixels(); ++i) {
+        if (!pair.coverage.covered[i]) continue;
+        found.covered += isBlended(a, i) || isBlended(b, i) ? 1 : 0;
+        const double before = metrics::distance(a.before->pixel(i), b.before->pixel(i), 3),
+                     after = metrics::distance(a.after->pixel(i), b.after->pixel(i), 3);
+        found.before += before > 0 ? 1 : 0;
+        const double rounding = before == 0 && pair.cpu
+                                    ? 0
+                                    : gpuUlps * 0x1p-23 *
+                                          std::max({metrics::largestFinite(a.after->pixel(i), 3),
+                                                    metrics::largestFinite(b.after->pixel(i), 3),
+                                                    metrics::largestFinite(a.before->pixel(i), 3)});
+        if (after > before + rounding || (std::isinf(after) && !std::isinf(before)))
+            take(found, error(b.after->pixel(i), a.after->pixel(i)), i, a.after->width);
+    }
+    return found;
+}
+
+AfterBlending ofReference(const FramePair& pair, const Blending& a, const Blending& b) {
+    AfterBlending found;
+    const DebugMode& lit = debugMode(litNumber);
+    const double most = derivedTolerance(lit, pair).max;
+    const std::vector<double> before = openErrors(lit, pair, *a.before, *b.before),
+                              after = openErrors(lit, pair, *a.after, *b.after);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < a.after->pixels(); ++i) {
+        if (!pair.coverage.covered[i]) continue;
+        const std::size_t k = next++;
+        found.covered += isBlended(a, i) || isBlended(b, i) ? 1 : 0;
+        const bool differed = !(before[k] <= most);
+        found.before += differed ? 1 : 0;
+        if (!differed && !(after[k] <= most)) take(found, after[k], i, a.after->width);
+    }
+    found.allowed = (found.covered + 999) / 1000;
+    return found;
+}
+
+}  // namespace
+
+std::optional<AfterBlending> afterBlending(const FramePair& pair) {
+    const Blending a = encodedBlendingOf(pair.baseline, pair.test),
+                   b = encodedBlendingOf(pair.test, pair.baseline);
+    if (a.before == nullptr || b.before == nullptr) return {};
+    if (isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return ofPaths(pair, a, b);
+    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    if (reference.settings.reference_mode != ReferenceMode::surface) return {};
+    return ofReference(pair, a, b);
+}
+
+std::string faultOf(const AfterBlending& found) {
+    if (found.passed()) return {};
+    return fmt::format(
+        "after the transparent draw: {} pixel(s) of lit differ that did not before it, or not as much "
+        "(largest {:.3g} at {},{}); {} pixel(s) show what is blended, {} differed before it{}",
+        found.pixels, found.largest, found.x, found.y, found.covered, found.before,
+        found.allowed > 0 ? fmt::format(", {} may after it", found.allowed) : "");
+}
+
+}  // namespace diptych

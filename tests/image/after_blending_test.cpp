@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// What both paths hand out of lit before blending, and what a verdict makes of a difference after it.
+#include "compare/verdict/pair_reports.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+namespace diptych::tests {
+namespace {
+
+Settings beforeBlendingPicture(GBufferEncoding gbuffer = GBufferEncoding::full) {
+    Settings settings = smallPicture(gbuffer);
+    settings.size = {96, 54};
+    return settings;
+}
+
+Report afterBlendingReport(std::vector<Frame> frames) {
+    const Scene& scene = uploaded("builtin:glass").scene;
+    const std::vector<Requirements> needs(frames.size(), requirements(scene, poseAt(scene, 0)));
+    const DeviceInfo& info = device().info();
+    const ReportDevice on{info.name, info.driver, info.type};
+    return frames.size() == 2 ? makeReport(std::move(frames), needs, on)
+                              : makeReferenceReport(std::move(frames), needs, on, {}, {{}}, {{}});
+}
+
+std::size_t namedFailures(const Comparison& comparison) {
+    return static_cast<std::size_t>(std::ranges::count_if(comparison.failures, [](const std::string& line) {
+        return line.starts_with("after the transparent draw: ");
+    }));
+}
+
+// lit before blending is that of the scene without what is blended.
+TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
+    const Scene& scene = uploaded("builtin:glass").scene;
+    Scene opaque = scene;
+    for (Mesh& mesh : opaque.meshes)
+        std::erase_if(mesh.primitives, [&](const Primitive& p) {
+            return opaque.materials[static_cast<std::size_t>(p.material)].alpha_mode == AlphaMode::blend;
+        });
+    for (const GBufferEncoding gbuffer : {GBufferEncoding::full, GBufferEncoding::standard}) {
+        const Settings settings = beforeBlendingPicture(gbuffer);
+        const std::vector<Frame> all = bothPaths(uploaded("builtin:glass").renderer, settings),
+                                 rest = bothPaths(opaque, settings);
+        for (const std::size_t i : {0u, 1u}) {
+            EXPECT_TRUE(rest[i].unblended.empty()) << "nothing blends";
+            ASSERT_FALSE(all[i].unblended.empty());
+            const DebugMode& mode = debugMode(lit);
+            // Unlit materials are among those that blend, for which F0 is read, not a constant.
+            EXPECT_LT(channelStats(mode.metric, mode.kind, rest[i].channels.at(lit), all[i].unblended,
+                                   everyPixel(all[i].unblended.pixels()))
+                          .max,
+                      1e-5)
+                << all[i].name;
+            EXPECT_GT(differingPixels(all[i].unblended, all[i].channels.at(lit)), 400u);
+        }
+        EXPECT_EQ(all[1].unblended_through_gbuffer.empty(), false);
+        EXPECT_EQ(differingPixels(all[0].unblended, all[1].unblended_through_gbuffer), 0u);
+        const Report report = afterBlendingReport(all);
+        ASSERT_TRUE(report.comparisons[0].after_blending);
+        EXPECT_TRUE(report.passed()) << nameOf(gbuffer);
+    }
+}
+
+// The control: a fault that comes after blending alone, and one that is there before.
+TEST(AfterBlendingImages, AFaultAfterBlendingFailsByName) {
+    for (const GBufferEncoding gbuffer : {GBufferEncoding::full, GBufferEncoding::standard}) {
+        const std::vector<Frame> frames =
+            bothPaths(uploaded("builtin:glass").renderer, beforeBlendingPicture(gbuffer));
+        std::vector<Frame> after = frames, both = frames;
+        for (std::size_t i = 0; i < 40; ++i) {
+            const std::size_t pixel = 96 * 20 + 30 + i;
+            after[0].channels.at(lit).pixel(pixel)[1] *= 1.001f;
+            both[0].channels.at(lit).pixel(pixel)[1] *= 1.001f;
+            both[0].unblended.pixel(pixel)[1] += 0.1f;
+        }
+        const Report named = afterBlendingReport(after), other = afterBlendingReport(both);
+        EXPECT_EQ(namedFailures(named.comparisons[0]), 1u) << nameOf(gbuffer);
+        EXPECT_EQ(named.comparisons[0].after_blending->pixels, 40u) << nameOf(gbuffer);
+        EXPECT_EQ(namedFailures(other.comparisons[0]), 0u) << nameOf(gbuffer);
+        EXPECT_FALSE(other.passed()) << "lit differs";
+    }
+}
+
+// Of a few pixels, so few that lit passes as a whole.
+TEST(AfterBlendingImages, AgainstTheReferenceTooIfLitPassesAsAWhole) {
+    Renderer& renderer = uploaded("builtin:glass").renderer;
+    Settings settings = beforeBlendingPicture();
+    settings.size = {160, 90};
+    std::vector<Frame> frames{drawnBy(Path::reference, renderer, settings)};
+    for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
+    EXPECT_TRUE(afterBlendingReport(frames).passed());
+    // Pane by pane where the reference's picture is even around.
+    std::size_t faults = 0;
+    for (std::size_t y = 2; y < 88 && faults < 4; ++y)
+        for (std::size_t x = 2; x < 158 && faults < 4; ++x) {
+            const auto at = [&](std::size_t u, std::size_t v) {
+                return frames[0].channels.at(lit).pixel(v * 160 + u)[1];
+            };
+            float least = at(x, y), most = least;
+            for (std::size_t v = y - 2; v <= y + 2; ++v)
+                for (std::size_t u = x - 2; u <= x + 2; ++u) {
+                    least = std::min(least, at(u, v));
+                    most = std::max(most, at(u, v));
+                }
+            const std::size_t i = y * 160 + x;
+            if (*frames[0].blended.pixel(i) == 0 || most - least > 0.02f * most) continue;
+            frames[1].channels.at(lit).pixel(i)[1] *= 1.1f;
+            ++faults;
+        }
+    ASSERT_EQ(faults, 4u);
+    const Report report = afterBlendingReport(frames);
+    const Comparison& deferred = report.comparisons[0];
+    EXPECT_EQ(deferred.channels.front().mode->number, lit);
+    EXPECT_EQ(deferred.channels.front().verdict, Verdict::pass);
+    EXPECT_EQ(namedFailures(deferred), 1u);
+    EXPECT_EQ(namedFailures(report.comparisons[1]), 0u);
+}
+
+}  // namespace
+}  // namespace diptych::tests
