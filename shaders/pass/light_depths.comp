@@ -26,7 +26,8 @@ shared uint nearest, deepest;
 
 void add(float z, inout float near, inout float deep) {
     near = max(near, z);
-    deep = z > 0.0 || on(feature_lights_in_front) ? min(deep, z) : deep;  // 0: nothing was drawn there
+    // 0: nothing was drawn there.
+    deep = on(feature_lights_in_front) || z > 0.0 ? min(deep, z) : deep;
 }
 
 void main() {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// SPIR-V as text of spirv-dis, in words by which two modules that are the same but for the numbers of their
+// ids and the order of their declarations are equal.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+// `disassembly` is of spirv-dis --no-header --raw-id. What a declaration is (a type, a constant, a variable
+// with its decorations) becomes a number of `known`, one table for all modules that are compared; ids within
+// functions are numbered as they come. Lines are those of the functions, after those before declarations.
+inline std::vector<std::string> canonicalSpirv(const std::string& disassembly,
+                                               std::map<std::string, std::size_t>& known) {
+    using Texts = std::map<std::string, std::string>;
+    Texts declared, decorations;
+    std::vector<std::string> before, functions;
+    static const std::regex definition("^%([0-9]+) = (.*)$"),
+        decoration("^(OpDecorate|OpMemberDecorate) %([0-9]+) (.*)$"), id("%([0-9]+)");
+    std::istringstream stream(disassembly);
+    std::map<std::string, std::vector<std::string>> decorated;
+    bool inside = false;
+    for (std::string line; std::getline(stream, line);) {
+        line.erase(0, std::min(line.find_first_not_of(' '), line.size()));
+        std::smatch match;
+        inside |= line.find(" = OpFunction ") != std::string::npos;
+        if (line.empty()) continue;
+        if (inside)
+            functions.push_back(line);
+        else if (std::regex_match(line, match, decoration))
+            decorated[match[2]].push_back(match[1].str() + " " + match[3].str());
+        else if (std::regex_match(line, match, definition))
+            declared[match[1]] = match[2];
+        else
+            before.push_back(line);
+    }
+    for (auto& [of, texts] : decorated) {
+        std::ranges::sort(texts);
+        for (const std::string& text : texts) decorations[of] += " | " + text;
+    }
+    const auto replaced = [](const std::string& line, const std::function<std::string(std::string)>& with) {
+        std::string out;
+        auto rest = line.cbegin();
+        for (std::sregex_iterator at(line.begin(), line.end(), id), end; at != end; ++at) {
+            out.append(rest, (*at)[0].first);
+            out += with((*at)[1]);
+            rest = (*at)[0].second;
+        }
+        return out.append(rest, line.cend());
+    };
+    Texts numbers;
+    std::function<std::string(std::string)> numberOf = [&](const std::string& of) -> std::string {
+        const auto found = numbers.find(of);
+        if (found != numbers.end()) return found->second;
+        const std::string text = replaced(declared.at(of), numberOf) + decorations[of];
+        return numbers[of] = "#" + std::to_string(known.try_emplace(text, known.size()).first->second);
+    };
+    Texts locals;
+    const auto name = [&](const std::string& of) {
+        if (declared.contains(of)) return numberOf(of);
+        return locals.try_emplace(of, "%" + std::to_string(locals.size())).first->second;
+    };
+    std::vector<std::string> lines;
+    for (const std::string& line : before) {
+        std::string text = replaced(line, name);
+        if (text.starts_with("OpEntryPoint")) {  // lists its variables in any order
+            std::istringstream parts(text);
+            std::vector<std::string> words{std::istream_iterator<std::string>(parts), {}};
+            std::ranges::sort(words);
+            text.clear();
+            for (const std::string& word : words) text += word + " ";
+        }
+        lines.push_back(text);
+    }
+    for (const std::string& line : functions) {
+        std::smatch match;
+        const bool made = std::regex_match(line, match, definition);
+        lines.push_back(replaced(line, name) + (made ? decorations[match[1]] : ""));
+    }
+    return lines;
+}
+
+}  // namespace diptych
