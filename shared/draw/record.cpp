@@ -82,16 +82,11 @@ public:
         // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
         vkCmdSetFrontFace(commands_,
                           item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        constants_ = constants_of_(item);
-        push(commands_, inputs_, constants_);
+        push(commands_, inputs_, constants_of_(item));
         last_ = &item;
         taken_ = i;
     }
-    // `triangle`: of the run's first one among those of the item.
-    void draw(const IndexRun& run, std::uint32_t triangle = 0) const {
-        gpu::DrawConstants ofRun = constants_;
-        ofRun.triangle += triangle;
-        if (triangle != 0) push(commands_, inputs_, ofRun);
+    void draw(const IndexRun& run) const {
         vkCmdDrawIndexed(commands_, run.count, 1, run.first, last_->range.vertex_offset, last_->draw);
     }
 
@@ -101,7 +96,6 @@ private:
     const DrawSource& source_;
     const std::vector<VkPipeline>& pipelines_;
     const ConstantsOf& constants_of_;
-    gpu::DrawConstants constants_{};
     const DrawItem* last_ = nullptr;
     std::size_t taken_ = 0;
 };
@@ -117,8 +111,7 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
         const IndexRun whole{item.range.first_index, item.range.index_count};
         const std::span<const IndexRun> runs =
             item.runs == 0 ? std::span(&whole, 1) : source.runs.subspan(item.first_run, item.runs);
-        // A run's first triangle, as gl_PrimitiveID begins at 0 in each.
-        for (const IndexRun& run : runs) recorder.draw(run, (run.first - item.range.first_index) / 3);
+        for (const IndexRun& run : runs) recorder.draw(run);
     }
 }
 

@@ -559,7 +559,7 @@ void Settings::rows(Visit&& visit) {
                           [](const Settings& s) {
                               return s.transparency_layers >= 1 && s.transparency_layers <= 256;
                           }},
-                .default_only = {"needs --transparency list",
+                .default_only = {"has no meaning without --transparency list",
                                  [](const Settings& s) { return s.transparency == Transparency::list; }},
                 .ignored = {.reference = "the reference blends by depth"},
                 .sweep = "4,8,16",

@@ -91,7 +91,8 @@ TEST(PassKinds, ColoursAreBlended) {
     const Case cases[] = {{Blend::none, [](float s, float, float) { return s; }},
                           {Blend::add, [](float s, float d, float) { return s + d; }},
                           {Blend::over, [](float s, float d, float a) { return s + (1 - a) * d; }},
-                          {Blend::multiply, [](float s, float d, float) { return s * d; }}};
+                          {Blend::multiply, [](float s, float d, float) { return s * d; }},
+                          {Blend::through, [](float s, float d, float a) { return s + a * d; }}};
     for (const Case& row : cases) {
         PassList passes(device(), 3, 2);
         // Another attachment beside it keeps its own rule.
@@ -103,7 +104,9 @@ TEST(PassKinds, ColoursAreBlended) {
         passes.run();
         const std::vector<float> got = readOne(passes, first, 4);
         for (std::size_t i = 0; i < got.size(); ++i)
-            EXPECT_EQ(got[i], row.of(source[i % 4], there[i % 4], source[3]))
+            EXPECT_EQ(got[i], row.blend == Blend::through && i % 4 == 3
+                                  ? there[3]
+                                  : row.of(source[i % 4], there[i % 4], source[3]))
                 << static_cast<int>(row.blend) << " component " << i % 4;
     }
 }

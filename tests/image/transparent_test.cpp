@@ -144,6 +144,30 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
     }
 }
 
+// Whatever is asked for: no pass, no memory and no constant of blending where nothing blends.
+TEST(Transparent, WithoutBlendingEveryModeIsTheSameFrame) {
+    RenderOptions options;
+    options.channels = {lit};
+    options.runs = 1;
+    for (const Path path : rasterPaths) {
+        std::optional<Frame> first;
+        for (const auto& [transparency, name] : enumNames<Transparency>()) {
+            Settings settings = blendedPicture();
+            settings.path = path;
+            settings.transparency = transparency;
+            Frame frame = uploaded("builtin:cutout").renderer.draw(settings, options);
+            if (!first)
+                first = std::move(frame);
+            else {
+                EXPECT_EQ(frame.bytes.images, first->bytes.images) << name;
+                EXPECT_EQ(frame.bytes.buffers, first->bytes.buffers) << name;
+                EXPECT_EQ(frame.passes.size(), first->passes.size()) << name;
+                EXPECT_EQ(differingPixels(frame.channels.at(lit), first->channels.at(lit)), 0u) << name;
+            }
+        }
+    }
+}
+
 TEST(Transparent, WithoutBlendingThereIsNoPass) {
     for (const auto& [name, blends] : {std::pair("builtin:glass", true), {"builtin:cutout", false}}) {
         RenderOptions options;
