@@ -69,8 +69,8 @@ TEST(AfterBlendingImages, AFaultAfterBlendingFailsByName) {
         std::vector<Frame> after = frames, both = frames;
         for (std::size_t i = 0; i < 40; ++i) {
             const std::size_t pixel = 96 * 20 + 30 + i;
-            after[0].channels.at(lit).pixel(pixel)[1] *= 1.001f;
-            both[0].channels.at(lit).pixel(pixel)[1] *= 1.001f;
+            after[0].channels.at(lit).pixel(pixel)[1] += 0.01f;
+            both[0].channels.at(lit).pixel(pixel)[1] += 0.01f;
             both[0].unblended.pixel(pixel)[1] += 0.1f;
         }
         const Report named = afterBlendingReport(after), other = afterBlendingReport(both);
