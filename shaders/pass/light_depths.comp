@@ -26,8 +26,10 @@ shared uint nearest, deepest;
 
 void add(float z, inout float near, inout float deep) {
     near = max(near, z);
-    // 0: nothing was drawn there.
-    deep = on(feature_lights_in_front) || z > 0.0 ? min(deep, z) : deep;
+    // 0: nothing was drawn there, which counts where something may be blended. A constant, so that without it
+    // no code is left.
+    float beyond = on(feature_lights_in_front) ? -1.0 : 0.0;
+    deep = z > beyond ? min(deep, z) : deep;
 }
 
 void main() {

@@ -74,7 +74,7 @@ std::vector<Without> withouts() {
           "transparency_moments.frag"}},
         {"lights_in_front",
          gpu::FEATURE_lights_in_front,
-         {{"shaders/pass/light_depths.comp", "on(feature_lights_in_front) || "},
+         {{"shaders/pass/light_depths.comp", "on(feature_lights_in_front) ? -1.0 : 0.0", "0.0"},
           {"shaders/pass/light_depths.comp",
            "        if (on(feature_lights_in_front)) {\n"
            "            least = 0.0;\n"
@@ -149,7 +149,7 @@ std::vector<std::string> specialised(const fs::path& module, const std::string& 
     const fs::path small = module.string() + ".small", text = module.string() + ".text";
     run(fmt::format(
         "'{}' --strip-debug --set-spec-const-default-value '{}' --freeze-spec-const "
-        "--fold-spec-const-op-composite --ccp "
+        "--fold-spec-const-op-composite --ccp --simplify-instructions "
         "--eliminate-dead-branches --merge-blocks --eliminate-dead-functions --vector-dce "
         "--eliminate-dead-code-aggressive --eliminate-dead-variables --remove-unused-interface-variables "
         "--eliminate-dead-const --compact-ids '{}' -o '{}'",
