@@ -417,5 +417,102 @@ TEST(Transmission, ListsAreTheReferences) {
     EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{});
 }
 
+// Every material without holes is of this mode, with this opacity everywhere: alpha of textures and vertices
+// is 1.
+Scene allOf(AlphaMode mode, float opacity, Scene scene) {
+    for (Material& material : scene.materials) {
+        if (material.alpha_mode == AlphaMode::mask) continue;
+        material.alpha_mode = mode;
+        material.base_color.a = opacity;
+    }
+    for (TextureImage& image : scene.images)
+        for (std::size_t i = 3; i < 4 * static_cast<std::size_t>(image.width) * image.height; i += 4) {
+            if (!image.rgba.empty()) image.rgba[i] = 0xff;
+            if (!image.rgba16.empty()) image.rgba16[i] = 0xffff;
+            if (!image.rgba32.empty()) image.rgba32[i] = 1;
+        }
+    for (Mesh& mesh : scene.meshes)
+        for (Primitive& primitive : mesh.primitives)
+            for (glm::vec4& color : primitive.colors) color.a = 1;
+    return scene;
+}
+
+class BlendedScene : public testing::TestWithParam<std::string> {};
+
+// Textures and their transforms, both UV sets, vertex colours, lightmaps, emission, what is unlit, every kind
+// of light: blended with an opacity of 1 a surface is what it is opaque, bit for bit. What is blended casts
+// no shadow.
+TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
+    const Scene scene = loadScene(GetParam());
+    Settings settings = blendedPicture();
+    settings.path = Path::forward_plus;
+    settings.shadows = Shadows::off;
+    settings.transparency = Transparency::list;
+    settings.transparency_layers = 32;
+    settings.haze = true;
+    const Image opaque =
+        picture(Path::forward_plus, allOf(AlphaMode::opaque, 1, scene), settings).channels.at(lit);
+    EXPECT_GT(*std::ranges::max_element(opaque.data), 0.0f);
+    for (const Path path : rasterPaths) {
+        const Image made = picture(path, allOf(AlphaMode::blend, 1, scene), settings).channels.at(lit);
+        double most = 0;
+        for (std::size_t i = 0; i < made.data.size(); ++i)
+            most = std::max(most, std::abs(double{made.data[i]} - double{opaque.data[i]}) /
+                                      std::max(1.0, double{opaque.data[i]}));
+        EXPECT_LE(most, 2e-7) << nameOf(path);
+    }
+}
+
+// Half as opaque, all of them in each other's way: alike in both paths, and a number everywhere.
+TEST(Transparent, WhereEverythingBlendsBothPathsAreAlikeInEveryMode) {
+    for (const char* each : {"builtin:vertex_colors", "builtin:lightmaps"}) {
+        const Scene scene = allOf(AlphaMode::blend, 0.5f, loadScene(each));
+        Renderer renderer(device(), scene, pipelines());
+        for (const auto& [transparency, name] : enumNames<Transparency>()) {
+            Settings settings = blendedPicture();
+            settings.transparency = transparency;
+            const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
+            EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+                << each << " " << name;
+            EXPECT_EQ(frames[0].counters.nonfinite_pixels, 0u) << each << " " << name;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, BlendedScene,
+                         testing::Values("builtin:vertex_colors", "builtin:unlit_materials",
+                                         "builtin:lightmaps", "builtin:sixteen_bits", "builtin:dielectrics",
+                                         "builtin:emission", "builtin:mirrored", "builtin:ortho",
+                                         "builtin:areas", "builtin:deep"),
+                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+
+// The near plane cuts a pane that leans towards the camera: what is nearer is not there, and the sky is seen
+// through the rest.
+TEST(Transparent, TheNearPlaneCutsWhatIsBlended) {
+    for (const Transparency transparency :
+         {Transparency::sorted, Transparency::list, Transparency::moments}) {
+        Builder b;
+        b.camera("front", {0, 0, 0}, {0, 0, -10}, 60, 1, 100);
+        const int material = b.material("pane", {glm::vec3(0.25f, 0.5f, 1), 0, 0.5f});
+        b.scene.materials.back().unlit = true;
+        b.scene.materials.back().alpha_mode = AlphaMode::blend;
+        b.scene.materials.back().base_color.a = 0.5f;
+        b.scene.materials.back().double_sided = true;
+        // From 4 m before the camera, below the horizon, to behind it.
+        b.add("pane", quad({-20, -2, -4}, {40, 0, 0}, {0, 3, 4.5}), material, glm::dvec3(0.0));
+        b.scene.environment = {"sky", Image(8, 4, 3, 2.0f)};
+        Settings settings = blendedPicture();
+        settings.transparency = transparency;
+        for (const Path path : rasterPaths) {
+            const Frame frame = picture(path, b.scene, settings);
+            EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
+            // 1 m before the camera it is at the horizon's height, -2 + 3 (3 / 4.5) = 0.
+            const glm::dvec3 below = pixelOf(frame, 48, 40), above = pixelOf(frame, 48, 2);
+            EXPECT_NEAR(below.x, 0.5 * 0.25 + 0.5 * 2, 1e-5) << nameOf(transparency) << " " << nameOf(path);
+            EXPECT_NEAR(above.x, 2, 1e-5) << nameOf(transparency) << " " << nameOf(path);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace diptych::tests

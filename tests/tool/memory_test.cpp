@@ -36,7 +36,7 @@ double largestMemory(const Folder& scratch, const std::vector<std::string>& argu
     return static_cast<double>(used.ru_maxrss) * 1024;
 }
 
-constexpr int smallWidth = 64, smallHeight = 36, largeWidth = 640, largeHeight = 360;
+constexpr int smallWidth = 64, smallHeight = 36, largeWidth = 960, largeHeight = 540;
 
 }  // namespace
 
