@@ -79,10 +79,9 @@ void main() {
         bool drawn = nearest > 0u;
         float least = drawn ? max(viewDepth(uintBitsToFloat(nearest)), 0.0) : MAX_BOUND_RADIUS;
         float largest = drawn ? max(viewDepth(uintBitsToFloat(deepest)), 0.0) : 0.0;
-        if (on(feature_lights_in_front)) {
-            least = 0.0;
-            largest = deepest > 0u ? largest : MAX_BOUND_RADIUS;
-        }
+        float endless = deepest > 0u ? largest : MAX_BOUND_RADIUS;
+        least = on(feature_lights_in_front) ? 0.0 : least;
+        largest = on(feature_lights_in_front) ? endless : largest;
         tile_depths[gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x] = vec2(least, largest);
     }
 }

@@ -56,30 +56,13 @@ std::vector<Without> withouts() {
          {"background.frag", "deferred_capture.frag.1", "deferred_shade.frag", "deferred_shade.frag.area",
           "forward_blended.frag", "forward_blended_list.frag", "forward_blended_moments.frag",
           "forward_blended_weighted.frag", "forward_capture.frag.1", "forward_shade.frag"}},
-        {"transmission",
-         gpu::FEATURE_transmission,
-         {{"shaders/lib/brdf.glsl", "    if (on(feature_transmission)) b.diffuse *= 1.0 - s.transmission;\n"},
-          {"shaders/lib/material.glsl", "on(feature_transmission) ? m.transmission : 0.0", "0.0"},
-          {"shaders/lib/opacity.glsl", "feature_transmission == TRANSMISSION_WHOLE ? 1.0 : "},
-          {"shaders/lib/opacity.glsl",
-           "    if (on(feature_transmission)) covers *= 1.0 - transmittedShare(s);\n"},
-          {"shaders/lib/blended.glsl", "if (!on(feature_transmission)) return", "return"},
-          {"shaders/pass/transparency_moments.frag",
-           "    if (on(feature_transmission)) opacity = opacityOf(surfaceFromMaterial(base_color), "
-           "base_color);\n"}},
-         {"deferred_capture.frag.1", "deferred_light_batch.frag", "deferred_shade.frag",
-          "deferred_shade.frag.area", "forward_blended.frag", "forward_blended_list.frag",
-          "forward_blended_moments.frag", "forward_blended_weighted.frag", "forward_capture.frag.1",
-          "forward_light_batch.frag", "forward_shade.frag", "transparency_keys.frag",
-          "transparency_moments.frag"}},
         {"lights_in_front",
          gpu::FEATURE_lights_in_front,
          {{"shaders/pass/light_depths.comp", "on(feature_lights_in_front) ? -1.0 : 0.0", "0.0"},
           {"shaders/pass/light_depths.comp",
-           "        if (on(feature_lights_in_front)) {\n"
-           "            least = 0.0;\n"
-           "            largest = deepest > 0u ? largest : MAX_BOUND_RADIUS;\n"
-           "        }\n"}},
+           "        float endless = deepest > 0u ? largest : MAX_BOUND_RADIUS;\n"
+           "        least = on(feature_lights_in_front) ? 0.0 : least;\n"
+           "        largest = on(feature_lights_in_front) ? endless : largest;\n"}},
          {"light_depths.comp.0", "light_depths.comp.1"}},
     };
 }
