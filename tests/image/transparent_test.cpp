@@ -486,6 +486,46 @@ INSTANTIATE_TEST_SUITE_P(Builtin, BlendedScene,
                                          "builtin:areas", "builtin:deep"),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
+// What is blended is dimmed by the air before it, not by that before what it is in front of: level rays, no
+// sun and no other light in the air, so that e^(-extinction distance) of each surface is all there is.
+TEST(Transparent, HazeIsThatOfItsOwnDepth) {
+    constexpr double near = 100, far = 400;
+    Builder b;
+    b.camera("front", {0, 0, 0}, {0, 0, -1}, 20, 0.1, 1e4);
+    const auto wall = [&](double distance, const glm::vec3& color, float opacity) {
+        const int material = b.material("wall", {color, 0, 0.5f});
+        b.scene.materials.back().unlit = true;
+        b.scene.materials.back().base_color.a = opacity;
+        if (opacity < 1) b.scene.materials.back().alpha_mode = AlphaMode::blend;
+        b.add("wall", quad({-500, -500, -distance}, {1000, 0, 0}, {0, 1000, 0}), material, glm::dvec3(0.0));
+    };
+    const glm::dvec3 front(0.25, 0.5, 0.75), behind(1, 0.75, 0.5);
+    wall(far, behind, 1);
+    wall(near, front, 0.5f);
+    const Scene& scene = b.scene;
+    for (const int steps : {0, 32})
+        for (const auto& [transparency, name] : enumNames<Transparency>()) {
+            Settings settings = blendedPicture();
+            settings.size = {97, 55};  // of which the middle pixel looks straight ahead
+            settings.transparency = transparency;
+            settings.haze = true;
+            settings.haze_density = 100;
+            settings.haze_march_steps = steps;
+            const glm::dvec3 extinction =
+                100.0 * (glm::dvec3(5.8e-6, 13.5e-6, 33.1e-6) + glm::dvec3(2e-5 / 0.9));
+            const glm::dvec3 seen = behind * glm::exp(-extinction * far),
+                             hazed = front * glm::exp(-extinction * near);
+            const glm::dvec3 expected = transparency == Transparency::off ? seen : 0.5 * hazed + 0.5 * seen;
+            for (const Path path : rasterPaths) {
+                const glm::dvec3 made = pixelOf(picture(path, scene, settings), 48, 27);
+                // A march adds up the optical depths of two kinds of air, in float32.
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(made[c], expected[c], steps > 0 ? 1e-5 : 2e-6)
+                        << name << " " << nameOf(path) << " " << steps;
+            }
+        }
+}
+
 // The near plane cuts a pane that leans towards the camera: what is nearer is not there, and the sky is seen
 // through the rest.
 TEST(Transparent, TheNearPlaneCutsWhatIsBlended) {
