@@ -29,7 +29,8 @@ float transmittanceBefore(ivec2 p, float z) {
     b = b * (1.0 - BIAS) + vec4(0.0, 0.375, 0.0, 0.375) * BIAS;
     ThreePlaces places = threePlaces(b, momentDepth(z), 1e-9);
     float share = shareOf(shareOf(places.before) + OF_THOSE_AT * shareOf(places.at));
-    return exp(-total * share);
+    // No less than float32 holds beside a radiance: of many opaque layers at one depth each would weigh 0.
+    return exp(-min(total * share, 60.0));
 }
 
 #endif

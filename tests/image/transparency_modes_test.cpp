@@ -382,6 +382,19 @@ TEST(TransparencyModes, ExtremesStayNumbers) {
     }
 }
 
+// Whose weights would all be nothing in float32, and whose optical depths would be beyond it.
+TEST(TransparencyModes, ManyOpaqueLayersAtOneDepthAreSeen) {
+    Builder b;
+    b.camera("front", {0, 0, 10}, {0, 0, 0}, 20, 0.1, 100);
+    const int material = b.material("layer", {glm::vec3(0.5f), 0, 1});
+    b.scene.materials.back().unlit = true;
+    b.scene.materials.back().alpha_mode = AlphaMode::blend;
+    for (int i = 0; i < 64; ++i)
+        b.add("layer", quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material, glm::dvec3(0.0));
+    for (const Transparency mode : allModes)
+        EXPECT_NEAR(litWith(b.scene, pictureOf(mode), nothing).at(48, 27, 0), 0.5f, 1e-5f) << nameOf(mode);
+}
+
 // A picture that needs more than a device binds in one buffer is made in parts.
 TEST(TransparencyModes, PartsOfAPictureJoin) {
     const Scene scene = loadScene("builtin:crossed");
