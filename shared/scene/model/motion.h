@@ -7,6 +7,7 @@
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/vector_uint4_sized.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -36,6 +37,17 @@ struct MorphTarget {
     std::vector<glm::vec3> positions;  // object, m
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> tangents;  // the sign of the bitangent is not morphed
+    std::vector<glm::vec2> texcoords[2]{};
+    std::vector<glm::vec4> colors{};  // a morphed colour is clamped to 0..1
+};
+
+// Which corners of triangles share a tangent, of a primitive whose tangents follow from its morphed vertices.
+struct TangentGroups {
+    std::vector<std::uint32_t> of_vertex;  // its group; count(): none, and the tangent is any
+    std::vector<std::uint32_t> first;      // where each group begins in `corners`, and where the last ends
+    std::vector<std::uint32_t> corners;    // into Primitive::indices
+    bool empty() const { return of_vertex.empty(); }
+    std::uint32_t count() const { return first.empty() ? 0 : static_cast<std::uint32_t>(first.size()) - 1; }
 };
 
 // A vertex of a skinned mesh is at the sum over its joints of weight * worldFromNode[joints[j]] *

@@ -3,6 +3,7 @@
 #include "shared/scene/model/axes.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/animation.h"
+#include "shared/scene/motion/posed.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace diptych {
@@ -156,6 +158,18 @@ private:
     std::vector<int> place_of_mesh_;
 };
 
+PosedBox boxOf(const Scene& scene, const Pose& pose, const Instance& instance) {
+    glm::dvec3 min(std::numeric_limits<double>::infinity()), max(-min);
+    for (const glm::dvec3& p : posedPositions(scene, pose, instance)) {
+        if (std::isnan(p.x)) continue;
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    if (!(min.x <= max.x)) return {};
+    const glm::dvec3 origin = (min + max) / 2.0;
+    return {origin, min - origin, max - origin};
+}
+
 }  // namespace
 
 Pose poseAt(const Scene& scene, double seconds) {
@@ -181,6 +195,11 @@ Pose poseAt(const Scene& scene, double seconds) {
                                       .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
                                       .weights = placeOfWeights});
         }
+    }
+    for (Instance& instance : pose.instances) {
+        if (!instance.deformed()) continue;
+        instance.box = static_cast<int>(pose.boxes.size());
+        pose.boxes.push_back(boxOf(scene, pose, instance));
     }
     for (const Light& light : scene.lights)
         if (hasPlace(light, world)) pose.lights.push_back(inWorld(light, world));

@@ -20,6 +20,8 @@ std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, con
 // to both. The sign of a bitangent is the primitive's times that of the determinant of world_from_object.
 struct PosedVertices {
     std::vector<glm::dvec3> positions, normals, tangents;
+    std::vector<glm::dvec2> texcoords[2];  // empty where no target moves them
+    std::vector<glm::dvec4> colors;        // likewise
 };
 PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance& instance);
 
