@@ -3,52 +3,13 @@
 // animations, skins and morph targets.
 #pragma once
 
-#include "shared/scene/model/scene.h"
-
-#include <glm/glm.hpp>
-
-#include <vector>
+#include "shared/scene/motion/instances.h"
 
 namespace diptych {
-
-// A primitive of a mesh, placed by the node tree. If joints or morph targets move its vertices, posed.h
-// computes them; world_from_object is then the transform of the undeformed primitive: that of its skin's
-// first joint.
-struct Instance {
-    int mesh = 0, primitive = 0, node = 0;
-    glm::dmat4 world_from_object{1.0};
-    int skin = -1;     // into Pose::skins
-    int weights = -1;  // into Pose::weights; -1: no morph target applies
-    int box = -1;      // into Pose::boxes; of deformed ones
-    bool deformed() const { return skin >= 0 || weights >= 0; }
-};
-
-// Where the vertices of a deformed instance are.
-struct PosedBox {
-    glm::dvec3 origin{0};       // world, m; posed vertices are stored from here, so that float32 suffices
-    glm::dvec3 min{0}, max{0};  // world axes from the origin, m: no posed vertex lies outside
-};
-
-// The scene at one time, in world space.
-struct Pose {
-    std::vector<Instance> instances;  // in node order, primitives in order
-    std::vector<Light> lights;        // node = -1, world position and direction; directional lights first
-    std::vector<Camera> cameras;      // node = -1
-    double seconds = 0;
-    std::vector<std::vector<glm::dmat4>> skins;  // as Scene::skins; for each joint the matrix world from mesh
-    std::vector<std::vector<double>> weights;    // of morph targets; entries that are all 0 are left out
-    std::vector<PosedBox> boxes;                 // of deformed instances
-    std::vector<Material> materials;             // as Scene::materials; empty: no animation moves any
-};
 
 // Animations play from 0 s on, as described in animation.h. Instances, lights and cameras whose transform is
 // not finite or reaches beyond maxCoordinate are left out.
 Pose poseAt(const Scene& scene, double seconds);
-
-// The scene's materials at the pose's time.
-inline const std::vector<Material>& materialsOf(const Scene& scene, const Pose& pose) {
-    return pose.materials.empty() ? scene.materials : pose.materials;
-}
 
 // Removes from the scene what is beyond maxCoordinate at rest (meshes from their nodes, lights and cameras),
 // each with a note.

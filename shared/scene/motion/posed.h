@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/scene/model/scene.h"
-#include "shared/scene/motion/pose.h"
+#include "shared/scene/motion/instances.h"
 
 #include <vector>
 
