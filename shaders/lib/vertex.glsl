@@ -5,6 +5,7 @@
 #define VERTEX_GLSL
 
 #include "shaders/lib/draw.glsl"
+#include "shaders/lib/posing.glsl"
 
 invariant gl_Position;
 
@@ -12,9 +13,13 @@ layout(location = 0) in vec3 position;
 // Of the instance: struct Draw.
 layout(location = 5) in mat4 clip_from_object;
 
-vec4 clipFromVertex() {
+vec4 clipFrom(vec3 position) {
     vec4 clip = clip_from_object * vec4(position, 1.0);
     return clip;
 }
+
+// With feature_vertex_posing: the instance that is drawn, and the number of the vertex in it.
+PosedInstance instanceOfDraw() { return PosedInstanceBlock(constants.posing).instance; }
+uint numberIn(PosedInstance i) { return uint(gl_VertexIndex) - i.first_vertex; }
 
 #endif

@@ -4,4 +4,11 @@
 
 #include "shaders/lib/vertex.glsl"
 
-void main() { gl_Position = clipFromVertex(); }
+void main() {
+    vec3 at = position;
+    if (on(feature_vertex_posing)) {
+        PosedInstance i = instanceOfDraw();
+        at = posedPosition(i, numberIn(i));
+    }
+    gl_Position = clipFrom(at);
+}

@@ -23,43 +23,69 @@ layout(location = 12) in mat4x3 world_from_object;
 layout(location = 4) in vec4 color;
 #endif
 
+// What the buffers hold of a vertex, or what its instance's pose makes of it.
+struct Vertex {
+    vec3 position, normal;
+    vec4 tangent, texcoords, color;
+};
+
+Vertex vertexAt() {
+    Vertex v = Vertex(position, normal, vec4(0.0), vec4(0.0), vec4(0.0));
+#if INPUTS >= 1
+    v.texcoords = texcoords;
+#endif
+#if INPUTS >= 2
+    v.tangent = tangent;
+#endif
+#if INPUTS >= 3
+    v.color = color;
+#endif
+    if (on(feature_vertex_posing)) {
+        PosedInstance i = instanceOfDraw();
+        uint number = numberIn(i);
+        PosedVertex posed = posedVertex(i, number);
+        v.position = posed.position;
+        v.normal = posed.normal;
+        v.tangent.xyz = posed.tangent;
+        v.texcoords = vec4(morphedTexcoord0(i, number), morphedTexcoord1(i, number));
+        v.color = morphedColor(i, number);
+    }
+    return v;
+}
+
 vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
 
 #if INPUTS >= 3
 // KHR_texture_transform and the choice of the UV set.
-vec2 slotTexcoord(uint slot) {
+vec2 slotTexcoord(uint slot, vec4 texcoords) {
     vec2 uv = bounded((material.second_texcoord & (1u << slot)) != 0 ? texcoords.zw : texcoords.xy);
     TextureTransform t = material.transforms[slot];
     return bounded(vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0))));
 }
 #endif
 
-// A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's normal.
-vec3 unitOrZero(vec3 v) {
-    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    return largest > 0.0 ? normalized(v / largest) : vec3(0.0);
-}
-
 void main() {
-    gl_Position = clipFromVertex();
-    v_normal = unitOrZero(normal_from_object_x * normal.x + normal_from_object_y * normal.y +
-                          normal_from_object_z.xyz * normal.z);
+    Vertex v = vertexAt();
+    gl_Position = clipFrom(v.position);
+    // A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's normal.
+    v_normal = directionOf(normal_from_object_x * v.normal.x + normal_from_object_y * v.normal.y +
+                          normal_from_object_z.xyz * v.normal.z);
 #if INPUTS >= 1
-    v_texcoord = bounded(texcoords.xy);
+    v_texcoord = bounded(v.texcoords.xy);
 #endif
 #if INPUTS >= 2
-    vec3 world = world_from_object * vec4(position, 1.0);
-    v_tangent = vec4(unitOrZero(mat3(world_from_object) * tangent.xyz), tangent.w * normal_from_object_z.w);
+    vec3 world = world_from_object * vec4(v.position, 1.0);
+    v_tangent = vec4(directionOf(mat3(world_from_object) * v.tangent.xyz), v.tangent.w * normal_from_object_z.w);
     v_world = world;
 #endif
 #if INPUTS >= 3
-    v_color = color;
+    v_color = v.color;
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0) {
         v_irradiance = vertexIrradiance(world, v_normal);
         if (on(feature_double_sided)) v_irradiance_behind = vertexIrradiance(world, -v_normal);
     }
     if (on(feature_texture_transform) || on(feature_second_texcoord))
         for (uint slot = 0; slot < SLOT_COUNT; ++slot)
-            v_slot_texcoords[slot] = slotTexcoord(slot);
+            v_slot_texcoords[slot] = slotTexcoord(slot, v.texcoords);
 #endif
 }

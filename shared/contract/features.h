@@ -93,7 +93,9 @@
     /* tiles' lists hold the lights in front of the opaque surfaces too, for what is blended there */       \
     X(52, lights_in_front,            frame,   0, PASS_LISTS)                                               \
     /* TRANSMISSION_* of material.h */                                                                      \
-    X(53, transmission,               item,    0, PASSES_SHADE)
+    X(53, transmission,               item,    0, PASSES_SHADE)                                             \
+    /* the vertex shader poses: posing.h */                                                                 \
+    X(54, vertex_posing,              item,    0, PASSES_DRAW)
 // clang-format on
 
 CONTRACT_BEGIN

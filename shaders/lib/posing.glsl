@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Vertices of skinned and morphed instances: morph targets first, then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3).
+// A kernel and the vertex shader call the same functions, so that both have the same bits.
+#ifndef POSING_GLSL
+#define POSING_GLSL
+
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+
+#include "shaders/lib/contract.glsl"
+
+#define ARRAY_AT(Name, type)                                                          \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name {        \
+        type at[];                                                                    \
+    };
+ARRAY_AT(UintArray, uint)
+ARRAY_AT(Uvec2Array, uvec2)
+ARRAY_AT(Vec2Array, vec2)
+ARRAY_AT(Vec3Array, vec3)
+ARRAY_AT(Vec4Array, vec4)
+ARRAY_AT(MatrixArray, mat4x3)
+ARRAY_AT(AttributesArray, VertexAttributes)
+ARRAY_AT(DeltaArray, PosedDelta)
+ARRAY_AT(MorphedArray, MorphedVertex)
+#undef ARRAY_AT
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PosedInstanceBlock {
+    PosedInstance instance;
+};
+
+// Morph targets' sums of one attribute, deltas [first, end).
+vec2 morphed2(PosedInstance i, uint first, uint end, uint vertex) {
+    vec2 sum = vec2(0.0);
+    for (uint d = first; d < end; ++d) {
+        PosedDelta delta = DeltaArray(i.deltas).at[d];
+        sum += delta.weight * Vec2Array(delta.deltas).at[vertex];
+    }
+    return sum;
+}
+vec3 morphed3(PosedInstance i, uint first, uint end, uint vertex) {
+    vec3 sum = vec3(0.0);
+    for (uint d = first; d < end; ++d) {
+        PosedDelta delta = DeltaArray(i.deltas).at[d];
+        sum += delta.weight * Vec3Array(delta.deltas).at[vertex];
+    }
+    return sum;
+}
+
+// Object, from the pivot, m.
+vec3 morphedPosition(PosedInstance i, uint vertex) {
+    vec3 rest = Vec3Array(i.positions).at[vertex];
+    return (rest - i.pivot) + morphed3(i, 0, i.positions_end, vertex);
+}
+// Object, any length.
+vec3 morphedNormal(PosedInstance i, uint vertex) {
+    vec3 rest = AttributesArray(i.attributes).at[vertex].normal;
+    return rest + morphed3(i, i.positions_end, i.normals_end, vertex);
+}
+vec2 morphedTexcoord0(PosedInstance i, uint vertex) {
+    vec2 rest = AttributesArray(i.attributes).at[vertex].texcoord0;
+    return rest + morphed2(i, i.tangents_end, i.texcoords0_end, vertex);
+}
+vec2 morphedTexcoord1(PosedInstance i, uint vertex) {
+    vec2 rest = AttributesArray(i.attributes).at[vertex].texcoord1;
+    return rest + morphed2(i, i.texcoords0_end, i.texcoords1_end, vertex);
+}
+vec4 morphedColor(PosedInstance i, uint vertex) {
+    vec4 sum = AttributesArray(i.attributes).at[vertex].color;
+    for (uint d = i.texcoords1_end; d < i.colors_end; ++d) {
+        PosedDelta delta = DeltaArray(i.deltas).at[d];
+        sum += delta.weight * Vec4Array(delta.deltas).at[vertex];
+    }
+    return i.colors_end > i.texcoords1_end ? clamp(sum, vec4(0.0), vec4(1.0)) : sum;
+}
+
+// The weighted mean of the joints' matrices: from the object, about the pivot, to world axes.
+mat4x3 posingMatrix(PosedInstance i, uint vertex) {
+    MatrixArray matrices = MatrixArray(i.matrices);
+    if (i.joint_sets == 0) return matrices.at[0];
+    mat4x3 sum = mat4x3(0.0);
+    for (uint set = 0; set < i.joint_sets; ++set) {
+        uint at = set * i.vertices + vertex;
+        uvec2 packed = Uvec2Array(i.joints).at[at];
+        vec4 weights = Vec4Array(i.joint_weights).at[at];
+        sum += weights.x * matrices.at[packed.x & 0xffffu];
+        sum += weights.y * matrices.at[packed.x >> 16];
+        sum += weights.z * matrices.at[packed.y & 0xffffu];
+        sum += weights.w * matrices.at[packed.y >> 16];
+    }
+    return sum;
+}
+
+// World axes, from the box's origin, m. NaN beyond what positions may be, as the reference has it.
+vec3 placedBy(mat4x3 matrix, vec3 position) {
+    vec3 placed = matrix * vec4(position, 1.0);
+    bool within = all(lessThanEqual(abs(placed), vec3(MAX_POSED_COORDINATE)));
+    return within ? placed : vec3(uintBitsToFloat(0x7fc00000u));
+}
+vec3 posedPosition(PosedInstance i, uint vertex) {
+    return placedBy(posingMatrix(i, vertex), morphedPosition(i, vertex));
+}
+
+float largestOf(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+// Unit, on the side from which the front is seen; 0: has no direction. By the cofactors of the matrix, its
+// inverse transpose times its determinant, which exist where it flattens too.
+vec3 posedNormal(PosedInstance i, mat4x3 matrix, vec3 normal) {
+    // Products of what is very long or short leave float32.
+    float largest = max(largestOf(matrix[0]), max(largestOf(matrix[1]), largestOf(matrix[2])));
+    float scale = largest > 0.0 ? 1.0 / largest : 0.0;
+    vec3 x = matrix[0] * scale, y = matrix[1] * scale, z = matrix[2] * scale;
+    vec3 sum = crossProduct(y, z) * normal.x + crossProduct(z, x) * normal.y + crossProduct(x, y) * normal.z;
+    return i.handedness * directionOf(sum);
+}
+
+// Of a vertex whose triangle has a normal of its own: from the posed corners.
+vec3 flatNormal(PosedInstance i, uint vertex) {
+    uint first = vertex / 3 * 3;
+    vec3 a = posedPosition(i, first);
+    vec3 u = posedPosition(i, first + 1) - a, v = posedPosition(i, first + 2) - a;
+    float longest = max(largestOf(u), largestOf(v));
+    float scale = longest > 0.0 ? 1.0 / longest : 0.0;
+    return i.handedness * directionOf(crossProduct(u * scale, v * scale));
+}
+
+// Object; before joints move it.
+vec3 morphedTangent(PosedInstance i, uint vertex) {
+    vec3 rest = AttributesArray(i.attributes).at[vertex].tangent.xyz;
+    if (i.groups > 0) {
+        uint group = UintArray(i.group_of_vertex).at[vertex];
+        if (group < i.groups) {
+            vec3 made = Vec3Array(i.group_tangents).at[group];
+            return largestOf(made) > 0.0 ? made : rest;
+        }
+        return rest;
+    }
+    return rest + morphed3(i, i.normals_end, i.tangents_end, vertex);
+}
+
+struct PosedVertex {
+    vec3 position;  // world axes, from the box's origin, m
+    vec3 normal;    // world axes, unit or 0
+    vec3 tangent;   // likewise
+};
+
+PosedVertex posedVertex(PosedInstance i, uint vertex) {
+    mat4x3 matrix = posingMatrix(i, vertex);
+    PosedVertex posed;
+    posed.position = placedBy(matrix, morphedPosition(i, vertex));
+    posed.normal = i.flat_normals != 0 ? flatNormal(i, vertex)
+                                       : posedNormal(i, matrix, morphedNormal(i, vertex));
+    posed.tangent = directionOf(mat3(matrix) * morphedTangent(i, vertex));
+    return posed;
+}
+
+#endif

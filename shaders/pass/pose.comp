@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Poses the vertices of an instance into the buffers that draws read; a thread each.
+#include "shaders/lib/posing_thread.glsl"
+
+void main() {
+    PosedInstance i = PosedInstanceBlock(constants.instance).instance;
+    uint vertex = posingThread();
+    if (vertex >= i.vertices) return;
+    PosedVertex posed = posedVertex(i, vertex);
+    AttributesArray attributes = AttributesArray(i.posed_attributes);
+    Vec3Array(i.posed_positions).at[vertex] = posed.position;
+    attributes.at[vertex].normal = posed.normal;
+    attributes.at[vertex].tangent.xyz = posed.tangent;
+    // What no target moves is there already.
+    if (i.texcoords0_end > i.tangents_end) attributes.at[vertex].texcoord0 = morphedTexcoord0(i, vertex);
+    if (i.texcoords1_end > i.texcoords0_end) attributes.at[vertex].texcoord1 = morphedTexcoord1(i, vertex);
+    if (i.colors_end > i.texcoords1_end) attributes.at[vertex].color = morphedColor(i, vertex);
+}
