@@ -10,8 +10,14 @@
 namespace diptych {
 
 ViewRequest viewRequest(const Settings& settings) {
-    ViewRequest request{settings.time,        settings.camera, settings.size.width,
-                        settings.size.height, settings.lights, settings.seed};
+    ViewRequest request;
+    request.time = settings.time;
+    request.camera = settings.camera;
+    request.width = settings.size.width;
+    request.height = settings.size.height;
+    request.lights = settings.lights;
+    request.seed = settings.seed;
+    request.animation = settings.animation;
     request.environment_sun = settings.env_sun;
     if (settings.env_sun) {  // else one view serves however the environment is turned
         request.environment_turned = double{settings.env_rotation};

@@ -25,6 +25,7 @@ struct Settings {
     Size size;
     std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
     double time = 0.0;   // s
+    std::string animation;      // "" all of them; an index or a name
     std::string env = "none";   // file of a lat-long environment, or scene
     float env_rotation = 0.0f;  // degrees about +Y
     bool env_sun = false;
@@ -273,12 +274,10 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "time",
                 .help = "animation time, seconds",
                 .valid = {"is finite and at least 0 s",
-                          [](const Settings& s) { return row::isFiniteFrom0(s.time); }},
-                .default_only = {"is not built yet but in --path reference --reference-mode scene",
-                                 [](const Settings& s) {
-                                     return row::isReference(s) && s.reference_mode == ReferenceMode::scene;
-                                 }}},
+                          [](const Settings& s) { return row::isFiniteFrom0(s.time); }}},
           &Settings::time);
+    visit(Field{.option = "animation", .help = "the one that plays, by index or name; otherwise all do"},
+          &Settings::animation);
     visit(
         Field{
             .option = "env",

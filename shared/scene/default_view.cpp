@@ -277,8 +277,8 @@ double viewEntropy(const std::vector<std::size_t>& pixels) {
     return bits;
 }
 
-DefaultView chooseDefaultView(const Scene& scene) {
-    const Pose pose = poseAt(scene, 0);
+DefaultView chooseDefaultView(const Scene& scene, const std::string& animation) {
+    const Pose pose = poseAt(scene, 0, animation);
     const Bounds bounds = worldBounds(scene, pose);
     const Rating rating(scene, pose, bounds);
     const DefaultView usual = rating.rated(usualView(scene, pose, bounds));

@@ -31,8 +31,8 @@ struct DefaultView {
 double viewEntropy(const std::vector<std::size_t>& pixels);
 
 // The view of the scene at 0 s that shows most, see the README; so the camera does not move with the scene.
-// The same on every run.
-DefaultView chooseDefaultView(const Scene& scene);
+// The same on every run. `animation`: the one that plays, as for poseAt().
+DefaultView chooseDefaultView(const Scene& scene, const std::string& animation = {});
 
 // The eye's distance from what it looks at, m, and its place: outside where all of the bounds is seen with a
 // margin of 5 %, under the camera of freeCamera(). `aspect`: width over height.

@@ -2,6 +2,7 @@
 #include "shared/scene/requirements.h"
 
 #include "shared/scene/model/material_slots.h"
+#include "shared/scene/motion/animation.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -68,7 +69,8 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
         r.skinned += instance.skin >= 0 && std::exchange(skinned, instance.node) != instance.node;
         r.morphed += instance.weights >= 0 && std::exchange(morphed, instance.node) != instance.node;
     }
-    r.animations = static_cast<std::uint32_t>(scene.animations.size());
+    for (const Animation& animation : animationsOf(scene, pose.animation))
+        r.animations += movesAnything(animation);
 
     std::set<int> textures;
     for (std::size_t i = 0; i < used.size(); ++i)

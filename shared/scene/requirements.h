@@ -27,10 +27,10 @@ struct Requirements {
     std::uint32_t textures = 0;   // those that the used materials read
     std::uint32_t directional_lights = 0, point_lights = 0, spot_lights = 0;
     std::uint32_t rect_lights = 0, disc_lights = 0, tube_lights = 0;
-    std::uint32_t sun_discs = 0;             // directional lights with an angle
-    std::string environment;                 // the environment's name; empty: there is none
-    std::uint32_t skinned = 0, morphed = 0;  // nodes whose vertices skins or morph targets move
-    std::uint32_t animations = 0;
+    std::uint32_t sun_discs = 0;                           // directional lights with an angle
+    std::string environment;                               // the environment's name; empty: there is none
+    std::uint32_t skinned = 0, morphed = 0;                // nodes whose vertices skins or morph targets move
+    std::uint32_t animations = 0;                          // that play
     std::uint64_t draws = 0, triangles = 0, vertices = 0;  // counted once for each instance
 
     std::uint32_t areaLights() const { return rect_lights + disc_lights + tube_lights; }

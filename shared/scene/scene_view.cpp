@@ -21,11 +21,12 @@ void takeSun(const Scene& scene, const ViewRequest& request, std::shared_ptr<con
             turnedSun(kept->light, request.environment_turned, request.environment_factor));
 }
 
-SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose, std::optional<DefaultView>& kept,
-                 std::shared_ptr<const EnvironmentSun>& sun) {
+SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
+                 std::map<std::string, DefaultView>& kept, std::shared_ptr<const EnvironmentSun>& sun) {
     const auto defaultView = [&]() -> const DefaultView& {
-        if (!kept) kept = chooseDefaultView(scene);
-        return *kept;
+        const auto known = kept.find(request.animation);
+        if (known != kept.end()) return known->second;
+        return kept.emplace(request.animation, chooseDefaultView(scene, request.animation)).first->second;
     };
     SceneView result;
     result.pose = std::move(pose);
@@ -50,17 +51,19 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose, std:
 }  // namespace
 
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request) {
-    std::optional<DefaultView> kept;
+    std::map<std::string, DefaultView> kept;
     std::shared_ptr<const EnvironmentSun> sun;
-    return viewOf(scene, request, poseAt(scene, request.time), kept, sun);
+    return viewOf(scene, request, poseAt(scene, request.time, request.animation), kept, sun);
 }
 
 const SceneView& SceneViews::at(const ViewRequest& request) {
     std::unique_ptr<SceneView>& view = views_[request];
     if (view) return *view;
-    auto pose = poses_.find(request.time);
-    if (pose == poses_.end()) pose = poses_.emplace(request.time, poseAt(scene_, request.time)).first;
-    view = std::make_unique<SceneView>(viewOf(scene_, request, pose->second, default_view_, sun_));
+    const std::pair asked(request.time, request.animation);
+    auto pose = poses_.find(asked);
+    if (pose == poses_.end())
+        pose = poses_.emplace(asked, poseAt(scene_, request.time, request.animation)).first;
+    view = std::make_unique<SceneView>(viewOf(scene_, request, pose->second, default_views_, sun_));
     return *view;
 }
 

@@ -13,8 +13,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -25,6 +25,7 @@ struct ViewRequest {
     int width = 0, height = 0;  // pixels
     std::string lights;         // a rig or a file, see makeLights(); empty: only the scene's own
     std::uint32_t seed = 0;     // of the rig
+    std::string animation{};    // INDEX or NAME, see poseAt(); empty: all play
     // Takes the sun out of the environment, as a light (lights/environment_sun.h), of an environment turned
     // by so many degrees and multiplied by the factor; both are read for this alone.
     bool environment_sun = false;
@@ -47,11 +48,11 @@ struct SceneView {
     Requirements needs;                         // of the scene under `lights`
 };
 
-// Throws std::runtime_error naming --camera or --lights if the request is invalid.
+// Throws std::runtime_error naming --camera, --animation or --lights if the request is invalid.
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request);
 
 // Caches the views of one scene; each is made at its first request, and the scene is posed once for each
-// time. The scene must outlive it.
+// time and choice of an animation. The scene must outlive it.
 class SceneViews {
 public:
     explicit SceneViews(const Scene& scene) : scene_(scene) {}
@@ -63,9 +64,9 @@ public:
 
 private:
     const Scene& scene_;
-    std::optional<DefaultView> default_view_;
+    std::map<std::string, DefaultView> default_views_;  // by animation
     std::shared_ptr<const EnvironmentSun> sun_;
-    std::map<double, Pose> poses_;  // by time, s
+    std::map<std::pair<double, std::string>, Pose> poses_;  // by time, s, and animation
     std::map<ViewRequest, std::unique_ptr<SceneView>> views_;
 };
 

@@ -216,8 +216,9 @@ std::string listOf(const std::vector<Camera>& cameras) {
 
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height) {
     std::optional<DefaultView> chosen;
-    return makeView(scene, pose, choice, width, height,
-                    [&]() -> const DefaultView& { return chosen.emplace(chooseDefaultView(scene)); });
+    return makeView(scene, pose, choice, width, height, [&]() -> const DefaultView& {
+        return chosen.emplace(chooseDefaultView(scene, pose.animation));
+    });
 }
 
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,

@@ -3,6 +3,7 @@
 // cameras.
 #include "shared/scene/motion/animation.h"
 
+#include "shared/scene/motion/bounds.h"
 #include "shared/scene/motion/pose.h"
 #include "tests/unit/gltf_maker.h"
 
@@ -171,6 +172,53 @@ TEST(Animation, SeveralPlayAtOnceAndLaterOnesWin) {
     const Scene scene = f.load();
     EXPECT_EQ(placeOf(scene, 1, {1, 0, 0}), glm::dvec3(4, 0, 4)) << "scale of the first, place of the second";
     EXPECT_TRUE(mentions(scene.notes, "2 animations: all play at once"));
+}
+
+TEST(Animation, OneIsChosenByIndexOrName) {
+    MovedFile f;
+    f.channel(0, "translation", {0, 0, 0, 8, 0, 0}, "VEC3", 3, 0);
+    f.channel(7, "translation", {0, 0, 0, 8, 0, 0}, "VEC3", 3, 1);
+    f.channel(0, "translation", {0, 0, 0, 0, 0, 4}, "VEC3", 3, 2);
+    f.channel(1, "scale", {3, 3, 3, 3, 3, 3}, "VEC3", 3, 2);
+    f.json["nodes"].push_back({{"name", "outside"}});
+    f.json["animations"][1]["channels"][0]["target"]["node"] = 2;
+    f.json["scenes"] = {{{"nodes", {0}}}};
+    f.json["scene"] = 0;
+    f.json["animations"][0]["name"] = "run";
+    f.json["animations"][2]["name"] = "jump";
+    const Scene scene = f.load();
+    const auto at = [&](const std::string& choice) {
+        return glm::dvec3(poseAt(scene, 1, choice).instances.at(0).world_from_object *
+                          glm::dvec4(1, 0, 0, 1));
+    };
+    EXPECT_EQ(at(""), glm::dvec3(4, 0, 4));
+    for (const char* choice : {"0", "run"}) EXPECT_EQ(at(choice), glm::dvec3(11, 0, 0)) << choice;
+    EXPECT_EQ(at("1"), glm::dvec3(3, 10, 0)) << "it moves a node of another scene: this one is at rest";
+    for (const char* choice : {"2", "jump"}) EXPECT_EQ(at(choice), glm::dvec3(4, 0, 4)) << choice;
+    EXPECT_EQ(poseAt(scene, 1, "jump").animation, "jump");
+    EXPECT_TRUE(mentions(scene.notes, "2 animations: all play at once, later ones win"));
+    const auto error = [](const Scene& s, const std::string& choice) {
+        try {
+            poseAt(s, 0, choice);
+        } catch (const std::runtime_error& e) {
+            return std::string(e.what());
+        }
+        return std::string("none");
+    };
+    EXPECT_EQ(error(scene, "walk"),
+              "--animation \"walk\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
+    EXPECT_EQ(error(scene, "3"), "--animation \"3\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
+    EXPECT_EQ(error(triangle().load(), "0"), "--animation \"0\": nothing of the scene is animated");
+}
+
+// A camera that stands around the scene is placed by what plays, at 0 s.
+TEST(Animation, BoundsAtStartAreOfWhatPlays) {
+    MovedFile f;
+    f.channel(0, "translation", {0, 0, 0, 8, 0, 0}, "VEC3", 3, 0);
+    f.channel(0, "translation", {0, 0, 5, 0, 0, 9}, "VEC3", 3, 1);
+    const Scene scene = f.load();
+    EXPECT_EQ(boundsAtStart(scene, poseAt(scene, 1, "0")).min.z, 0);
+    EXPECT_EQ(boundsAtStart(scene, poseAt(scene, 1, "1")).min.z, 5);
 }
 
 TEST(Animation, LightsAndCamerasMove) {

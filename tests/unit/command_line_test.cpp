@@ -359,17 +359,33 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
         return parseCommandLine({command, "--help"}).help.find("--" + option + " ") != std::string::npos;
     };
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
-        for (const char* option : {"time", "msaa"})
-            EXPECT_FALSE(shows(command, option)) << command << " " << option;
-        for (const char* option : {"gbuffer",        "pixel-lights",  "spp",           "reference-mode",
-                                   "ambient",        "camera",        "shadows",       "shadow-kernel",
-                                   "shadow-lights",  "evsm-exponent", "env",           "env-rotation",
-                                   "env-sun",        "ibl-intensity", "ibl",           "ibl-diffuse",
-                                   "haze",           "haze-density",  "haze-rayleigh", "haze-march-steps",
-                                   "specular-albedo"})
+        for (const char* option : {"msaa"}) EXPECT_FALSE(shows(command, option)) << command << " " << option;
+        for (const char* option : {"gbuffer",
+                                   "pixel-lights",
+                                   "spp",
+                                   "reference-mode",
+                                   "ambient",
+                                   "camera",
+                                   "shadows",
+                                   "shadow-kernel",
+                                   "shadow-lights",
+                                   "evsm-exponent",
+                                   "env",
+                                   "env-rotation",
+                                   "env-sun",
+                                   "ibl-intensity",
+                                   "ibl",
+                                   "ibl-diffuse",
+                                   "haze",
+                                   "haze-density",
+                                   "haze-rayleigh",
+                                   "haze-march-steps",
+                                   "specular-albedo",
+                                   "time",
+                                   "animation"})
             EXPECT_TRUE(shows(command, option)) << command << " " << option;
     }
-    for (const char* option : {"env", "ibl-intensity", "shadows", "time", "gbuffer", "spp"})
+    for (const char* option : {"env", "ibl-intensity", "shadows", "time", "animation", "gbuffer", "spp"})
         EXPECT_TRUE(shows("render", option)) << option;
     for (const char* option : {"msaa"}) EXPECT_FALSE(shows("render", option)) << option;
 }

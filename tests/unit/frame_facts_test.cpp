@@ -78,12 +78,14 @@ TEST(FrameFacts, ACameraIsStatedInDegreesOrAsAHeight) {
 TEST(FrameFacts, AViewIsAskedForByItsSettings) {
     Settings settings;
     settings.time = 1.5;
+    settings.animation = "walk";
     settings.camera = "2";
     settings.size = {64, 48};
     settings.lights = "point:4";
     settings.seed = 9;
     const ViewRequest request = viewRequest(settings);
     EXPECT_EQ(request.time, 1.5);
+    EXPECT_EQ(request.animation, "walk");
     EXPECT_EQ(request.camera, "2");
     EXPECT_EQ(request.width, 64);
     EXPECT_EQ(request.height, 48);

@@ -29,6 +29,7 @@ Settings everythingChanged() {
     s.size = {1920, 17};
     s.camera = "eye=1,2,3 target=0,0,0 \"quoted\"";
     s.time = 1.0 / 3.0;
+    s.animation = "walk \"fast\", \xc3\xa9";
     s.env = "sky \\ \xc3\xa9.exr";
     s.env_rotation = -30.5f;
     s.env_sun = true;
@@ -243,11 +244,11 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.size = asked.size;
     expected.camera = asked.camera;
     expected.time = asked.time;
+    expected.animation = asked.animation;
     expected.lights = asked.lights;
     expected.shadows = Shadows::off;
     expected.seed = asked.seed;
     EXPECT_EQ(surfaceSettings(asked), expected);
-    asked.time = 0;
     EXPECT_EQ(surfaceSettings(asked).problem().value_or("none"), "none");
 }
 
@@ -339,6 +340,9 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"size", "1x1"},
         {"size", "16384x1"},
         {"camera", "0"},
+        {"time", "2"},
+        {"animation", "walk"},
+        {"animation", ""},
         {"lights", "point:3"},
         {"lights", "none"},
         {"seed", "9"},
@@ -371,7 +375,7 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         {"size", "0x5"},
         {"size", "5x16385"},
         {"size", "-1x5"},
-        {"time", "2"},
+        {"time", "-1"},
         {"ibl-intensity", "2"},
         {"ibl-intensity", "-1"},
         {"ambient", "0,-0.1,0"},
@@ -564,14 +568,12 @@ TEST(Settings, ExponentsThatTheFormatCannotHoldAreRefusedWithTheLargest) {
     EXPECT_EQ(s.problem().value_or("none"), "--evsm-exponent 5.6: " + are);
 }
 
-// In mode surface it shades a path's capture, so the time is the path's.
-TEST(Settings, OnlyTheReferenceInModeSceneKnowsTime) {
+TEST(Settings, EveryPathDrawsEveryTime) {
     Settings s;
     s.time = 1.5;
     for (const Path path : {Path::deferred, Path::forward_plus, Path::reference}) {
         s.path = path;
-        EXPECT_EQ(s.problem().value_or("none"),
-                  "--time 1.5 is not built yet but in --path reference --reference-mode scene; use 0");
+        EXPECT_EQ(s.problem().value_or("none"), "none");
     }
     s.reference_mode = ReferenceMode::scene;
     EXPECT_EQ(s.problem().value_or("none"), "none");
@@ -604,6 +606,7 @@ TEST(Settings, AnEnvironmentGivesItsIntensityAMeaning) {
 
 TEST(Settings, JsonTakesACamerasNumberAndTheWholeSettingsMember) {
     EXPECT_EQ(settingsFromJson(R"({"camera": 2})").camera, "2");
+    EXPECT_EQ(settingsFromJson(R"({"animation": 2})").animation, "2");
     EXPECT_EQ(settingsFromJson(R"({"settings": {"seed": 7}})").seed, 7u);
 }
 

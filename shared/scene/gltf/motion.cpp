@@ -154,9 +154,11 @@ public:
         const std::size_t before = scene_.notes.size();
         for (std::size_t a = 0; a < model_.animations.size(); ++a) animation(a);
         limitNotes(scene_.notes, before, "animations");
-        if (scene_.animations.size() > 1)
-            scene_.notes.push_back(
-                fmt::format("{} animations: all play at once, later ones win", scene_.animations.size()));
+        const auto moving = std::ranges::count_if(scene_.animations, movesAnything);
+        if (moving == 0) scene_.animations.clear();
+        if (moving > 1)
+            scene_.notes.push_back(fmt::format(
+                "{} animations: all play at once, later ones win; --animation plays one alone", moving));
     }
 
 private:
@@ -209,7 +211,8 @@ private:
         if (faulty)
             scene_.notes.push_back(fmt::format("{}: {} of {} channels left out: {}", who_, faulty,
                                                file_->channels.size(), first));
-        if (!result.channels.empty()) scene_.animations.push_back(std::move(result));
+        if (result.channels.empty()) result.keyframes.clear();
+        scene_.animations.push_back(std::move(result));
     }
 
     AnimatedPart partOf(const tinygltf::AnimationChannel& channel, const std::string& who) const {

@@ -84,4 +84,9 @@ struct Animation {
     std::vector<AnimationChannel> channels;  // no two move the same part of a node
 };
 
+// False of an animation that moves nothing of the scene; it is there so that the others keep their indices.
+inline bool movesAnything(const Animation& animation) {
+    return !animation.channels.empty();
+}
+
 }  // namespace diptych

@@ -187,7 +187,7 @@ struct Scene {
     std::vector<Transform> transforms;        // of the nodes that animations move
     std::vector<std::vector<float>> weights;  // of morph targets, of the nodes that have their own
     std::vector<Skin> skins;                  // those that a drawn mesh uses
-    std::vector<Animation> animations;        // only channels that move a node of this scene
+    std::vector<Animation> animations;        // as in the file, but empty where none moves this scene
     glm::vec3 background{0, 0, 0};   // colour of uncovered pixels in pictures; in channels they are 0
     std::vector<std::string> notes;  // what was read otherwise than as the file says, one line each
 };

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/motion/animation.h"
 
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <stdexcept>
 
 namespace diptych {
 
@@ -88,11 +92,29 @@ std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, doubl
     return {q.x, q.y, q.z, q.w};
 }
 
-NodeMotion motionAt(const Scene& scene, double seconds) {
+std::span<const Animation> animationsOf(const Scene& scene, const std::string& choice) {
+    const std::span<const Animation> all(scene.animations);
+    if (choice.empty()) return all;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (choice == std::to_string(i)) return all.subspan(i, 1);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (choice == all[i].name) return all.subspan(i, 1);
+    constexpr std::size_t shown = 20;  // about a screenful
+    std::string there;
+    for (std::size_t i = 0; i < std::min(all.size(), shown); ++i)
+        there += fmt::format("{}{}{}", i ? ", " : "", i,
+                             all[i].name.empty() ? "" : fmt::format(" \"{}\"", oneLine(all[i].name)));
+    if (all.size() > shown) there += fmt::format(" and {} more", all.size() - shown);
+    throw std::runtime_error(fmt::format(
+        "--animation \"{}\": {}", oneLine(choice),
+        all.empty() ? "nothing of the scene is animated" : "the scene's animations are " + there));
+}
+
+NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choice) {
     NodeMotion motion;
     for (const Node& node : scene.nodes) motion.parent_from_node.push_back(node.parent_from_node);
     std::map<int, Transform> moved;  // by node
-    for (const Animation& animation : scene.animations) {
+    for (const Animation& animation : animationsOf(scene, choice)) {
         for (const AnimationChannel& channel : animation.channels) {
             std::vector<double> values = sampled(
                 animation.keyframes[static_cast<std::size_t>(channel.keyframes)], channel.part, seconds);

@@ -5,6 +5,8 @@
 #include "shared/scene/model/scene.h"
 
 #include <map>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -13,13 +15,17 @@ namespace diptych {
 // of the last. A rotation (x, y, z, w) is unit; interpolation takes the shorter way round.
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds);
 
-// The nodes' transforms and weights under the scene's animations. All animations play at once; where two
-// move the same part of a node, the later one applies.
+// The animations that play: all of the scene's, or the one whose index or (the first) whose name `choice` is.
+// Throws std::runtime_error naming --animation, and the animations there are, if that is none.
+std::span<const Animation> animationsOf(const Scene& scene, const std::string& choice);
+
+// The nodes' transforms and weights under animationsOf(scene, choice). They play at once; where two move the
+// same part of a node, the later one applies.
 struct NodeMotion {
     std::vector<glm::dmat4> parent_from_node;  // of every node, animated or not
     std::map<int, std::vector<double>>
         weights;  // by node: weights of the morph targets, for nodes whose weights an animation moves
 };
-NodeMotion motionAt(const Scene& scene, double seconds);
+NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choice = {});
 
 }  // namespace diptych

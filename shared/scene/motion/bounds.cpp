@@ -34,7 +34,8 @@ Bounds worldBounds(const Scene& scene, const Pose& pose) {
 }
 
 Bounds boundsAtStart(const Scene& scene, const Pose& pose) {
-    return pose.seconds == 0 ? worldBounds(scene, pose) : worldBounds(scene, poseAt(scene, 0));
+    return pose.seconds == 0 ? worldBounds(scene, pose)
+                             : worldBounds(scene, poseAt(scene, 0, pose.animation));
 }
 
 }  // namespace diptych

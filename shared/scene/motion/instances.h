@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <string>
 #include <vector>
 
 namespace diptych {
@@ -34,6 +35,7 @@ struct Pose {
     std::vector<Light> lights;        // node = -1, world position and direction; directional lights first
     std::vector<Camera> cameras;      // node = -1
     double seconds = 0;
+    std::string animation = {};                  // the one that plays, as it was asked for; empty: all
     std::vector<std::vector<glm::dmat4>> skins;  // as Scene::skins; for each joint the matrix world from mesh
     std::vector<std::vector<double>> weights;    // of morph targets; entries that are all 0 are left out
     std::vector<PosedBox> boxes;                 // of deformed instances

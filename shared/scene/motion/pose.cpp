@@ -172,11 +172,12 @@ PosedBox boxOf(const Scene& scene, const Pose& pose, const Instance& instance) {
 
 }  // namespace
 
-Pose poseAt(const Scene& scene, double seconds) {
-    NodeMotion motion = motionAt(scene, seconds);
+Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
+    NodeMotion motion = motionAt(scene, seconds, animation);
     const std::vector<glm::dmat4> world = worldFromNode(scene.nodes, motion.parent_from_node);
     Pose pose;
     pose.seconds = seconds;
+    pose.animation = animation;
     for (const Skin& skin : scene.skins) pose.skins.push_back(worldFromMesh(skin, world));
     Weights weights(scene, motion, pose);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
