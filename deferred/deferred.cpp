@@ -67,7 +67,7 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
 
 // Draws the scene into the depth and the attachments. `captured`: with what only channels need.
 void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& images, bool captured) {
-    Pass& pass = passes.draw("G-buffer").depth(images.depth, Load::clear);
+    Pass& pass = inputs.posing.read(passes, passes.draw("G-buffer")).depth(images.depth, Load::clear);
     for (const ImageRef image : images.gbuffer)
         if (image.valid()) pass.color(image, Load::clear);
     pass.record(
@@ -85,6 +85,7 @@ LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const
 
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
+    inputs.posing.addPasses(passes, inputs.pipelines);
     inputs.shadow.addPasses(passes, inputs);
     images.depth = passes.image("depth", depthFormat);
     for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {

@@ -32,6 +32,7 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
     batch.read(pass);
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
+    inputs.posing.read(passes, pass);
     pass.takes(shadingMs(passes, inputs, batch));
     pass.record(recordDraws(
         inputs,
@@ -47,10 +48,13 @@ void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, con
 
 FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
+    inputs.posing.addPasses(passes, inputs.pipelines);
     inputs.shadow.addPasses(passes, inputs);
     images.depth = passes.image("depth", depthFormat);
     if (inputs.prepass)
-        passes.draw("depth pre-pass").depth(images.depth, Load::clear).record(recordDraws(inputs, depthKey));
+        inputs.posing.read(passes, passes.draw("depth pre-pass"))
+            .depth(images.depth, Load::clear)
+            .record(recordDraws(inputs, depthKey));
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     // Without a pre-pass the first draw that shades writes depth.
     bool drawn = inputs.prepass;

@@ -69,11 +69,13 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     const Queries queries(inputs.device);
     const ImageRef depth = passes.image("depth", depthFormat);
     const auto draws = recordDraws(inputs, depthKey);
-    passes.draw("count fragments").depth(depth, Load::clear).record([&](VkCommandBuffer commands) {
-        queries.begin(commands, 0);
-        draws(commands);
-        queries.end(commands, 0);
-    });
+    inputs.posing.read(passes, passes.draw("count fragments"))
+        .depth(depth, Load::clear)
+        .record([&](VkCommandBuffer commands) {
+            queries.begin(commands, 0);
+            draws(commands);
+            queries.end(commands, 0);
+        });
     // The full-screen triangle passes the depth test where something was drawn, as in deferred lighting.
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::full_screen_vert,
                                                                  .fragment = Shader::none,

@@ -22,10 +22,6 @@ constexpr const char* slotNames[gpu::SLOT_COUNT] = {
     "base colour", "metallic-roughness", "normal",          "occlusion",
     "emission",    "specular",           "specular colour", "lightmap"};
 
-const Primitive& primitiveOf(const Scene& scene, const Instance& instance) {
-    return scene.meshes[static_cast<std::size_t>(instance.mesh)]
-        .primitives[static_cast<std::size_t>(instance.primitive)];
-}
 const Material& materialOf(const Scene& scene, const Primitive& primitive) {
     return scene.materials[static_cast<std::size_t>(primitive.material)];
 }

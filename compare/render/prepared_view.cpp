@@ -86,6 +86,7 @@ PipelineSet::PipelineSet(Device& device)
 SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<PipelineSet> shared)
     : uploader(d),
       geometry(d, uploader, scene),
+      posings(d, uploader, scene, geometry),
       materials(d, uploader, scene),
       set(shared ? std::move(shared) : std::make_shared<PipelineSet>(d)),
       layouts(set->layouts),
@@ -100,6 +101,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
     : scene(seen),
       lights(lightsOf(scene, settings)),
       draws(makeDrawList(scene.pose, shared.geometry, shared.materials, scene.view, settings.transparency)),
+      posing(shared.posings.at(scene.pose, settings.skinning, shared.pipelines)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
               objectPixelLights(settings),
@@ -116,6 +118,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .layouts = shared.layouts,
           .pipelines = shared.pipelines,
           .geometry = shared.geometry,
+          .posing = *posing,
           .materials = shared.materials,
           .draws = draws,
           .lights = lights,
@@ -193,7 +196,8 @@ void readCounters(PreparedView& view, FrameCounters& counters) {
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
     return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
                 prepared.view.environment.imageBytes(),
-            shared.geometry.bytes() + shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
+            shared.geometry.bytes() + shared.posings.bytes() + prepared.view.posing->bytes() +
+                shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
                 prepared.view.shadow.bytes() + prepared.view.environment.bytes() +
                 prepared.view.haze.bytes() + prepared.view.fragments.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};

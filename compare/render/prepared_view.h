@@ -35,6 +35,7 @@ struct SharedResources {
     SharedResources(Device& device, const Scene& scene, std::shared_ptr<PipelineSet> set = nullptr);
     Uploader uploader;
     Geometry geometry;
+    Posings posings;
     Materials materials;
     std::shared_ptr<PipelineSet> set;
     Layouts& layouts;
@@ -55,6 +56,7 @@ public:
     const SceneView& scene;
     GpuLights lights;
     DrawList draws;
+    std::shared_ptr<const Posing> posing;
     FrameBuffers buffers;
     EnvironmentLight environment;
     Haze haze;

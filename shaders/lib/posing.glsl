@@ -109,7 +109,7 @@ vec3 posedNormal(PosedInstance i, mat4x3 matrix, vec3 normal) {
     float scale = largest > 0.0 ? 1.0 / largest : 0.0;
     vec3 x = matrix[0] * scale, y = matrix[1] * scale, z = matrix[2] * scale;
     vec3 sum = crossProduct(y, z) * normal.x + crossProduct(z, x) * normal.y + crossProduct(x, y) * normal.z;
-    return i.handedness * directionOf(sum);
+    return i.handedness * unitOf(sum);
 }
 
 // Of a vertex whose triangle has a normal of its own: from the posed corners.
@@ -119,7 +119,7 @@ vec3 flatNormal(PosedInstance i, uint vertex) {
     vec3 u = posedPosition(i, first + 1) - a, v = posedPosition(i, first + 2) - a;
     float longest = max(largestOf(u), largestOf(v));
     float scale = longest > 0.0 ? 1.0 / longest : 0.0;
-    return i.handedness * directionOf(crossProduct(u * scale, v * scale));
+    return i.handedness * unitOf(crossProduct(u * scale, v * scale));
 }
 
 // Object; before joints move it.
@@ -148,7 +148,7 @@ PosedVertex posedVertex(PosedInstance i, uint vertex) {
     posed.position = placedBy(matrix, morphedPosition(i, vertex));
     posed.normal = i.flat_normals != 0 ? flatNormal(i, vertex)
                                        : posedNormal(i, matrix, morphedNormal(i, vertex));
-    posed.tangent = directionOf(mat3(matrix) * morphedTangent(i, vertex));
+    posed.tangent = unitOf(mat3(matrix) * morphedTangent(i, vertex));
     return posed;
 }
 

@@ -29,12 +29,17 @@ glm::dmat3 normalFromObject(const glm::dmat3& m) {
     return cofactors * ((glm::determinant(m) < 0 ? -1.0 : 1.0) / length);
 }
 
-gpu::Draw gpuDraw(const glm::dmat4& worldFromObject, const glm::dvec3& eye, const glm::dmat4& clipFromWorld) {
-    const glm::dmat3 linear(worldFromObject);
-    glm::dmat4 fromCamera = worldFromObject;
+glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye) {
+    glm::dmat4 fromCamera = placed.world_from_object;
     fromCamera[3] -= glm::dvec4(eye, 0.0);
+    return fromCamera;
+}
+
+gpu::Draw gpuDraw(const PlacedPrimitive& placed, const glm::dvec3& eye, const glm::dmat4& clipFromWorld) {
+    const glm::dmat4 fromCamera = fromEye(placed, eye);
     return {glm::mat4(clipFromWorld * fromCamera), glm::mat4x3(fromCamera),
-            glm::mat3(normalFromObject(linear)), glm::determinant(linear) < 0 ? -1.0f : 1.0f};
+            glm::mat3(normalFromObject(glm::dmat3(placed.world_from_object))),
+            placed.mirrored ? -1.0f : 1.0f};
 }
 
 // Whether the transform may make an interpolated normal vanish. Without flattening, a weighted sum of normals
@@ -106,23 +111,19 @@ int distanceOf(double depth) {
 }
 
 // What every draw of an instance has, whatever it is drawn to.
-DrawItem itemOf(const Instance& instance, const PrimitiveRange& range, const Materials& materials) {
+DrawItem itemOf(const PlacedPrimitive& placed, const Materials& materials) {
+    const PrimitiveRange& range = placed.range;
     DrawItem item;
     item.range = range;
+    item.box = placed.box;
     item.variant = materials.variant(range.material);
     if (range.vertex_color) item.variant.set(gpu::FEATURE_vertex_color);
     if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
-        flattens(instance.world_from_object))
+        flattens(placed.world_from_object))
         item.variant.set(gpu::FEATURE_vanishing_normals);
     item.blended = materials.blends(range.material);
     item.masked = item.variant.get(gpu::FEATURE_alpha_mask) != 0;
     return item;
-}
-
-glm::dmat4 fromEye(const Instance& instance, const glm::dvec3& eye) {
-    glm::dmat4 fromCamera = instance.world_from_object;
-    fromCamera[3] -= glm::dvec4(eye, 0.0);
-    return fromCamera;
 }
 
 ClipBox clipBox(const glm::dmat4& clipFromObject, const ObjectBox& box) {
@@ -132,11 +133,11 @@ ClipBox clipBox(const glm::dmat4& clipFromObject, const ObjectBox& box) {
     return {centre - reach, centre + reach};
 }
 
-void add(DrawList& list, DrawItem item, const Instance& instance, const glm::dvec3& eye,
+void add(DrawList& list, DrawItem item, const PlacedPrimitive& placed, const glm::dvec3& eye,
          const glm::dmat4& clipFromWorld) {
     item.draw = static_cast<std::uint32_t>(list.draws.size());
-    list.draws.push_back(gpuDraw(instance.world_from_object, eye, clipFromWorld));
-    item.mirrored = list.draws.back().handedness < 0;
+    list.draws.push_back(gpuDraw(placed, eye, clipFromWorld));
+    item.mirrored = placed.mirrored;
     item.distance = distanceOf(item.depths.farthest);
     list.items.push_back(item);
 }
@@ -176,18 +177,21 @@ void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, c
     std::vector<Triangle> triangles;
     std::vector<std::span<const std::uint32_t>> indices;
     for (const DrawItem& item : list.blended()) {
+        const PlacedTriangles of = geometry.triangles(pose, pose.instances[item.instance]);
+        glm::dmat4 fromCamera = of.world_from_object;
+        fromCamera[3] -= glm::dvec4(view.eye(), 0);
         // The depth of an object's point is dot(depth, (point, 1)).
-        const glm::dvec4 depth = glm::transpose(fromEye(pose.instances[item.instance], view.eye())) *
-                                 glm::dvec4(-view.backward(), 0);
-        const TriangleView of = geometry.triangles(item.range);
+        const glm::dvec4 depth = glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0);
         const auto number = static_cast<std::uint32_t>(indices.size());
-        const auto corner = [&](std::size_t i) { return glm::dvec3(of.positions[of.indices[i]]); };
-        for (std::uint32_t i = 0; i < of.indices.size() / 3; ++i) {
+        for (std::uint32_t i = 0; i < of.rest.indices.size() / 3; ++i) {
             const std::size_t first = 3 * std::size_t{i};
-            const glm::dvec3 centroid = (corner(first) + corner(first + 1) + corner(first + 2)) / 3.0;
-            triangles.push_back({glm::dot(depth, glm::dvec4(centroid, 1)), number, i});
+            const glm::dvec3 centroid =
+                (of.corner(first) + of.corner(first + 1) + of.corner(first + 2)) / 3.0;
+            const double away = glm::dot(depth, glm::dvec4(centroid, 1));
+            // A triangle that is not drawn has a place all the same.
+            triangles.push_back({std::isnan(away) ? 0 : away, number, i});
         }
-        indices.push_back(of.indices);
+        indices.push_back(of.rest.indices);
     }
     if (3 * triangles.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::runtime_error(fmt::format(
@@ -230,26 +234,27 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
     std::uint32_t blendedTriangles = 0;
     for (std::uint32_t i = 0; i < pose.instances.size(); ++i) {
         const Instance& instance = pose.instances[i];
-        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+        const PlacedPrimitive placed = geometry.placed(pose, instance);
+        const PrimitiveRange& range = placed.range;
         if (range.index_count == 0) continue;
         const std::uint32_t triangle = blendedTriangles;
         if (materials.blends(range.material)) {
             if (transparency == Transparency::off) continue;
             blendedTriangles += range.index_count / 3;
         }
-        const glm::dmat4 fromCamera = fromEye(instance, view.eye());
+        const glm::dmat4 fromCamera = fromEye(placed, view.eye());
         if (ClipSides(clipFromWorld * fromCamera, range).exclude({range.bounds_min, range.bounds_max})) {
             ++list.culled;
             continue;
         }
-        DrawItem item = itemOf(instance, range, materials);
+        DrawItem item = itemOf(placed, materials);
         item.triangle = triangle;
         item.instance = i;
         item.depths = viewDepths(fromCamera, -view.backward(), range);
         list.triangles += range.index_count / 3;
         const ObjectBox box(range.bounds_min, range.bounds_max);
         item.depth = glm::dot(-view.backward(), glm::dvec3(fromCamera * glm::dvec4(box.centre, 1)));
-        add(list, item, instance, view.eye(), clipFromWorld);
+        add(list, item, placed, view.eye(), clipFromWorld);
     }
     const auto first = std::stable_partition(list.items.begin(), list.items.end(),
                                              [](const DrawItem& item) { return !item.blended; });
@@ -265,22 +270,23 @@ DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materi
                         const CasterRequest& request) {
     DrawList list;
     for (const Instance& instance : pose.instances) {
-        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+        const PlacedPrimitive placed = geometry.placed(pose, instance);
+        const PrimitiveRange& range = placed.range;
         if (range.index_count == 0 || materials.blends(range.material)) continue;
-        const glm::dmat4 clipFromObject = request.clip_from_world * fromEye(instance, request.eye);
+        const glm::dmat4 clipFromObject = request.clip_from_world * fromEye(placed, request.eye);
         const ClipSides sides(clipFromObject, range);
         const auto keeps = [&](const ObjectBox& box) {
             return !sides.exclude(box) && (!request.matters || request.matters(clipBox(clipFromObject, box)));
         };
-        DrawItem item = itemOf(instance, range, materials);
+        DrawItem item = itemOf(placed, materials);
         if (request.all) {
             list.triangles += range.index_count / 3;
         } else if (!keeps({range.bounds_min, range.bounds_max}) ||
-                   !addRuns(list, item, geometry.clusters(range), keeps)) {
+                   !addRuns(list, item, geometry.clusters(placed), keeps)) {
             ++list.culled;
             continue;
         }
-        add(list, item, instance, request.eye, request.clip_from_world);
+        add(list, item, placed, request.eye, request.clip_from_world);
     }
     sort(list);
     return list;
@@ -294,12 +300,13 @@ double SeenBox::reach(const glm::dvec3& along) const {
 std::vector<SeenBox> seenBoxes(const Pose& pose, const Geometry& geometry, const View& view) {
     std::vector<SeenBox> boxes;
     for (const Instance& instance : pose.instances) {
-        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
+        const PlacedPrimitive placed = geometry.placed(pose, instance);
+        const PrimitiveRange& range = placed.range;
         if (range.index_count == 0) continue;
-        const glm::dmat4 fromCamera = fromEye(instance, view.eye());
+        const glm::dmat4 fromCamera = fromEye(placed, view.eye());
         const ClipSides sides(view.clipFromWorld() * fromCamera, range);
         if (sides.exclude({range.bounds_min, range.bounds_max})) continue;
-        for (const Cluster& cluster : geometry.clusters(range)) {
+        for (const Cluster& cluster : geometry.clusters(placed)) {
             const ObjectBox box(cluster.min, cluster.max);
             if (sides.exclude(box)) continue;
             const glm::dmat3 linear(fromCamera);

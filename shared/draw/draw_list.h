@@ -44,6 +44,7 @@ struct DrawItem {
     std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; none: the whole range is drawn
     std::uint32_t draw = 0;                 // into DrawList::draws
     std::uint32_t instance = 0;             // into Pose::instances
+    int box = -1;                           // into Pose::boxes; -1: not posed
     Variant variant;                        // the material's features and the primitive's
     bool mirrored = false;                  // the transform turns front faces round
     bool masked = false;                    // alpha mask

@@ -4,6 +4,7 @@
 
 #include "shared/draw/draw_list.h"
 #include "shared/draw/layouts.h"
+#include "shared/draw/posing.h"
 #include "shared/frame/settings.h"
 #include "shared/material/gbuffer_layout.h"
 #include "shared/vulkan/pass_list.h"
@@ -22,6 +23,7 @@ struct FrameInputs {
     const Layouts& layouts;
     Pipelines& pipelines;
     const Geometry& geometry;
+    const Posing& posing;
     const Materials& materials;
     const DrawList& draws;
     const GpuLights& lights;

@@ -3,7 +3,12 @@
 
 #include "shared/contract/geometry.h"
 
+#include "shared/scene/motion/posed.h"
+
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <array>
 #include <limits>
@@ -45,7 +50,7 @@ std::uint32_t indicesOf(const Scene& scene) {
 
 }  // namespace
 
-Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
+Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : scene_(scene) {
     std::vector<glm::vec3> positions;
     std::vector<gpu::VertexAttributes> attributes;
     std::vector<std::uint32_t> indices;
@@ -95,12 +100,32 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) {
         }
     }
     indices.insert(indices.end(), clustered.begin(), clustered.end());
-    positions_ =
-        makeBuffer<glm::vec3>(device, uploader, "positions", positions, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    // Posing reads them by address, and copies what it leaves as it is.
+    constexpr VkBufferUsageFlags posed =
+        VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    positions_ = makeBuffer<glm::vec3>(device, uploader, "positions", positions,
+                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | posed);
     attributes_ = makeBuffer<gpu::VertexAttributes>(device, uploader, "vertex attributes", attributes,
-                                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    indices_ =
-        makeBuffer<std::uint32_t>(device, uploader, "indices", indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+                                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | posed);
+    indices_ = makeBuffer<std::uint32_t>(device, uploader, "indices", indices,
+                                         VK_BUFFER_USAGE_INDEX_BUFFER_BIT | posed);
+}
+
+PlacedPrimitive Geometry::placed(const Pose& pose, const Instance& instance) const {
+    PlacedPrimitive placed;
+    placed.range = range(instance.mesh, instance.primitive);
+    placed.world_from_object = instance.world_from_object;
+    placed.mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+    placed.box = instance.box;
+    if (instance.box < 0) return placed;
+    const PosedBox& box = pose.boxes[static_cast<std::size_t>(instance.box)];
+    placed.world_from_object = glm::translate(glm::dmat4(1), box.origin);
+    placed.range.bounds_min = box.min;
+    placed.range.bounds_max = box.max;
+    placed.range.vanishing_normals = true;  // a pose may turn any two of them against each other
+    placed.whole = {placed.range.first_index, placed.range.index_count, glm::vec3(box.min),
+                    glm::vec3(box.max)};
+    return placed;
 }
 
 TriangleView Geometry::triangles(const PrimitiveRange& range) const {
@@ -109,10 +134,25 @@ TriangleView Geometry::triangles(const PrimitiveRange& range) const {
             std::span(kept_indices_).subspan(range.kept_indices, range.index_count)};
 }
 
+PlacedTriangles Geometry::triangles(const Pose& pose, const Instance& instance) const {
+    PlacedTriangles triangles{
+        this->triangles(range(instance.mesh, instance.primitive)), {}, instance.world_from_object};
+    if (!instance.deformed()) return triangles;
+    triangles.posed = posedPositions(scene_, pose, instance);
+    triangles.world_from_object = glm::dmat4(1);
+    return triangles;
+}
+
+void Geometry::bindVertices(VkCommandBuffer commands) const {
+    const std::array buffers{positions_.handle(), attributes_.handle()};
+    const std::array<VkDeviceSize, 2> offsets{};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), offsets.data());
+}
+
 void Geometry::bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices) const {
-    const std::array buffers{positions_.handle(), attributes_.handle(), draws};
-    const std::array<VkDeviceSize, 3> offsets{};
-    vkCmdBindVertexBuffers(commands, 0, 3, buffers.data(), offsets.data());
+    bindVertices(commands);
+    constexpr VkDeviceSize none = 0;
+    vkCmdBindVertexBuffers(commands, 2, 1, &draws, &none);
     vkCmdBindIndexBuffer(commands, indices != VK_NULL_HANDLE ? indices : indices_.handle(), 0,
                          VK_INDEX_TYPE_UINT32);
 }

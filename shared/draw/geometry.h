@@ -4,6 +4,7 @@
 
 #include "shared/draw/clusters.h"
 #include "shared/scene/model/scene.h"
+#include "shared/scene/motion/instances.h"
 #include "shared/vulkan/resources.h"
 
 #include <span>
@@ -29,8 +30,29 @@ struct TriangleView {
     std::span<const std::uint32_t> indices;  // into these, three a triangle
 };
 
+// A primitive where an instance draws it: as it is in the scene, or posed. World axes; of a posed one from
+// its box's origin.
+struct PlacedPrimitive {
+    PrimitiveRange range;
+    glm::dmat4 world_from_object{1};
+    bool mirrored = false;
+    int box = -1;     // into Pose::boxes; -1: not posed
+    Cluster whole{};  // of a posed one, which has no others
+};
+
+// The triangles of an instance on the host.
+struct PlacedTriangles {
+    TriangleView rest;
+    std::vector<glm::dvec3> posed;  // in place of rest's, where it is posed; NaN: not drawn
+    glm::dmat4 world_from_object{1};
+    glm::dvec3 corner(std::size_t i) const {
+        return posed.empty() ? glm::dvec3(rest.positions[rest.indices[i]]) : posed[rest.indices[i]];
+    }
+};
+
 class Geometry {
 public:
+    // The scene must outlive it.
     Geometry(Device& device, Uploader& uploader, const Scene& scene);
 
     const PrimitiveRange& range(int mesh, int primitive) const {
@@ -40,11 +62,21 @@ public:
     std::span<const Cluster> clusters(const PrimitiveRange& range) const {
         return std::span(clusters_).subspan(range.first_cluster, range.cluster_count);
     }
+    PlacedPrimitive placed(const Pose& pose, const Instance& instance) const;
+    std::span<const Cluster> clusters(const PlacedPrimitive& placed) const {
+        return placed.box >= 0 ? std::span(&placed.whole, 1) : clusters(placed.range);
+    }
     // In the scene's order. Only of primitives whose material blends: nothing is kept of others, and theirs
     // are empty.
     TriangleView triangles(const PrimitiveRange& range) const;
+    PlacedTriangles triangles(const Pose& pose, const Instance& instance) const;
     // `indices`: others than the scene's.
     void bind(VkCommandBuffer commands, VkBuffer draws, VkBuffer indices = VK_NULL_HANDLE) const;
+    void bindVertices(VkCommandBuffer commands) const;  // without draws and indices
+    const Scene& scene() const { return scene_; }
+    const GpuBuffer& positions() const { return positions_; }
+    const GpuBuffer& attributes() const { return attributes_; }
+    const GpuBuffer& indices() const { return indices_; }
     std::uint64_t bytes() const { return positions_.size() + attributes_.size() + indices_.size(); }
     // On the host, of what blends.
     std::uint64_t hostBytes() const {
@@ -52,6 +84,7 @@ public:
     }
 
 private:
+    const Scene& scene_;
     std::vector<std::vector<PrimitiveRange>> ranges_;
     std::vector<Cluster> clusters_;
     std::vector<glm::vec3> kept_positions_;  // of what blends

@@ -35,7 +35,10 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
 std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const DrawItem> items,
                                     const KeyOf& keyOf) {
     std::vector<PipelineKey> keys;
-    for (const DrawItem& item : items) keys.push_back(keyOf(item));
+    for (const DrawItem& item : items) {
+        keys.push_back(keyOf(item));
+        keys.back().variant.set(gpu::FEATURE_vertex_posing, inputs.posing.isPosedInShader(item));
+    }
     return inputs.pipelines.get(keys);
 }
 
@@ -78,6 +81,14 @@ public:
             vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[i]);
         if (last_ == nullptr || item.range.material != last_->range.material)
             bind(commands_, inputs_, gpu::SET_MATERIAL, inputs_.materials.set(item.range.material));
+        const bool posed = inputs_.posing.isPosed(item);
+        if (posed != posed_) {
+            if (posed)
+                inputs_.posing.bind(commands_);
+            else
+                inputs_.geometry.bindVertices(commands_);
+            posed_ = posed;
+        }
         vkCmdSetCullMode(commands_, culledOf(source_, item));
         // glTF's front faces are counter-clockwise; clip space has y down, as has the framebuffer.
         vkCmdSetFrontFace(commands_,
@@ -87,7 +98,8 @@ public:
         taken_ = i;
     }
     void draw(const IndexRun& run) const {
-        vkCmdDrawIndexed(commands_, run.count, 1, run.first, last_->range.vertex_offset, last_->draw);
+        vkCmdDrawIndexed(commands_, run.count, 1, run.first, inputs_.posing.vertexOffset(*last_),
+                         last_->draw);
     }
 
 private:
@@ -98,6 +110,7 @@ private:
     const ConstantsOf& constants_of_;
     const DrawItem* last_ = nullptr;
     std::size_t taken_ = 0;
+    bool posed_ = false;  // whether posed vertices are bound
 };
 
 template <class ConstantsOf>
@@ -138,7 +151,8 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
         bindFrame(commands, inputs, batch, gbuffer.get());
         recordItems(commands, inputs, {inputs.draws.solids(), inputs.draws.runs, inputs.draw_buffer, true},
                     pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material, batch.first, batch.end, surface, 0, {}};
+                        return {item.draw, item.range.material,         batch.first, batch.end, surface,
+                                0,         inputs.posing.address(item), {}};
                     });
     };
 }
@@ -151,7 +165,8 @@ std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, co
         bindFrame(commands, inputs, {}, gbuffer.get());
         const DrawSource source{inputs.draws.blended(), inputs.draws.runs, inputs.draw_buffer, true};
         const auto constantsOf = [&](const DrawItem& item) -> gpu::DrawConstants {
-            return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED, item.triangle, constants};
+            return {item.draw,     item.range.material,         0,        0, gpu::SURFACE_DECODED,
+                    item.triangle, inputs.posing.address(item), constants};
         };
         if (inputs.draws.sorted_runs.empty())
             recordItems(commands, inputs, source, pipelines, constantsOf);
@@ -166,8 +181,9 @@ std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, co
             pipelines = pipelinesOf(inputs, draws.items, depthKey)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, nullptr);
         recordItems(commands, inputs, {draws.items, draws.runs, draw_buffer, false}, pipelines,
-                    [](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material, 0, 0, gpu::SURFACE_DECODED, 0, {}};
+                    [&](const DrawItem& item) -> gpu::DrawConstants {
+                        return {item.draw, item.range.material,         0, 0, gpu::SURFACE_DECODED,
+                                0,         inputs.posing.address(item), {}};
                     });
     };
 }
@@ -184,7 +200,7 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
     return [&inputs, pipeline, batch,
             sets = std::make_shared<const DescriptorSets>(std::move(gbuffer))](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, sets.get());
-        push(commands, inputs, {0, 0, batch.first, batch.end, gpu::SURFACE_DECODED, 0, {}});
+        push(commands, inputs, {0, 0, batch.first, batch.end, gpu::SURFACE_DECODED, 0, {}, {}});
         recordTriangle(commands, pipeline);
     };
 }
@@ -194,7 +210,7 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
                                                       const gpu::BlendedConstants& constants) {
     return [&inputs, pipeline, constants, gbuffer = std::move(gbuffer)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, gbuffer.get());
-        push(commands, inputs, {0, 0, 0, 0, gpu::SURFACE_DECODED, 0, constants});
+        push(commands, inputs, {0, 0, 0, 0, gpu::SURFACE_DECODED, 0, {}, constants});
         recordTriangle(commands, pipeline);
     };
 }

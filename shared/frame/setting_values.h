@@ -84,6 +84,13 @@ inline constexpr auto enum_names<Transparency> =
                                            {Transparency::list, "list"},
                                            {Transparency::off, "off"}});
 
+// Where the vertices of skinned and morphed meshes are posed: once a frame by a kernel, or at every draw by the
+// vertex shader.
+enum class Skinning { compute, vertex };
+template <>
+inline constexpr auto enum_names<Skinning> =
+    std::to_array<EnumName<Skinning>>({{Skinning::compute, "compute"}, {Skinning::vertex, "vertex"}});
+
 enum class SpecularAlbedo { table, fit };
 template <>
 inline constexpr auto enum_names<SpecularAlbedo> =

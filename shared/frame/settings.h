@@ -26,6 +26,7 @@ struct Settings {
     std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
     double time = 0.0;   // s
     std::string animation;      // "" all of them; an index or a name
+    Skinning skinning = Skinning::compute;
     std::string env = "none";   // file of a lat-long environment, or scene
     float env_rotation = 0.0f;  // degrees about +Y
     bool env_sun = false;
@@ -278,6 +279,11 @@ void Settings::rows(Visit&& visit) {
           &Settings::time);
     visit(Field{.option = "animation", .help = "the one that plays, by index or name; otherwise all do"},
           &Settings::animation);
+    visit(Field{.option = "skinning",
+                .help = "skinned and morphed vertices are posed once a frame, or at every draw",
+                .ignored = {.reference = "the reference poses in double"},
+                .sweep = "all"},
+          &Settings::skinning);
     visit(
         Field{
             .option = "env",

@@ -35,11 +35,6 @@ double uniformOf(std::uint64_t i) {
     return static_cast<double>((i ^ (i >> 31)) >> 11) * 0x1p-53;
 }
 
-const Primitive& primitiveOf(const Scene& scene, const Instance& instance) {
-    return scene.meshes[static_cast<std::size_t>(instance.mesh)]
-        .primitives[static_cast<std::size_t>(instance.primitive)];
-}
-
 // Of RTCIntersectContext, with whose triangles they are.
 struct SeenContext {
     RTCIntersectContext context;  // first: Embree gives back a pointer to it

@@ -38,13 +38,15 @@ void eachSeen(const BlendedReceivers& blended, const Visit& visit) {
     std::vector<glm::dvec3> polygon, spare;
     for (const DrawItem& item : blended.draws.blended()) {
         if (item.sides == Sides::back) continue;  // its fronts, in the same list, are the same triangles
-        glm::dmat4 fromObject = blended.pose.instances[item.instance].world_from_object;
+        const PlacedTriangles of =
+            blended.geometry.triangles(blended.pose, blended.pose.instances[item.instance]);
+        glm::dmat4 fromObject = of.world_from_object;
         fromObject[3] -= glm::dvec4(blended.view.eye(), 0);
-        const TriangleView of = blended.geometry.triangles(item.range);
-        for (std::size_t i = 0; i + 2 < of.indices.size(); i += 3) {
+        for (std::size_t i = 0; i + 2 < of.rest.indices.size(); i += 3) {
             polygon.clear();
             for (std::size_t c = i; c < i + 3; ++c)
-                polygon.emplace_back(fromObject * glm::dvec4(of.positions[of.indices[c]], 1));
+                polygon.emplace_back(fromObject * glm::dvec4(of.corner(c), 1));
+            if (std::ranges::any_of(polygon, [](const glm::dvec3& p) { return std::isnan(p.x); })) continue;
             for (const glm::dvec4& side : sides) cut(polygon, side, spare);
             for (std::size_t c = 2; c < polygon.size(); ++c)
                 visit(Corners{polygon[0], polygon[c - 1], polygon[c]});

@@ -127,13 +127,27 @@ std::vector<float> ClipmapAtlas::read(std::uint32_t at) const {
 
 void ClipmapAtlas::follow(const Pose& pose, const Geometry& geometry, const LightSpace& space) {
     std::vector<Caster> now;
-    for (const Instance& instance : pose.instances)
-        now.push_back({instance.mesh, instance.primitive, instance.world_from_object});
+    for (const Instance& instance : pose.instances) {
+        const PlacedPrimitive placed = geometry.placed(pose, instance);
+        Caster& caster = now.emplace_back();
+        caster = {instance.mesh,
+                  instance.primitive,
+                  placed.world_from_object,
+                  placed.range.bounds_min,
+                  placed.range.bounds_max,
+                  {},
+                  {}};
+        if (instance.skin >= 0) caster.world_from_mesh = pose.skins[static_cast<std::size_t>(instance.skin)];
+        if (instance.weights >= 0) caster.weights = pose.weights[static_cast<std::size_t>(instance.weights)];
+    }
     const auto forget = [&](const Caster& caster) {
-        const PrimitiveRange& range = geometry.range(caster.mesh, caster.primitive);
-        if (range.index_count == 0) return;
+        if (geometry.range(caster.mesh, caster.primitive).index_count == 0) return;
+        Bounds bounds;
+        bounds.min = caster.bounds_min;
+        bounds.max = caster.bounds_max;
         glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper(-lower);
-        for (const glm::dvec3& corner : cornersOf(range, caster.world_from_object)) {
+        for (glm::dvec3 corner : cornersOf(bounds)) {
+            corner = caster.world_from_object * glm::dvec4(corner, 1);
             lower = glm::min(lower, glm::dvec2(space.from(corner)));
             upper = glm::max(upper, glm::dvec2(space.from(corner)));
         }
@@ -171,7 +185,7 @@ std::size_t ClipmapAtlas::draw(const FrameInputs& inputs, Uploader& uploader, co
         PassList passes(device_, shape_.slot, shape_.slot);
         const ImageRef drawn = passes.image("shadow page", depthFormat);
         for (std::size_t i = 0; i < now.size(); ++i) {
-            passes.draw("shadow page")
+            inputs.posing.read(passes, passes.draw("shadow page"))
                 .depth(drawn, Load::clear, 0.0f)
                 .record(recordCasters(inputs, lists[i], buffer.handle()));
             passes.copy("shadow page to atlas")

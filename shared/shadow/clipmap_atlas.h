@@ -51,9 +51,13 @@ public:
     std::vector<float> read(std::uint32_t at) const;
 
 private:
+    // What a caster's shadow follows from.
     struct Caster {
         int mesh = 0, primitive = 0;
         glm::dmat4 world_from_object{1};
+        glm::dvec3 bounds_min{0}, bounds_max{0};  // object
+        std::vector<glm::dmat4> world_from_mesh;  // by joint
+        std::vector<double> weights;              // of morph targets
         bool operator==(const Caster&) const = default;
     };
     Device& device_;

@@ -53,7 +53,9 @@ void DepthBounds::addPasses(PassList& passes, const FrameInputs& inputs) {
     const ImageRef depth = passes.image("shown depth", depthFormat);
     const BufferRef bounds = passes.buffer("depth bounds", bounds_),
                     seen = passes.buffer("depth bounds, read back", seen_);
-    passes.draw(name).depth(depth, Load::clear).record(recordDraws(inputs, depthKey));
+    inputs.posing.read(passes, passes.draw(name))
+        .depth(depth, Load::clear)
+        .record(recordDraws(inputs, depthKey));
     passes.copy(name).uses(bounds, access::transferWrite).record([this](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, bounds_.handle(), offsetof(gpu::DepthBounds, deepest), 4,
                         gpu::DEEPEST_OF_NOTHING);
@@ -116,6 +118,7 @@ DepthVariation depthVariation(const FrameInputs& inputs, Uploader& uploader, con
                                 .layouts = inputs.layouts,
                                 .pipelines = inputs.pipelines,
                                 .geometry = inputs.geometry,
+                                .posing = inputs.posing,
                                 .materials = inputs.materials,
                                 .draws = draws,
                                 .lights = inputs.lights,

@@ -91,9 +91,9 @@ LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose,
             boxes.push_back(
                 cornersOf(item.range, glm::dmat4(glm::mat4(seen.draws[item.draw].world_from_object))));
         for (const Instance& instance : pose.instances) {
-            const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
-            if (range.index_count == 0 || materials.blends(range.material)) continue;
-            casting.push_back(cornersOf(range, instance.world_from_object));
+            const PlacedPrimitive placed = geometry.placed(pose, instance);
+            if (placed.range.index_count == 0 || materials.blends(placed.range.material)) continue;
+            casting.push_back(cornersOf(placed.range, placed.world_from_object));
             for (glm::dvec3& corner : casting.back()) corner -= view.eye();
         }
         atlas_ = layOutAtlas(casters, boundsOf(pose, geometry), boxes, casting, view, request_);
@@ -146,7 +146,7 @@ void LocalShadows::addPasses(PassList& passes, const FrameInputs& inputs) {
                            .array = true});
     std::vector<std::function<void(VkCommandBuffer)>> draws;
     for (const Map& map : maps_) draws.push_back(recordCasters(inputs, map.casters, map.draws.handle()));
-    passes.draw("local shadow maps")
+    inputs.posing.read(passes, passes.draw("local shadow maps"))
         .depth(image_, Load::clear)
         .record([this, draws = std::move(draws)](VkCommandBuffer commands) {
             for (std::size_t i = 0; i < draws.size(); ++i) {

@@ -23,9 +23,9 @@ std::array<glm::dvec3, 8> cornersOf(const PrimitiveRange& range, const glm::dmat
 Bounds boundsOf(const Pose& pose, const Geometry& geometry) {
     Bounds bounds;
     for (const Instance& instance : pose.instances) {
-        const PrimitiveRange& range = geometry.range(instance.mesh, instance.primitive);
-        if (range.index_count == 0) continue;
-        for (const glm::dvec3& corner : cornersOf(range, instance.world_from_object)) {
+        const PlacedPrimitive placed = geometry.placed(pose, instance);
+        if (placed.range.index_count == 0) continue;
+        for (const glm::dvec3& corner : cornersOf(placed.range, placed.world_from_object)) {
             bounds.min = glm::min(bounds.min, corner);
             bounds.max = glm::max(bounds.max, corner);
         }

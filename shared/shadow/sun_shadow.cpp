@@ -293,7 +293,7 @@ void SunShadow::addPasses(PassList& passes, const FrameInputs& inputs) {
                            .layers = static_cast<std::uint32_t>(maps_.size()),
                            .array = true});
     for (std::uint32_t layer = 0; layer < maps_.size(); ++layer)
-        passes.draw("shadow maps")
+        inputs.posing.read(passes, passes.draw("shadow maps"))
             .depth(image_, Load::clear, 0.0f, {.layer = layer})
             .record(recordCasters(inputs, maps_[layer].casters, maps_[layer].draws.handle()));
     if (moments_)

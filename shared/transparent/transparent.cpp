@@ -30,6 +30,7 @@ constexpr const char* name = "transparent";  // of every pass: their times are o
 Pass& shades(Pass& pass, PassList& passes, const FrameInputs& inputs) {
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
+    inputs.posing.read(passes, pass);
     return pass.takes(shadingMs(passes, inputs, {}));
 }
 
@@ -74,7 +75,7 @@ void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageR
     ImageRef powers{};
     if (moments) {
         powers = addImage(passes, "moments of optical depth", sumsFormat);
-        passes.draw(name)
+        inputs.posing.read(passes, passes.draw(name))
             .color(depths, Load::clear)
             .color(powers, Load::clear)
             .depthTest(depth)
@@ -132,7 +133,7 @@ void addLists(PassList& passes, const FrameInputs& inputs, ImageRef depth, Image
     constants.rows = lists.rows();
     for (; constants.first_row < passes.height(); constants.first_row += constants.rows) {
         lists.addClear(passes, constants.first_row == 0);
-        Pass& keys = passes.draw(name).depthTest(depth);
+        Pass& keys = inputs.posing.read(passes, passes.draw(name)).depthTest(depth);
         lists.use(passes, keys);
         keys.record(recordBlended(
             inputs,

@@ -151,9 +151,14 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
 
 std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
                                             bool image) {
+    // Of any buffer shaders may ask for the address.
+    const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                          .pNext = nullptr,
+                                          .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT,
+                                          .deviceMask = 0};
     for (VkDeviceSize bytes = most;; bytes = least) {
         const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                        .pNext = nullptr,
+                                        .pNext = image ? nullptr : &flags,
                                         .allocationSize = bytes,
                                         .memoryTypeIndex = type};
         VkDeviceMemory memory = VK_NULL_HANDLE;

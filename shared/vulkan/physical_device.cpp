@@ -271,6 +271,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v13.maintenance4 = VK_TRUE;                    // a workgroup's size by a constant
     wanted.v13.shaderDemoteToHelperInvocation = VK_TRUE;  // holes of alpha masks
     wanted.v12.scalarBlockLayout = VK_TRUE;
+    wanted.v12.bufferDeviceAddress = VK_TRUE;  // of Vulkan 1.3: every device has it
     wanted.v10.features.fullDrawIndexUint32 = VK_TRUE;
     VkPhysicalDeviceFeatures there{};
     vkGetPhysicalDeviceFeatures(physical, &there);

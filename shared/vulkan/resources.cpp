@@ -85,6 +85,11 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
     memory_ = device.memory().allocate(needs, use, false, "the buffer " + name);
     checkResult(vkBindBufferMemory(device.handle(), buffer, memory_.memory(), memory_.offset()),
                 "vkBindBufferMemory");
+    if ((usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0) {
+        const VkBufferDeviceAddressInfo whose{
+            .sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .pNext = nullptr, .buffer = buffer};
+        address_ = vkGetBufferDeviceAddress(device.handle(), &whose);
+    }
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
 }
 

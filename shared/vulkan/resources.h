@@ -27,11 +27,14 @@ public:
     VkBuffer handle() const { return buffer_; }
     VkDeviceSize size() const { return size_; }
     void* mapped() const { return memory_.mapped(); }
+    // Where shaders find it, with SHADER_DEVICE_ADDRESS in its usage; else 0.
+    VkDeviceAddress address() const { return address_; }
 
 private:
     Allocation memory_;  // outlives the buffer: declared first
     OwnedBuffer buffer_;
     VkDeviceSize size_ = 0;
+    VkDeviceAddress address_ = 0;
 };
 
 // The buffer as texels of `format`, for shaders to fetch; its usage has UNIFORM_TEXEL_BUFFER.

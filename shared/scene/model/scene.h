@@ -57,6 +57,7 @@ struct TextureSlot {
     int texture = -1;  // into Scene::textures; -1: none
     int texcoord = 0;  // 0 or 1
     glm::dvec3 u{1, 0, 0}, v{0, 1, 0};
+    bool operator==(const TextureSlot&) const = default;
 };
 
 enum class AlphaMode { opaque, mask, blend };

@@ -21,12 +21,15 @@ struct Instance {
     int weights = -1;  // into Pose::weights; -1: no morph target applies
     int box = -1;      // into Pose::boxes; of deformed ones
     bool deformed() const { return skin >= 0 || weights >= 0; }
+    bool operator==(const Instance&) const = default;
 };
 
 // Where the vertices of a deformed instance are.
 struct PosedBox {
     glm::dvec3 origin{0};       // world, m; posed vertices are stored from here, so that float32 suffices
     glm::dvec3 min{0}, max{0};  // world axes from the origin, m: no posed vertex lies outside
+    std::uint64_t first_vertex = 0;  // among those of all deformed instances
+    bool operator==(const PosedBox&) const = default;
 };
 
 // The scene at one time, in world space.
@@ -41,6 +44,11 @@ struct Pose {
     std::vector<PosedBox> boxes;                 // of deformed instances
     std::vector<Material> materials;             // as Scene::materials; empty: no animation moves any
 };
+
+inline const Primitive& primitiveOf(const Scene& scene, const Instance& instance) {
+    return scene.meshes[static_cast<std::size_t>(instance.mesh)]
+        .primitives[static_cast<std::size_t>(instance.primitive)];
+}
 
 // The scene's materials at the pose's time.
 inline const std::vector<Material>& materialsOf(const Scene& scene, const Pose& pose) {

@@ -197,10 +197,13 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
                                       .weights = placeOfWeights});
         }
     }
+    std::uint64_t vertices = 0;
     for (Instance& instance : pose.instances) {
         if (!instance.deformed()) continue;
         instance.box = static_cast<int>(pose.boxes.size());
         pose.boxes.push_back(boxOf(scene, pose, instance));
+        pose.boxes.back().first_vertex = vertices;
+        vertices += primitiveOf(scene, instance).positions.size();
     }
     for (const Light& light : scene.lights)
         if (hasPlace(light, world)) pose.lights.push_back(inWorld(light, world));

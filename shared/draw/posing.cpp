@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/posing.h"
+
+#include "shared/draw/arena.h"
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+static_assert(double{gpu::MAX_POSED_COORDINATE} == double{static_cast<float>(maxCoordinate)});
+
+// lavapipe ends all loops of a shader's invocation after 65,535 rounds; a flat triangle's corners are posed
+// by each of its three vertices and once more.
+constexpr std::size_t mostDeltas = 16000;
+
+// The matrices that move an instance's vertices, about the pivot, to its box's origin.
+std::vector<glm::mat4x3> matricesOf(const Pose& pose, const Instance& instance, const glm::vec3& pivot) {
+    const glm::dvec3 origin = pose.boxes[static_cast<std::size_t>(instance.box)].origin;
+    const std::span<const glm::dmat4> from =
+        instance.skin >= 0 ? std::span(pose.skins[static_cast<std::size_t>(instance.skin)])
+                           : std::span(&instance.world_from_object, 1);
+    std::vector<glm::mat4x3> matrices;
+    for (const glm::dmat4& m : from) {
+        const glm::dvec3 moved = glm::dvec3(m * glm::dvec4(glm::dvec3(pivot), 1)) - origin;
+        matrices.emplace_back(glm::vec3(m[0]), glm::vec3(m[1]), glm::vec3(m[2]), glm::vec3(moved));
+    }
+    return matrices;
+}
+
+// The targets that have a weight, attribute by attribute.
+std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std::vector<double>* weights,
+                                      gpu::PosedInstance& i) {
+    using Target = Deformations::Target;
+    std::vector<gpu::PosedDelta> deltas;
+    const auto add = [&](VkDeviceAddress Target::*attribute, gpu::uint& end) {
+        for (std::size_t t = 0; weights != nullptr && t < rest.targets.size(); ++t) {
+            const auto weight = static_cast<float>((*weights)[t]);
+            if (weight != 0 && rest.targets[t].*attribute != 0)
+                deltas.push_back({addressWords(rest.targets[t].*attribute), weight});
+        }
+        end = static_cast<gpu::uint>(deltas.size());
+    };
+    add(&Target::positions, i.positions_end);
+    if (deltas.size() > mostDeltas)
+        throw std::runtime_error(
+            fmt::format("{} morph targets of a mesh have a weight at once: a shader adds up to {}",
+                        deltas.size(), mostDeltas));
+    add(&Target::normals, i.normals_end);
+    add(&Target::tangents, i.tangents_end);
+    add(&Target::texcoords0, i.texcoords0_end);
+    add(&Target::texcoords1, i.texcoords1_end);
+    add(&Target::colors, i.colors_end);
+    return deltas;
+}
+
+const TextureSlot& normalMapOf(const Scene& scene, const Pose& pose, const Instance& instance) {
+    const Primitive& primitive = primitiveOf(scene, instance);
+    return materialsOf(scene, pose)[static_cast<std::size_t>(primitive.material)].normal_texture;
+}
+
+glm::uvec2 groupsFor(std::uint32_t threads) {
+    const std::uint32_t groups = (threads + gpu::POSING_THREADS - 1) / gpu::POSING_THREADS;
+    return {std::min(groups, gpu::POSING_GROUPS), (groups + gpu::POSING_GROUPS - 1) / gpu::POSING_GROUPS};
+}
+
+}  // namespace
+
+OwnedPipelineLayout makePosingLayout(Device& device) {
+    return makePipelineLayout(
+        device, {}, VkPushConstantRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::PosingConstants)});
+}
+
+Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
+               const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning)
+    : layout_(layout), skinning_(skinning) {
+    // Arrays first with their offsets in place of addresses.
+    struct Arrays {
+        gpu::PosedInstance instance;
+        std::size_t record, matrices, deltas;
+        std::uint64_t first_group, first_morphed;
+    };
+    Arena arena;
+    std::vector<Arrays> arrays;
+    std::vector<const Instance*> posed;
+    std::uint64_t groups = 0, morphed = 0;
+    for (const Instance& instance : pose.instances) {
+        if (instance.box < 0) continue;
+        const Primitive& primitive = primitiveOf(geometry.scene(), instance);
+        if (primitive.indices.empty()) {
+            instances_.emplace_back();
+            continue;
+        }
+        const Deformations::Rest& of = rest.of(instance.mesh, instance.primitive);
+        gpu::PosedInstance i = of.instance;
+        i.handedness = glm::determinant(glm::dmat3(instance.world_from_object)) < 0 ? -1.0f : 1.0f;
+        if (instance.skin < 0) i.joint_sets = 0;
+        const std::vector<double>* const weights =
+            instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)];
+        const std::vector<gpu::PosedDelta> deltas = deltasOf(of, weights, i);
+        // Tangents are made anew where what they are made of has moved.
+        if (weights == nullptr || deltas.empty()) i.groups = 0;
+        if (i.groups > 0) {
+            const TextureSlot& map = normalMapOf(geometry.scene(), pose, instance);
+            i.map_second = map.texcoord == 1 ? 1 : 0;
+            i.map_u = glm::vec3(map.u);
+            i.map_v = glm::vec3(map.v);
+        }
+        arrays.push_back({i, arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
+                          arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,
+                          morphed});
+        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_});
+        vertices_ += i.vertices;
+        groups += i.groups;
+        if (i.groups > 0) morphed += i.vertices;
+    }
+    if (arrays.empty()) {
+        instances_.clear();
+        return;
+    }
+    if (skinning == Skinning::compute && vertices_ > std::numeric_limits<std::int32_t>::max())
+        throw std::runtime_error("the pose has over 2^31 vertices: more than one buffer holds");
+    makes_tangents_ = groups > 0;
+    pose_ = arena.makeBuffer(device, "pose");
+    constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                 drawn = addressed | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    if (makes_tangents_) {
+        tangents_ = GpuBuffer(device, "tangents of groups", groups * sizeof(glm::vec3), addressed);
+        morphed_ = GpuBuffer(device, "morphed vertices", morphed * sizeof(gpu::MorphedVertex), addressed);
+    }
+    if (skinning == Skinning::compute) {
+        positions_ = GpuBuffer(device, "posed positions", vertices_ * sizeof(glm::vec3), drawn);
+        attributes_ = GpuBuffer(device, "posed attributes", vertices_ * sizeof(gpu::VertexAttributes), drawn);
+    }
+    std::vector<VkBufferCopy> copies;
+    std::uint64_t first = 0;
+    for (Arrays& a : arrays) {
+        gpu::PosedInstance& i = a.instance;
+        i.matrices = addressWords(pose_.address() + a.matrices);
+        i.deltas = addressWords(pose_.address() + a.deltas);
+        if (i.groups > 0) {
+            i.group_tangents = addressWords(tangents_.address() + a.first_group * sizeof(glm::vec3));
+            i.morphed = addressWords(morphed_.address() + a.first_morphed * sizeof(gpu::MorphedVertex));
+        }
+        if (skinning == Skinning::compute) {
+            i.posed_positions = addressWords(positions_.address() + first * sizeof(glm::vec3));
+            i.posed_attributes = addressWords(attributes_.address() + first * sizeof(gpu::VertexAttributes));
+            copies.push_back({i.first_vertex * sizeof(gpu::VertexAttributes),
+                              first * sizeof(gpu::VertexAttributes),
+                              i.vertices * sizeof(gpu::VertexAttributes)});
+        }
+        first += i.vertices;
+        arena.put(a.record, i);
+    }
+    for (Posed& p : instances_) p.address = p.vertices > 0 ? pose_.address() + p.address : 0;
+    arena.upload(uploader, pose_);
+    uploader.flush();
+    device.submit([&](VkCommandBuffer commands) {
+        if (copies.empty()) return;
+        vkCmdCopyBuffer(commands, geometry.attributes().handle(), attributes_.handle(),
+                        static_cast<std::uint32_t>(copies.size()), copies.data());
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
+                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT);
+    });
+    PassList once(device, 1, 1);
+    addPasses(once, pipelines);
+    once.run();
+    device.submit([&](VkCommandBuffer commands) {
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+                      VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    });
+}
+
+void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
+    const auto kernel = [&](Shader shader, std::uint32_t Posed::*threads, bool of_groups) {
+        return [this, threads, of_groups,
+                pipeline = pipelines.compute(shader, {}, layout_)](VkCommandBuffer commands) {
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+            for (const Posed& instance : instances_) {
+                if (instance.*threads == 0 || (of_groups && instance.groups == 0)) continue;
+                const gpu::PosingConstants constants{addressWords(instance.address)};
+                vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                                   &constants);
+                const glm::uvec2 size = groupsFor(instance.*threads);
+                vkCmdDispatch(commands, size.x, size.y, 1);
+            }
+        };
+    };
+    if (makes_tangents_) {
+        const BufferRef morphed = passes.buffer("morphed vertices", morphed_),
+                        tangents = passes.buffer("tangents of groups", tangents_);
+        passes.compute("pose")
+            .uses(morphed, access::storageWrite(inCompute))
+            .record(kernel(Shader::pose_morph_comp, &Posed::vertices, true));
+        passes.compute("pose")
+            .uses(morphed, access::storageRead(inCompute))
+            .uses(tangents, access::storageWrite(inCompute))
+            .record(kernel(Shader::pose_tangents_comp, &Posed::groups, true));
+    }
+    if (!any() || skinning_ == Skinning::vertex) return;
+    Pass& pass = passes.compute("pose");
+    if (makes_tangents_)
+        pass.uses(passes.buffer("tangents of groups", tangents_), access::storageRead(inCompute));
+    pass.uses(passes.buffer("posed positions", positions_), access::storageWrite(inCompute))
+        .uses(passes.buffer("posed attributes", attributes_), access::storageWrite(inCompute))
+        .record(kernel(Shader::pose_comp, &Posed::vertices, false));
+}
+
+Pass& Posing::read(PassList& passes, Pass& pass) const {
+    if (!any()) return pass;
+    if (skinning_ == Skinning::compute) {
+        pass.uses(passes.buffer("posed positions", positions_), access::vertexRead);
+        pass.uses(passes.buffer("posed attributes", attributes_), access::vertexRead);
+    } else if (makes_tangents_) {
+        pass.uses(passes.buffer("tangents of groups", tangents_), access::storageRead(inVertex));
+    }
+    return pass;
+}
+
+gpu::uvec2 Posing::address(const DrawItem& item) const {
+    return isPosedInShader(item) ? addressWords(instances_[static_cast<std::size_t>(item.box)].address)
+                                 : gpu::uvec2(0);
+}
+
+std::int32_t Posing::vertexOffset(const DrawItem& item) const {
+    return isPosed(item)
+               ? static_cast<std::int32_t>(instances_[static_cast<std::size_t>(item.box)].first_vertex)
+               : item.range.vertex_offset;
+}
+
+void Posing::bind(VkCommandBuffer commands) const {
+    const std::array buffers{positions_.handle(), attributes_.handle()};
+    const std::array<VkDeviceSize, 2> offsets{};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers.data(), offsets.data());
+}
+
+std::uint64_t Posing::bytes() const {
+    return pose_.size() + positions_.size() + attributes_.size() + morphed_.size() + tangents_.size();
+}
+
+Posings::Posings(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry)
+    : device_(device),
+      uploader_(uploader),
+      geometry_(geometry),
+      rest_(device, uploader, scene, geometry),
+      layout_(makePosingLayout(device)) {}
+
+std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, Pipelines& pipelines) {
+    if (pose.boxes.empty()) return std::make_shared<const Posing>();
+    Key key{skinning, {}, pose.boxes, pose.skins, pose.weights, {}};
+    for (const Instance& instance : pose.instances)
+        if (instance.box >= 0) {
+            key.instances.push_back(instance);
+            key.maps.push_back(normalMapOf(geometry_.scene(), pose, instance));
+        }
+    std::erase_if(kept_, [](const Kept& kept) { return kept.posing.expired(); });
+    for (const Kept& kept : kept_)
+        if (kept.key == key) return kept.posing.lock();
+    auto posing = std::make_shared<const Posing>(device_, uploader_, pipelines, layout_, rest_, geometry_,
+                                                 pose, skinning);
+    ++made_;
+    kept_.push_back({std::move(key), posing});
+    return posing;
+}
+
+}  // namespace diptych

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The vertices of skinned and morphed instances at one time: posed once a frame by kernels, or by the vertex
+// shader of every draw (--skinning). Both have the same bits.
+#pragma once
+
+#include "shared/draw/deformations.h"
+#include "shared/draw/draw_list.h"
+#include "shared/frame/setting_values.h"
+#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/pipelines.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace diptych {
+
+// The layout of the kernels, one for all poses.
+OwnedPipelineLayout makePosingLayout(Device& device);
+
+// One pose of a scene, with buffers of its own: frames of several times may be drawn in any order.
+class Posing {
+public:
+    Posing() = default;  // of nothing
+    // Poses the instances for the first time, so that what is drawn before a frame finds them. Throws
+    // std::runtime_error where memory ends or more morph targets have a weight than a shader can add up. The
+    // geometry and the layout must outlive it.
+    Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
+           const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning);
+
+    bool any() const { return !instances_.empty(); }
+    // Passes named "pose", before the first that draws.
+    void addPasses(PassList& passes, Pipelines& pipelines) const;
+    // Declares that the pass draws geometry, and returns it.
+    Pass& read(PassList& passes, Pass& pass) const;
+
+    // Whether an item's vertices are in the buffers of bind(), at vertexOffset().
+    bool isPosed(const DrawItem& item) const { return item.box >= 0 && skinning_ == Skinning::compute; }
+    // Whether the vertex shader poses it, of the instance at the address.
+    bool isPosedInShader(const DrawItem& item) const {
+        return item.box >= 0 && skinning_ == Skinning::vertex;
+    }
+    gpu::uvec2 address(const DrawItem& item) const;
+    std::int32_t vertexOffset(const DrawItem& item) const;
+    void bind(VkCommandBuffer commands) const;
+
+    std::uint64_t vertices() const { return vertices_; }
+    std::uint64_t bytes() const;
+    const GpuBuffer& positions() const { return positions_; }    // vec3, of all instances by box, for tests
+    const GpuBuffer& attributes() const { return attributes_; }  // VertexAttributes, likewise
+
+private:
+    struct Posed {
+        VkDeviceAddress address = 0;  // of its gpu::PosedInstance
+        std::uint32_t vertices = 0, groups = 0;
+        std::uint64_t first_vertex = 0;
+    };
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    Skinning skinning_ = Skinning::compute;
+    std::vector<Posed> instances_;  // by box
+    std::uint64_t vertices_ = 0;
+    bool makes_tangents_ = false;
+    GpuBuffer pose_, positions_, attributes_, morphed_, tangents_;
+};
+
+// Of one scene: views at the same time share a pose for as long as one of them lives.
+class Posings {
+public:
+    Posings(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry);
+    std::shared_ptr<const Posing> at(const Pose& pose, Skinning skinning, Pipelines& pipelines);
+    std::uint64_t bytes() const { return rest_.bytes(); }  // of what all poses share
+    std::size_t made() const { return made_; }             // poses so far
+
+private:
+    // What a pose's vertices follow from.
+    struct Key {
+        Skinning skinning = Skinning::compute;
+        std::vector<Instance> instances;  // deformed ones
+        std::vector<PosedBox> boxes;
+        std::vector<std::vector<glm::dmat4>> skins;
+        std::vector<std::vector<double>> weights;
+        std::vector<TextureSlot> maps;  // by instance: of the normal map
+        bool operator==(const Key&) const = default;
+    };
+    struct Kept {
+        Key key;
+        std::weak_ptr<const Posing> posing;
+    };
+    Device& device_;
+    Uploader& uploader_;
+    const Geometry& geometry_;
+    Deformations rest_;
+    OwnedPipelineLayout layout_;
+    std::vector<Kept> kept_;
+    std::size_t made_ = 0;
+};
+
+}  // namespace diptych
