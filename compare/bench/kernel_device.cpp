@@ -110,6 +110,7 @@ private:
                                            static_cast<gpu::uint>(length_ / 4),
                                            0,
                                            0,
+                                           {},
                                            {}};
         vkCmdPushConstants(commands, layouts_.pipeline,
                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,

@@ -269,6 +269,10 @@ std::size_t soundCount(const tinygltf::Model& model, int accessor, const std::st
     return SoundAccessor(model, accessor, who, noun, width).file().count;
 }
 
+std::size_t componentsOf(const tinygltf::Model& model, int accessor) {
+    return shapeOf(model.accessors[static_cast<std::size_t>(accessor)], "").width();
+}
+
 template <class Vec>
 std::vector<Vec> readVectors(const tinygltf::Model& model, int index, const std::string& asks,
                              const Selection& which) {

@@ -43,6 +43,9 @@ std::vector<Vec> readVectors(const tinygltf::Model& model, int accessor, const s
 std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& who,
                                   const Selection& which = {});
 
+// The number of components of an element of an accessor that soundCount() has passed.
+std::size_t componentsOf(const tinygltf::Model& model, int accessor);
+
 // Reads JOINTS_n: VEC4 of unsigned 8 or 16 bit integers.
 std::vector<glm::u16vec4> readJoints(const tinygltf::Model& model, int accessor, const std::string& who,
                                      const Selection& which = {});

@@ -2,6 +2,8 @@
 #include "shared/scene/gltf/primitive.h"
 
 #include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/attributes.h"
+#include "shared/scene/gltf/deformation.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangents.h"
@@ -22,13 +24,6 @@ namespace {
 
 bool drawsTriangles(int mode) {
     return mode >= TINYGLTF_MODE_TRIANGLES && mode <= TINYGLTF_MODE_TRIANGLE_FAN;
-}
-
-template <class Vec>
-bool isUsable(const Vec& v) {
-    for (int c = 0; c < Vec::length(); ++c)
-        if (!(std::abs(static_cast<double>(v[c])) <= maxCoordinate)) return false;
-    return true;
 }
 
 // The number of components that readVectors() will require of an attribute; 0: checked there.
@@ -61,8 +56,9 @@ public:
         readPositions();
         if (result_.indices.empty()) return nothing("has no triangle");
         readAttributes();
-        readJointSets();
-        readTargets();
+        const AttributeReader reader = attributes();
+        if (use_.joints > 0) readJointSets(reader, use_.joints, touched_, result_);
+        readTargets(reader, use_.targets, result_);
         finishNormals();
         finishTangents();
         return std::move(result_);
@@ -90,6 +86,7 @@ private:
     }
 
     Selection which() const { return all_ ? Selection() : Selection(touched_); }
+    AttributeReader attributes() const { return {model_, file_, who_, which(), notes_}; }
 
     // ---- triangles -----------------------------------------------------------------------------------
 
@@ -188,46 +185,19 @@ private:
 
     // ---- attributes ----------------------------------------------------------------------------------
 
-    // Reads an attribute that is present, one element for each vertex.
-    template <class Vec, class Read>
-    std::vector<Vec> attribute(const std::string& name, const Read& read) const {
-        const auto at = file_.attributes.find(name);
-        if (at == file_.attributes.end()) return {};
-        return read(model_, at->second, fmt::format("{}: {}", who_, name), which());
-    }
-
-    // Replaces vectors that are not finite or beyond maxCoordinate by `instead`.
-    template <class Vec>
-    void repair(std::vector<Vec>& values, const Vec& instead, const std::string& name, const char* said) {
-        std::size_t broken = 0, finite = 0;
-        for (Vec& v : values) {
-            if (isUsable(v)) continue;
-            ++broken;
-            bool all = true;
-            for (int c = 0; c < Vec::length(); ++c) all &= std::isfinite(v[c]);
-            finite += all;
-            v = instead;
-        }
-        const auto say = [&](std::size_t count, const std::string& what) {
-            if (count)
-                note("{}: {} {}: {}", name, count == 1 ? "1 is" : fmt::format("{} are", count), what, said);
-        };
-        say(broken - finite, "not finite");
-        say(finite, fmt::format("beyond {:g}", maxCoordinate));
-    }
-
     void readAttributes() {
-        result_.normals = attribute<glm::vec3>("NORMAL", readVectors<glm::vec3>);
-        result_.tangents = attribute<glm::vec4>("TANGENT", readVectors<glm::vec4>);
-        result_.colors = attribute<glm::vec4>("COLOR_0", readColors);
+        const AttributeReader reader = attributes();
+        result_.normals = reader.read<glm::vec3>("NORMAL", readVectors<glm::vec3>);
+        result_.tangents = reader.read<glm::vec4>("TANGENT", readVectors<glm::vec4>);
+        result_.colors = reader.read<glm::vec4>("COLOR_0", readColors);
         for (std::size_t set = 0; set < 2; ++set) {
             const std::string name = fmt::format("TEXCOORD_{}", set);
-            result_.texcoords[set] = attribute<glm::vec2>(name, readVectors<glm::vec2>);
-            repair(result_.texcoords[set], glm::vec2(0), name, "0, 0");
+            result_.texcoords[set] = reader.read<glm::vec2>(name, readVectors<glm::vec2>);
+            reader.repair(result_.texcoords[set], glm::vec2(0), name, "0, 0");
             if (result_.texcoords[set].empty() && materialReads(set))
                 note("its material reads {}, which it does not have: 0, 0", name);
         }
-        repair(result_.colors, glm::vec4(1), "COLOR_0", "white");
+        reader.repair(result_.colors, glm::vec4(1), "COLOR_0", "white");
         for (glm::vec4& color : result_.colors) color = glm::clamp(color, 0.0f, 1.0f);
     }
 
@@ -238,78 +208,6 @@ private:
                 (material.*materialSlots[slot].texture).texcoord == static_cast<int>(set))
                 return true;
         return false;
-    }
-
-    // Reads JOINTS_n with WEIGHTS_n for n = 0, 1, ... as long as they are present.
-    void readJointSets() {
-        if (use_.joints == 0) return;
-        for (std::size_t set = 0;; ++set) {
-            const std::string joints = fmt::format("JOINTS_{}", set),
-                              weights = fmt::format("WEIGHTS_{}", set);
-            const bool hasJoints = file_.attributes.contains(joints);
-            if (hasJoints != file_.attributes.contains(weights))
-                fail(who_, fmt::format("has {} without {}", hasJoints ? joints : weights,
-                                       hasJoints ? weights : joints));
-            if (!hasJoints) break;
-            result_.joint_sets.push_back({attribute<glm::u16vec4>(joints, readJoints),
-                                          attribute<glm::vec4>(weights, readVectors<glm::vec4>)});
-        }
-        if (!result_.joint_sets.empty()) normalizeWeights();
-    }
-
-    void normalizeWeights() {
-        // Each of the four weights of a set may be rounded to 8 bits, an error of half a step.
-        const double rounding = 4.0 * static_cast<double>(result_.joint_sets.size()) * 0.5 / 255;
-        std::size_t broken = 0, unweighted = 0, uneven = 0;
-        for (std::size_t v = 0; v < result_.positions.size(); ++v) {
-            double sum = 0;
-            for (JointSet& set : result_.joint_sets)
-                for (int c = 0; c < 4; ++c) {
-                    float& weight = set.weights[v][c];
-                    if (!(weight >= 0 && weight <= maxCoordinate)) weight = 0, ++broken;
-                    sum += weight;
-                }
-            if (!(sum > 0)) {
-                result_.joint_sets[0].weights[v].x = 1;
-                sum = 1, ++unweighted;
-            }
-            uneven += std::abs(sum - 1) > rounding;
-            for (JointSet& set : result_.joint_sets)
-                for (int c = 0; c < 4; ++c) {
-                    set.weights[v][c] = static_cast<float>(set.weights[v][c] / sum);
-                    if (set.weights[v][c] == 0) set.joints[v][c] = 0;
-                    if (set.joints[v][c] >= use_.joints)
-                        fail(who_, fmt::format("vertex {} names joint {}, but a skin that moves it has {}",
-                                               touched_[v], set.joints[v][c], use_.joints));
-                }
-        }
-        if (broken) note("{} joint weights are negative or not finite: 0", broken);
-        if (uneven) note("the joint weights of {} vertices do not add up to 1: divided by their sum", uneven);
-        if (unweighted) note("{} vertices have no joint weight: their first joint moves them", unweighted);
-    }
-
-    void readTargets() {
-        if (file_.targets.size() != use_.targets)
-            fail(who_, fmt::format("{} morph targets, but the mesh's first primitive has {}",
-                                   file_.targets.size(), use_.targets));
-        for (std::size_t t = 0; t < file_.targets.size(); ++t) {
-            MorphTarget& target = result_.targets.emplace_back();
-            for (const auto& [name, accessor] : file_.targets[t]) {
-                // Generated normals and tangents are computed from the morphed positions instead.
-                const bool based = file_.attributes.contains(name);
-                std::vector<glm::vec3>* deltas = name == "POSITION"           ? &target.positions
-                                                 : name == "NORMAL" && based  ? &target.normals
-                                                 : name == "TANGENT" && based ? &target.tangents
-                                                                              : nullptr;
-                const std::string who = fmt::format("target {}: {}", t, name);
-                if (!deltas) {
-                    if (!name.starts_with('_')) note("{}: left out", who);
-                    continue;
-                }
-                *deltas = readVectors<glm::vec3>(model_, accessor, who_ + ": " + who, which());
-                repair(*deltas, glm::vec3(0), who, "0");
-            }
-        }
     }
 
     // ---- what is missing -----------------------------------------------------------------------------
@@ -396,22 +294,26 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
     const bool split = !file.attributes.contains("NORMAL") || !file.attributes.contains("TANGENT");
     const std::size_t vertices = split ? corners : std::min(count, order);
     std::size_t perVertex = sizeof(glm::vec3) + sizeof(glm::vec4);  // normals and tangents
-    const auto add = [&](const auto& attributes, std::size_t each) {
+    const auto add = [&](const auto& attributes) {
         for (const auto& [name, accessor] : attributes) {
             if (name.starts_with('_')) continue;
             checkedIndex(accessor, model.accessors.size(), who + ": " + name, "accessor");
-            if (name != "NORMAL" && name != "TANGENT") perVertex += each;
+            if (name != "NORMAL" && name != "TANGENT") perVertex += sizeof(glm::vec4);  // or less
             if (accessor < 0) continue;
             const auto& sparse = model.accessors[static_cast<std::size_t>(accessor)].sparse;
             if (sparse.isSparse)
                 bytes += sizeof(glm::vec4) * static_cast<std::size_t>(std::max(sparse.count, 0));
         }
     };
-    add(file.attributes, sizeof(glm::vec4));
+    add(file.attributes);
     for (const auto& target : file.targets) {
         bytes += sizeof(MorphTarget);
         perVertex += 2 * sizeof(glm::vec3);  // of normals and tangents
-        add(target, sizeof(glm::vec3));
+        add(target);
+    }
+    if (split && !file.targets.empty()) {  // TangentGroups
+        bytes += (corners + 1) * sizeof(std::uint32_t);
+        perVertex += 2 * sizeof(std::uint32_t);
     }
     return bytes + corners * sizeof(std::uint32_t) + vertices * perVertex;
 }

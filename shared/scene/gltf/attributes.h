@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The attributes of one primitive of the file, an element for each vertex that is kept.
+#pragma once
+
+#include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/scene/model/scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace diptych::gltf {
+
+// Whether all components are finite and within maxCoordinate.
+template <class Vec>
+bool isUsable(const Vec& v) {
+    for (int c = 0; c < Vec::length(); ++c)
+        if (!(std::abs(static_cast<double>(v[c])) <= maxCoordinate)) return false;
+    return true;
+}
+
+struct AttributeReader {
+    const tinygltf::Model& model;
+    const tinygltf::Primitive& file;
+    const std::string& who;           // the primitive, in messages
+    Selection which;                  // the file's vertices that are kept
+    std::vector<std::string>& notes;  // gets what was read otherwise than as the file says
+
+    template <class... Args>
+    void note(fmt::format_string<Args...> text, Args&&... args) const {
+        notes.push_back(who + ": " + fmt::format(text, std::forward<Args>(args)...));
+    }
+
+    bool has(const std::string& name) const { return file.attributes.contains(name); }
+
+    // Reads an attribute by read(model, accessor, who, which); none if it is not there.
+    template <class Vec, class Read>
+    std::vector<Vec> read(const std::string& name, const Read& read) const {
+        const auto at = file.attributes.find(name);
+        if (at == file.attributes.end()) return {};
+        return read(model, at->second, fmt::format("{}: {}", who, name), which);
+    }
+
+    // Replaces vectors that are not finite or beyond maxCoordinate by `instead`, with a note that ends in
+    // `said`.
+    template <class Vec>
+    void repair(std::vector<Vec>& values, const Vec& instead, const std::string& name,
+                const char* said) const {
+        std::size_t broken = 0, finite = 0;
+        for (Vec& v : values) {
+            if (isUsable(v)) continue;
+            ++broken;
+            bool all = true;
+            for (int c = 0; c < Vec::length(); ++c) all &= std::isfinite(v[c]);
+            finite += all;
+            v = instead;
+        }
+        const auto say = [&](std::size_t count, const std::string& what) {
+            if (count)
+                note("{}: {} {}: {}", name, count == 1 ? "1 is" : fmt::format("{} are", count), what, said);
+        };
+        say(broken - finite, "not finite");
+        say(finite, fmt::format("beyond {:g}", maxCoordinate));
+    }
+};
+
+}  // namespace diptych::gltf
