@@ -42,6 +42,9 @@ struct MorphTarget {
 };
 
 // Which corners of triangles share a tangent, of a primitive whose tangents follow from its morphed vertices.
+// A group's vertices have the same position, normal and texture coordinates in every pose. Triangles that
+// have no derivatives of position by texture coordinates in any pose are not among its corners; others may
+// have none in one pose, and then add nothing.
 struct TangentGroups {
     std::vector<std::uint32_t> of_vertex;  // its group; count(): none, and the tangent is any
     std::vector<std::uint32_t> first;      // where each group begins in `corners`, and where the last ends
