@@ -75,7 +75,7 @@ RTCRay single(const Ray& ray) {
 
 }  // namespace
 
-Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool deforming)
+Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye)
     : scene_(scene),
       pose_(pose),
       eye_(eye),
@@ -90,8 +90,7 @@ Geometry::Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, 
         const TriangleId first{static_cast<std::uint32_t>(i), 0};
         const Primitive& p = primitive(first);
         if (p.indices.empty()) return;
-        if (deforming && pose.instances[i].deformed())
-            posed_[i] = posedVertices(scene, pose, pose.instances[i]);
+        if (pose.instances[i].deformed()) posed_[i] = posedVertices(scene, pose, pose.instances[i]);
         const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), p.positions.size()));
@@ -150,6 +149,29 @@ std::array<glm::dvec3, 3> Geometry::corners(const TriangleId& id) const {
 const PosedVertices* Geometry::posed(const TriangleId& id) const {
     const PosedVertices& vertices = posed_[id.instance];
     return vertices.positions.empty() ? nullptr : &vertices;
+}
+
+namespace {
+
+// Those of three vertices: posed ones where there are any, else the primitive's.
+template <class To, class From>
+std::optional<std::array<To, 3>> atCorners(const std::vector<To>* posed, const std::vector<From>& rest,
+                                           const std::array<std::uint32_t, 3>& v) {
+    if (posed && !posed->empty()) return {{(*posed)[v[0]], (*posed)[v[1]], (*posed)[v[2]]}};
+    if (rest.empty()) return std::nullopt;
+    return {{To(rest[v[0]]), To(rest[v[1]]), To(rest[v[2]])}};
+}
+
+}  // namespace
+
+std::optional<std::array<glm::dvec2, 3>> Geometry::texcoords(const TriangleId& id, int set) const {
+    const PosedVertices* of = posed(id);
+    return atCorners(of ? &of->texcoords[set] : nullptr, primitive(id).texcoords[set], vertices(id));
+}
+
+std::optional<std::array<glm::dvec4, 3>> Geometry::colors(const TriangleId& id) const {
+    const PosedVertices* of = posed(id);
+    return atCorners(of ? &of->colors : nullptr, primitive(id).colors, vertices(id));
 }
 
 std::optional<Hit> Geometry::onPlane(const TriangleId& id, const glm::dvec3& origin,

@@ -41,10 +41,8 @@ struct Ray {
 
 class Geometry {
 public:
-    // `eye` becomes the origin of positions. The pose and the scene must outlive this. If not `deforming`,
-    // skins and morph targets are ignored and vertices are transformed by world_from_object alone, as the
-    // paths draw them so far.
-    Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye, bool deforming);
+    // `eye` becomes the origin of positions. The pose and the scene must outlive this.
+    Geometry(const Scene& scene, const Pose& pose, const glm::dvec3& eye);
     ~Geometry();
     Geometry(const Geometry&) = delete;
     Geometry& operator=(const Geometry&) = delete;
@@ -61,6 +59,9 @@ public:
     // The posed vertices of its instance, in world space; nullptr if world_from_object applies to all of
     // them alike.
     const PosedVertices* posed(const TriangleId& id) const;
+    // Of the three corners, as morph targets leave them; no value if the primitive has none.
+    std::optional<std::array<glm::dvec2, 3>> texcoords(const TriangleId& id, int set) const;
+    std::optional<std::array<glm::dvec4, 3>> colors(const TriangleId& id) const;
     // Intersection with the plane of the triangle; no value if the ray is parallel to it.
     std::optional<Hit> onPlane(const TriangleId& id, const glm::dvec3& origin,
                                const glm::dvec3& direction) const;

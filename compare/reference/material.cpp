@@ -38,14 +38,12 @@ const Material& Materials::material(const Hit& hit) const {
 // The footprint follows from the intersections of the neighbouring rays with the triangle's plane (Igehy
 // 1999, "Tracing Ray Differentials"); to first order, t changes by -n.(o' + t d') / n.d.
 Footprint Materials::footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const {
-    const Primitive& primitive = geometry_.primitive(hit.id);
-    const std::vector<glm::vec2>& set = primitive.texcoords[slot.texcoord == 1 ? 1 : 0];
-    if (set.empty()) return {{slot.u.z, slot.v.z}};
-    const std::array<std::uint32_t, 3> v = geometry_.vertices(hit.id);
+    const auto set = geometry_.texcoords(hit.id, slot.texcoord == 1 ? 1 : 0);
+    if (!set) return {{slot.u.z, slot.v.z}};
     const auto moved = [&](const glm::dvec2& uv) {
         return glm::dvec2(glm::dot(slot.u, glm::dvec3(uv, 1)), glm::dot(slot.v, glm::dvec3(uv, 1)));
     };
-    const std::array<glm::dvec2, 3> uv{moved(set[v[0]]), moved(set[v[1]]), moved(set[v[2]])};
+    const std::array<glm::dvec2, 3> uv{moved((*set)[0]), moved((*set)[1]), moved((*set)[2])};
     Footprint result{mixed(uv, hit.barycentric)};
     if (!ray) return result;
     const std::array<glm::dvec3, 3> p = geometry_.corners(hit.id);
@@ -73,11 +71,7 @@ glm::dvec4 Materials::lookUp(const Hit& hit, const TextureSlot& slot, bool srgb,
 glm::dvec4 Materials::baseColor(const Hit& hit, const PixelRay* ray) const {
     const Material& m = material(hit);
     glm::dvec4 color = glm::dvec4(m.base_color) * lookUp(hit, m.base_color_texture, true, ray);
-    const std::vector<glm::vec4>& colors = geometry_.primitive(hit.id).colors;
-    if (!colors.empty()) {
-        const std::array<std::uint32_t, 3> v = geometry_.vertices(hit.id);
-        color *= mixed<glm::dvec4>({colors[v[0]], colors[v[1]], colors[v[2]]}, hit.barycentric);
-    }
+    if (const auto colors = geometry_.colors(hit.id)) color *= mixed(*colors, hit.barycentric);
     return color;
 }
 

@@ -27,6 +27,7 @@ void addScene(Key& key, const Request& request) {
             key.addAll(p.colors);
             key.addAll(p.indices);
             key.add(glm::ivec2(p.material, p.flat));
+            key.addAll(p.tangent_groups.corners);
             for (const JointSet& set : p.joint_sets) {
                 key.addAll(set.joints);
                 key.addAll(set.weights);
@@ -35,6 +36,9 @@ void addScene(Key& key, const Request& request) {
                 key.addAll(target.positions);
                 key.addAll(target.normals);
                 key.addAll(target.tangents);
+                key.addAll(target.texcoords[0]);
+                key.addAll(target.texcoords[1]);
+                key.addAll(target.colors);
             }
         }
     const auto addSlot = [&](const TextureSlot& slot) {

@@ -187,7 +187,7 @@ public:
         : request_(request),
           eye_(request.view.eye()),
           rays_(request.view),
-          geometry_(request.scene, request.pose, eye_, request.mode == ReferenceMode::scene),
+          geometry_(request.scene, request.pose, eye_),
           materials_(request.scene, geometry_),
           lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
                     request.casters, request.shadowed_environment, request.multiscatter,

@@ -44,8 +44,7 @@ struct Request {
     const Environment* environment() const {
         return residual ? residual : scene.environment ? &*scene.environment : nullptr;
     }
-    // In mode scene, skins and morph targets deform meshes; in mode surface, shadows are cast by undeformed
-    // meshes, as the paths draw them.
+    // In both modes rays meet what the pose's skins and morph targets deform.
     ReferenceMode mode = ReferenceMode::surface;
     int samples = 1;                                 // per pixel; mode scene only
     const std::map<int, Image>* surfaces = nullptr;  // mode surface only: all channels of surfaceChannels()

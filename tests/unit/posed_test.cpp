@@ -174,6 +174,27 @@ TEST(Posed, TargetsAddTheirShare) {
     expectNear(v.tangents[1], X, "nothing is added");
 }
 
+// glTF 2.0, 3.7.2.2: a colour with its deltas is clamped to 0..1; texture coordinates are not.
+TEST(Posed, TargetsMoveColorsAndTexcoords) {
+    Scene scene = triangle();
+    Primitive& p = only(scene);
+    p.colors.assign(3, {0.5f, 0.5f, 0.5f, 1});
+    p.texcoords[1] = {{0, 0}, {1, 0}, {0, 1}};
+    p.targets.resize(2);
+    p.targets[0].colors = {{2, -2, 0.25f, -0.5f}, {0, 0, 0, 0}, {0, 0, 0, 0}};
+    p.targets[1].texcoords[1] = {{0, 0}, {4, -4}, {0, 0}};
+    scene.meshes[0].weights = {0.5f, 0.25f};
+    PosedVertices v = posed(scene);
+    EXPECT_TRUE(v.texcoords[0].empty()) << "nothing moves them";
+    EXPECT_EQ(v.texcoords[1], (std::vector<glm::dvec2>{{0, 0}, {2, -1}, {0, 1}}));
+    EXPECT_EQ(v.colors,
+              (std::vector<glm::dvec4>{{1, 0, 0.625, 0.75}, {0.5, 0.5, 0.5, 1}, {0.5, 0.5, 0.5, 1}}));
+    scene.meshes[0].weights = {0, 0.25f};
+    v = posed(scene);
+    EXPECT_TRUE(v.colors.empty()) << "no target with a weight moves them";
+    EXPECT_FALSE(v.texcoords[1].empty());
+}
+
 TEST(Posed, ANodesWeightsComeBeforeItsMeshsAndAnAnimationsBeforeBoth) {
     Scene scene = triangle();
     only(scene).targets = {{{{0, 0, 8}, {0, 0, 8}, {0, 0, 8}}, {}, {}}};

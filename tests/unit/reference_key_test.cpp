@@ -215,6 +215,19 @@ TEST(ReferenceKey, IsOfTheGeometryAndItsPose) {
         {"targets' positions", [](Asked& a) { a.primitive().targets[0].positions[3].x = 1; }},
         {"targets' normals", [](Asked& a) { a.primitive().targets[0].normals[3].x = 1; }},
         {"targets' tangents", [](Asked& a) { a.primitive().targets[0].tangents[3].x = 1; }},
+        {"targets' first coordinates",
+         [](Asked& a) {
+             a.primitive().targets[0].texcoords[0] = {{1, 0}};
+         }},
+        {"targets' second coordinates",
+         [](Asked& a) {
+             a.primitive().targets[0].texcoords[1] = {{1, 0}};
+         }},
+        {"targets' colours",
+         [](Asked& a) {
+             a.primitive().targets[0].colors = {{1, 0, 0, 0}};
+         }},
+        {"tangents made anew", [](Asked& a) { a.primitive().tangent_groups.corners = {1}; }},
         {"place", [](Asked& a) { a.pose.instances[0].world_from_object[3].x = 1e-9; }},
         {"skin", [](Asked& a) { a.pose.instances[0].skin = 0; }},
         {"weights", [](Asked& a) { a.pose.instances[0].weights = 0; }},

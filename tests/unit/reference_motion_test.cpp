@@ -139,19 +139,59 @@ TEST(ReferenceMotion, ShadowsGoWithWhatMoves) {
     }
 }
 
-// Mode surface is compared with a path that draws meshes undeformed: shadows must be cast by undeformed
-// meshes, too.
-TEST(ReferenceMotion, BesideAPathMeshesAreUndeformed) {
-    const Scene scene = byATarget();
-    const Pose pose = poseAt(scene, 1);
-    const auto met = [&](bool deforming, double x) {
-        const Geometry geometry(scene, pose, {0, 0, 10}, deforming);
-        return geometry.meets({{x, 0, 0}, {0, 0, -1}, 0, 100, {}}, [](const Hit&) { return true; });
-    };
-    EXPECT_TRUE(met(false, -1));
-    EXPECT_FALSE(met(false, 1));
-    EXPECT_FALSE(met(true, -1));
-    EXPECT_TRUE(met(true, 1));
+// Colours and texture coordinates are those of the pose: of what is seen, and of what throws a shadow.
+TEST(ReferenceMotion, ColorsAndTexcoordsAreMorphed) {
+    Scene scene = patch();
+    Primitive& p = scene.meshes[0].primitives[0];
+    p.colors.assign(4, glm::vec4(1));
+    MorphTarget target;
+    target.colors.assign(4, {-1, -0.5f, 0, 0});
+    target.texcoords[0].assign(4, {0.25f, -0.5f});
+    p.targets = {target};
+    scene.meshes[0].weights = {0};
+    animate(scene, 0, AnimatedPart::weights, {0, 1}, 1);
+    const Picture start = drawnAt(scene, 0, fromAbove), half = drawnAt(scene, 0.5, fromAbove);
+    const glm::vec3 expected(0.5f, 0.75f, 1);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(at(start, gpu::DEBUG_albedo, left, row)[c], 1);
+        EXPECT_NEAR(at(half, gpu::DEBUG_albedo, left, row)[c], expected[c], 1e-6);
+    }
+    EXPECT_NEAR(at(half, gpu::DEBUG_texcoords, left, row).x, 0.5 + 0.125, 1e-6);
+    EXPECT_NEAR(at(half, gpu::DEBUG_texcoords, left, row).y, 0.5 - 0.25, 1e-6);
+}
+
+TEST(ReferenceMotion, AMaskThatIsMorphedAwayThrowsNoShadow) {
+    Scene scene = patch();
+    scene.meshes.emplace_back().primitives = {quad({-10, -10, -1}, {20, 0, 0}, {0, 20, 0}, 1)};
+    scene.nodes.emplace_back().mesh = 1;
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    Primitive& p = scene.meshes[0].primitives[0];
+    p.colors.assign(4, glm::vec4(1));
+    p.targets.resize(1);
+    p.targets[0].colors.assign(4, {0, 0, 0, -1});
+    scene.meshes[0].weights = {0};
+    animate(scene, 0, AnimatedPart::weights, {0, 1}, 1);
+    scene.lights[0].direction = glm::normalize(glm::dvec3(0, -2, -1));
+    const View view = viewFrom({-1, -2, 8}, {-1, -2, 0}, 1, 1, 0.01);
+    EXPECT_EQ(at(drawnAt(scene, 0.25, view), gpu::DEBUG_lit, 0, 0).x, 0) << "alpha is 0.75";
+    EXPECT_GT(at(drawnAt(scene, 0.75, view), gpu::DEBUG_lit, 0, 0).x, 0) << "alpha is 0.25";
+}
+
+// In mode surface, too, rays of shadows and occlusion meet what is posed.
+TEST(ReferenceMotion, RaysMeetThePose) {
+    for (const Mover& mover : movers) {
+        const Scene scene = mover.scene();
+        for (const double seconds : {0.0, 1.0}) {
+            const Pose pose = poseAt(scene, seconds);
+            const Geometry geometry(scene, pose, {0, 0, 10});
+            const auto met = [&](double x) {
+                return geometry.meets({{x, 0, 0}, {0, 0, -1}, 0, 100, {}}, [](const Hit&) { return true; });
+            };
+            EXPECT_EQ(met(-1), seconds == 0) << mover.name;
+            EXPECT_EQ(met(1), seconds == 1) << mover.name;
+        }
+    }
 }
 
 // A vertex without a valid position removes its triangle, and nothing else.

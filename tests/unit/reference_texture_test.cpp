@@ -200,7 +200,7 @@ TEST(ReferenceGeometry, HitsAreWhereTheyAreToThirteenDigits) {
         scene.nodes[0].parent_from_node[3] = {far, -far, far, 1};
         const Pose pose = poseAt(scene, 0);
         const glm::dvec3 eye(far + 1.25, -far + 0.5, far + 3);
-        const Geometry geometry(scene, pose, eye, true);
+        const Geometry geometry(scene, pose, eye);
         for (double x = -0.8; x < 0.9; x += 0.21)
             for (double y = -0.8; y < 0.9; y += 0.23) {
                 const std::optional<Hit> hit = geometry.nearest({{0, 0, 0}, {x, y, -1}, 0, 1e9}, all);
@@ -221,7 +221,7 @@ TEST(ReferenceGeometry, HitsAreWhereTheyAreToThirteenDigits) {
 TEST(ReferenceGeometry, RaysEndWhereTheyShould) {
     const Scene scene = floorScene();
     const Pose pose = poseAt(scene, 0);
-    const Geometry geometry(scene, pose, {0.3, 0.2, 3}, true);
+    const Geometry geometry(scene, pose, {0.3, 0.2, 3});
     const glm::dvec3 down(0, 0, -1);
     EXPECT_FALSE(geometry.nearest({{0, 0, 0}, down, 0, 2.999999}, all));
     EXPECT_FALSE(geometry.nearest({{0, 0, 0}, down, 0, 3}, all)) << "both ends are outside";
@@ -244,7 +244,7 @@ TEST(ReferenceGeometry, BackFacesAndMirrors) {
         Scene scene = floorScene();
         scene.nodes[0].parent_from_node[0].x = mirror;
         const Pose pose = poseAt(scene, 0);
-        const Geometry above(scene, pose, {0.3, 0.2, 3}, true), below(scene, pose, {0.3, 0.2, -3}, true);
+        const Geometry above(scene, pose, {0.3, 0.2, 3}), below(scene, pose, {0.3, 0.2, -3});
         const std::optional<Hit> top = above.nearest({{0, 0, 0}, {0, 0, -1}, 0, 9}, all);
         const std::optional<Hit> under = below.nearest({{0, 0, 0}, {0, 0, 1}, 0, 9}, all);
         ASSERT_TRUE(top && under);

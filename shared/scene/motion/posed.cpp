@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/motion/posed.h"
 
+#include "shared/scene/model/tangent_space.h"
+#include "shared/scene/motion/morphed_tangents.h"
+
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -27,17 +31,47 @@ public:
 
     const Primitive& primitive() const { return primitive_; }
 
-    // A vertex's attribute plus the weighted sum of its morph targets, in object space.
-    template <class T>
-    glm::dvec3 morphed(const std::vector<T>& base, std::vector<glm::vec3> MorphTarget::*deltas,
-                       std::size_t vertex) const {
-        glm::dvec3 sum(base[vertex]);
+    // A vertex's attribute plus the weighted sum of its morph targets, in object space. deltasOf(target) are
+    // the target's deltas, none if empty.
+    template <class Sum, class T, class DeltasOf>
+    Sum morphed(const std::vector<T>& base, const DeltasOf& deltasOf, std::size_t vertex) const {
+        Sum sum(base[vertex]);
         if (!weights_) return sum;
         for (std::size_t t = 0; t < primitive_.targets.size(); ++t) {
-            const std::vector<glm::vec3>& delta = primitive_.targets[t].*deltas;
-            if (!delta.empty()) sum += (*weights_)[t] * glm::dvec3(delta[vertex]);
+            const auto& delta = deltasOf(primitive_.targets[t]);
+            if (!delta.empty()) sum += (*weights_)[t] * Sum(delta[vertex]);
         }
         return sum;
+    }
+    glm::dvec3 position(std::size_t v) const {
+        return morphed<glm::dvec3>(
+            primitive_.positions, [](const MorphTarget& t) -> auto& { return t.positions; }, v);
+    }
+    glm::dvec3 normal(std::size_t v) const {
+        return morphed<glm::dvec3>(
+            primitive_.normals, [](const MorphTarget& t) -> auto& { return t.normals; }, v);
+    }
+    glm::dvec3 tangent(std::size_t v) const {
+        return morphed<glm::dvec3>(
+            primitive_.tangents, [](const MorphTarget& t) -> auto& { return t.tangents; }, v);
+    }
+    glm::dvec2 texcoord(int set, std::size_t v) const {
+        return morphed<glm::dvec2>(
+            primitive_.texcoords[set], [set](const MorphTarget& t) -> auto& { return t.texcoords[set]; }, v);
+    }
+    glm::dvec4 color(std::size_t v) const {
+        return glm::clamp(morphed<glm::dvec4>(
+                              primitive_.colors, [](const MorphTarget& t) -> auto& { return t.colors; }, v),
+                          0.0, 1.0);
+    }
+
+    // Whether a target with a weight moves what moves(target) says.
+    template <class Moves>
+    bool isMoved(const Moves& moves) const {
+        if (!weights_) return false;
+        for (std::size_t t = 0; t < primitive_.targets.size(); ++t)
+            if ((*weights_)[t] != 0 && moves(primitive_.targets[t])) return true;
+        return false;
     }
 
     // The weighted mean of the joints' matrices. float32 weights add up to 1 but for rounding, so the sum is
@@ -81,24 +115,44 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-void makeFlat(PosedVertices& posed, const std::vector<std::uint32_t>& indices, double handedness) {
+void makeFlat(const std::vector<glm::dvec3>& positions, const std::vector<std::uint32_t>& indices,
+              double handedness, std::vector<glm::dvec3>& normals) {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const glm::dvec3 &a = posed.positions[indices[i]], &b = posed.positions[indices[i + 1]],
-                         &c = posed.positions[indices[i + 2]];
+        const glm::dvec3 &a = positions[indices[i]], &b = positions[indices[i + 1]],
+                         &c = positions[indices[i + 2]];
         const glm::dvec3 normal = handedness * unitOrZero(glm::cross(b - a, c - a));
-        for (std::size_t corner = 0; corner < 3; ++corner) posed.normals[indices[i + corner]] = normal;
+        for (std::size_t corner = 0; corner < 3; ++corner) normals[indices[i + corner]] = normal;
     }
+}
+
+// In object space, before joints move them.
+std::vector<glm::dvec3> tangentsOf(const Posing& posing, const TextureSlot& map) {
+    const Primitive& primitive = posing.primitive();
+    const std::size_t count = primitive.positions.size();
+    std::vector<glm::dvec3> tangents(count);
+    if (primitive.tangent_groups.empty() ||
+        !posing.isMoved([&](const MorphTarget& target) { return movesTangents(target, map.texcoord); })) {
+        for (std::size_t v = 0; v < count; ++v) tangents[v] = posing.tangent(v);
+        return tangents;
+    }
+    std::vector<glm::dvec3> positions(count), normals(count);
+    std::vector<glm::dvec2> texcoords(count);
+    for (std::size_t v = 0; v < count; ++v) {
+        positions[v] = posing.position(v);
+        normals[v] = unitOrZero(posing.normal(v));
+        texcoords[v] = posing.texcoord(map.texcoord, v);
+    }
+    if (primitive.flat) makeFlat(positions, primitive.indices, 1, normals);
+    return morphedTangents(primitive, map, positions, normals, texcoords);
 }
 
 }  // namespace
 
 std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, const Instance& instance) {
     const Posing posing(scene, pose, instance);
-    const std::vector<glm::vec3>& positions = posing.primitive().positions;
-    std::vector<glm::dvec3> result(positions.size());
+    std::vector<glm::dvec3> result(posing.primitive().positions.size());
     for (std::size_t v = 0; v < result.size(); ++v)
-        result[v] = placed(posing.worldFrom(v) *
-                           glm::dvec4(posing.morphed(positions, &MorphTarget::positions, v), 1));
+        result[v] = placed(posing.worldFrom(v) * glm::dvec4(posing.position(v), 1));
     return result;
 }
 
@@ -110,18 +164,21 @@ PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance
     const std::size_t count = primitive.positions.size();
     result.positions.resize(count);
     result.normals.resize(count);
-    result.tangents.resize(count);
+    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    result.tangents = tangentsOf(posing, material.normal_texture);
     for (std::size_t v = 0; v < count; ++v) {
         const glm::dmat4 world = posing.worldFrom(v);
         const glm::dmat3 axes(world);
-        result.positions[v] =
-            placed(world * glm::dvec4(posing.morphed(primitive.positions, &MorphTarget::positions, v), 1));
-        result.normals[v] =
-            handedness *
-            unitOrZero(cofactors(axes) * posing.morphed(primitive.normals, &MorphTarget::normals, v));
-        result.tangents[v] = unitOrZero(axes * posing.morphed(primitive.tangents, &MorphTarget::tangents, v));
+        result.positions[v] = placed(world * glm::dvec4(posing.position(v), 1));
+        result.normals[v] = handedness * unitOrZero(cofactors(axes) * posing.normal(v));
+        result.tangents[v] = unitOrZero(axes * result.tangents[v]);
     }
-    if (primitive.flat) makeFlat(result, primitive.indices, handedness);
+    if (primitive.flat) makeFlat(result.positions, primitive.indices, handedness, result.normals);
+    for (int set = 0; set < 2; ++set)
+        if (posing.isMoved([set](const MorphTarget& target) { return !target.texcoords[set].empty(); }))
+            for (std::size_t v = 0; v < count; ++v) result.texcoords[set].push_back(posing.texcoord(set, v));
+    if (posing.isMoved([](const MorphTarget& target) { return !target.colors.empty(); }))
+        for (std::size_t v = 0; v < count; ++v) result.colors.push_back(posing.color(v));
     return result;
 }
 
