@@ -22,8 +22,8 @@ constexpr const char* slotNames[gpu::SLOT_COUNT] = {
     "base colour", "metallic-roughness", "normal",          "occlusion",
     "emission",    "specular",           "specular colour", "lightmap"};
 
-const Material& materialOf(const Scene& scene, const Primitive& primitive) {
-    return scene.materials[static_cast<std::size_t>(primitive.material)];
+const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
+    return materials[static_cast<std::size_t>(primitive.material)];
 }
 const TextureSlot& slotOf(const Material& material, std::size_t slot) {
     return material.*materialSlots[slot].texture;
@@ -151,12 +151,13 @@ bool isMirrored(const Instance& instance) {
 
 // ---- which -------------------------------------------------------------------------------------------
 
-CheckFeatures featuresOf(const Scene& scene, const Primitive& primitive) {
+CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materials,
+                         const Primitive& primitive) {
     CheckFeatures features = 0;
     const auto add = [&](CheckFeature feature, bool is) {
         if (is) features |= bitOf(feature);
     };
-    const Material& m = materialOf(scene, primitive);
+    const Material& m = materialOf(materials, primitive);
     forEachSlot(m, [&](std::size_t, const TextureSlot& slot) {
         add(CheckFeature::texture_transform, isTransformed(slot));
         add(CheckFeature::second_texcoord, slot.texcoord == 1);
@@ -191,7 +192,7 @@ CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeat
 
 // A lower bound of the primitive's alpha over all its texels and vertices.
 float CheckSentences::leastAlpha(const Primitive& primitive) {
-    const Material& m = materialOf(scene_, primitive);
+    const Material& m = materialOf(materials_, primitive);
     float least = m.base_color.a;
     if (!primitive.colors.empty())
         least *= std::ranges::min(primitive.colors, {}, [](const glm::vec4& c) { return c.a; }).a;
@@ -205,7 +206,7 @@ float CheckSentences::leastAlpha(const Primitive& primitive) {
 }
 
 std::string CheckSentences::ofMask(const Primitive& primitive) {
-    const float cutoff = materialOf(scene_, primitive).alpha_cutoff;
+    const float cutoff = materialOf(materials_, primitive).alpha_cutoff;
     return leastAlpha(primitive) >= cutoff
                ? fmt::format("Masked at {:.3g}, but its alpha is nowhere below: nothing is cut out.", cutoff)
                : fmt::format(
@@ -216,7 +217,7 @@ std::string CheckSentences::ofMask(const Primitive& primitive) {
 
 std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
     const Primitive& primitive = primitiveOf(scene_, instance);
-    const Material& m = materialOf(scene_, primitive);
+    const Material& m = materialOf(materials_, primitive);
     switch (feature) {
         case CheckFeature::texture_transform:
             return bySlot(m, transformOf) +

@@ -53,7 +53,9 @@ constexpr CheckFeatures bitOf(CheckFeature feature) {
 // The features of a primitive that do not depend on its instance. Reads each of its vertices once. A feature
 // that cannot change a pixel (white vertex colours, a wrap mode where no coordinate passes the edge) is left
 // out.
-CheckFeatures featuresOf(const Scene& scene, const Primitive& primitive);
+// `materials`: the scene's at the pose's time (materialsOf()).
+CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materials,
+                         const Primitive& primitive);
 
 // Adds the features that depend on the instance.
 CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeatures ofPrimitive);
@@ -61,7 +63,8 @@ CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeat
 // Sentences for people: what is seen where a feature is drawn correctly.
 class CheckSentences {
 public:
-    explicit CheckSentences(const Scene& scene) : scene_(scene) {}
+    CheckSentences(const Scene& scene, const std::vector<Material>& materials)
+        : scene_(scene), materials_(materials) {}
 
     // "Base colour: offset 0.5 0. What is pictured there (arrows, frames, seams) falls into place."
     std::string of(const Instance& instance, CheckFeature feature);
@@ -71,6 +74,7 @@ private:
     std::string ofMask(const Primitive& primitive);
 
     const Scene& scene_;
+    const std::vector<Material>& materials_;
     std::map<int, float> least_alpha_;  // least alpha of an image's texels, found once
 };
 

@@ -191,7 +191,7 @@ public:
     std::vector<FeatureChecks> choose() {
         for (std::size_t i = 0; i < pose_.instances.size(); ++i) look(i);
         std::vector<FeatureChecks> result;
-        CheckSentences sentences(scene_);
+        CheckSentences sentences(scene_, materialsOf(scene_, pose_));
         for (std::size_t f = 0; f < checkFeatureCount; ++f) {
             Chosen& chosen = chosen_[f];
             if (chosen.found == 0) continue;
@@ -217,7 +217,8 @@ private:
         const Primitive& primitive = scene_.meshes[mesh].primitives[number];
         if (primitive.indices.empty()) return;
         PrimitiveChecks& known = primitives_[mesh][number];
-        if (!known.known) known = {true, featuresOf(scene_, primitive), boundsOf(primitive)};
+        if (!known.known)
+            known = {true, featuresOf(scene_, materialsOf(scene_, pose_), primitive), boundsOf(primitive)};
         const CheckFeatures features = featuresOf(scene_, instance, known.features);
         if (features == 0) return;
         const Projection::Place place = projection_.placeOf(instance, known.bounds);

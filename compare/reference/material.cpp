@@ -32,7 +32,7 @@ bool isCutOut(const Material& m, double alpha) {
 }  // namespace
 
 const Material& Materials::material(const Hit& hit) const {
-    return scene_.materials[static_cast<std::size_t>(geometry_.primitive(hit.id).material)];
+    return materials_[static_cast<std::size_t>(geometry_.primitive(hit.id).material)];
 }
 
 // The footprint follows from the intersections of the neighbouring rays with the triangle's plane (Igehy

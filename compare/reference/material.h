@@ -28,8 +28,9 @@ inline bool isSeenThrough(const Material& m) {
 
 class Materials {
 public:
-    Materials(const Scene& scene, const Geometry& geometry)
-        : scene_(scene), geometry_(geometry), textures_(scene) {}
+    // Those of the pose. All arguments must outlive this.
+    Materials(const Scene& scene, const Pose& pose, const Geometry& geometry)
+        : scene_(scene), materials_(materialsOf(scene, pose)), geometry_(geometry), textures_(scene) {}
 
     // Whether a camera ray ends at the hit: not on the back of a single-sided material, nor where a mask
     // cuts it out.
@@ -55,6 +56,7 @@ private:
     void shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const;
 
     const Scene& scene_;
+    const std::vector<Material>& materials_;
     const Geometry& geometry_;
     Textures textures_;
 };

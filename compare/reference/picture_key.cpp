@@ -47,7 +47,7 @@ void addScene(Key& key, const Request& request) {
         key.add(slot.u);
         key.add(slot.v);
     };
-    for (const Material& m : scene.materials) {
+    for (const Material& m : materialsOf(scene, request.pose)) {
         key.add(m.base_color);
         key.add(glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength));
         key.add(glm::vec4(m.emissive, m.ior));
@@ -131,7 +131,7 @@ std::uint64_t keyOf(const Request& request) {
         const Image& sky = request.scene.environment->radiance;
         key.add(glm::ivec2(sky.width, sky.height));
         key.addAll(sky.data);
-        for (const Material& m : request.scene.materials) key.add(hasLightmap(m));
+        for (const Material& m : materialsOf(request.scene, request.pose)) key.add(hasLightmap(m));
     }
     if (request.surfaces)
         for (const auto& [mode, image] : *request.surfaces) key.addAll(image.data);

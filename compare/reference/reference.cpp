@@ -175,8 +175,8 @@ private:
 
 // ---- one pixel ---------------------------------------------------------------------------------------
 
-bool blendsSomewhere(const Scene& scene) {
-    return std::ranges::any_of(scene.materials, isSeenThrough);
+bool blendsSomewhere(const Request& request) {
+    return std::ranges::any_of(materialsOf(request.scene, request.pose), isSeenThrough);
 }
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
@@ -188,11 +188,11 @@ public:
           eye_(request.view.eye()),
           rays_(request.view),
           geometry_(request.scene, request.pose, eye_),
-          materials_(request.scene, geometry_),
+          materials_(request.scene, request.pose, geometry_),
           lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
                     request.casters, request.shadowed_environment, request.multiscatter,
                     request.environment_turned),
-          blends_(request.blended && blendsSomewhere(request.scene)),
+          blends_(request.blended && blendsSomewhere(request)),
           scene_radius_(worldBounds(request.scene, request.pose).radius()) {
         if (request.air) haze_.emplace(*request.air, eye_);
         if (request.environment_costs) lighting_.takeCosts();
@@ -339,7 +339,7 @@ private:
     }
 
     Pixel renderCaptured(int x, int y, std::uint64_t seed) const {
-        const Captured captured(*request_.surfaces, request_.scene.materials);
+        const Captured captured(*request_.surfaces, materialsOf(request_.scene, request_.pose));
         Pixel pixel;
         const PixelRay ray = rays_.through(x + 0.5, y + 0.5);
         if (!captured.isSurface(seed)) {
@@ -534,7 +534,7 @@ public:
         if (request.environment_costs && request.scene.environment)
             picture_.environment_costs = Image(request.view.width, request.view.height, 9);
         if (request.surroundings) picture_.surroundings = Image(request.view.width, request.view.height, 2);
-        if (request.blended && blendsSomewhere(request.scene)) {
+        if (request.blended && blendsSomewhere(request)) {
             picture_.blended = Image(request.view.width, request.view.height, 1);
             picture_.unblended = Image(request.view.width, request.view.height, 3);
         }

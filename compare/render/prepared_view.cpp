@@ -76,6 +76,13 @@ ListKernel kernelOf(LightKernel kernel, const Device& device) {
     return kernel == LightKernel::scatter ? ListKernel::scatter : ListKernel::gather;
 }
 
+std::optional<Materials> posedMaterials(Device& device, SharedResources& shared, const Pose& pose) {
+    if (pose.materials.empty()) return std::nullopt;
+    std::optional<Materials> posed(std::in_place, device, shared.uploader, shared.materials, pose.materials);
+    shared.uploader.flush();
+    return posed;
+}
+
 }  // namespace
 
 PipelineSet::PipelineSet(Device& device)
@@ -99,8 +106,10 @@ SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<
 PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneView& seen,
                            const Settings& settings)
     : scene(seen),
+      posed_materials(posedMaterials(device, shared, seen.pose)),
+      materials(posed_materials ? *posed_materials : shared.materials),
       lights(lightsOf(scene, settings)),
-      draws(makeDrawList(scene.pose, shared.geometry, shared.materials, scene.view, settings.transparency)),
+      draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency)),
       posing(shared.posings.at(scene.pose, settings.skinning, shared.pipelines)),
       buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
               {listsOf(settings.assign), kernelOf(settings.light_kernel, device)},
@@ -109,8 +118,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       environment(device, shared.uploader, shared.environments, scene.environment, scene.background,
                   buffers.sets(), settings),
       haze(device, shared.uploader, settings, sunOf(scene.lights), scene.view.eye(), buffers.sets()),
-      shadow(device, shared.uploader, scene.pose, shared.geometry, shared.materials, scene.view, draws,
-             lights, scene.lights, buffers.sets(), settings),
+      shadow(device, shared.uploader, scene.pose, shared.geometry, materials, scene.view, draws, lights,
+             scene.lights, buffers.sets(), settings),
       fragments(device, draws, settings),
       gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
       inputs{
@@ -119,7 +128,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .pipelines = shared.pipelines,
           .geometry = shared.geometry,
           .posing = *posing,
-          .materials = shared.materials,
+          .materials = materials,
           .draws = draws,
           .lights = lights,
           .draw_buffer = buffers.draws(),
@@ -197,7 +206,7 @@ FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared)
     return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
                 prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.posings.bytes() + prepared.view.posing->bytes() +
-                shared.materials.bufferBytes() + prepared.view.buffers.bytes() +
+                prepared.view.materials.bufferBytes() + prepared.view.buffers.bytes() +
                 prepared.view.shadow.bytes() + prepared.view.environment.bytes() +
                 prepared.view.haze.bytes() + prepared.view.fragments.bytes(),
             prepared.path.bytesPerPixel(prepared.view.inputs)};

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ public:
 
     std::vector<std::string> notes;  // decisions made for this view
     const SceneView& scene;
+    std::optional<Materials> posed_materials;  // where an animation moves any; else the shared ones
+    const Materials& materials;
     GpuLights lights;
     DrawList draws;
     std::shared_ptr<const Posing> posing;

@@ -2,6 +2,7 @@
 #include "shared/draw/geometry.h"
 
 #include "shared/contract/geometry.h"
+#include "shared/scene/model/animated.h"
 
 #include "shared/scene/motion/posed.h"
 
@@ -57,6 +58,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
     // After all indices, and of primitives that are more than one cluster alone.
     std::vector<std::uint32_t> clustered;
     const std::uint32_t allIndices = indicesOf(scene);
+    const std::vector<bool> mayBlend = materialsThatBlend(scene);
     for (const Mesh& mesh : scene.meshes) {
         ranges_.emplace_back();
         for (const Primitive& p : mesh.primitives) {
@@ -90,7 +92,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
                     {range.first_index, range.index_count, range.bounds_min, range.bounds_max});
             }
             range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
-            if (blends(scene.materials[range.material])) {
+            if (mayBlend[range.material]) {
                 range.kept_indices = static_cast<std::uint32_t>(kept_indices_.size());
                 range.kept_positions = static_cast<std::uint32_t>(kept_positions_.size());
                 kept_indices_.insert(kept_indices_.end(), p.indices.begin(), p.indices.end());

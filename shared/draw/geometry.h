@@ -66,8 +66,8 @@ public:
     std::span<const Cluster> clusters(const PlacedPrimitive& placed) const {
         return placed.box >= 0 ? std::span(&placed.whole, 1) : clusters(placed.range);
     }
-    // In the scene's order. Only of primitives whose material blends: nothing is kept of others, and theirs
-    // are empty.
+    // In the scene's order. Only of primitives whose material blends at any time: nothing is kept of others,
+    // and theirs are empty.
     TriangleView triangles(const PrimitiveRange& range) const;
     PlacedTriangles triangles(const Pose& pose, const Instance& instance) const;
     // `indices`: others than the scene's.

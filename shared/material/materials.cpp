@@ -4,6 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/material.h"
 #include "shared/material/textures.h"
+#include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace diptych {
@@ -72,8 +74,48 @@ OwnedDescriptorSetLayout Materials::makeLayout(Device& device) {
     return makeSetLayout(device, setTypes);
 }
 
-Materials::Materials(Device& device, Uploader& uploader, const Scene& scene) : layout_(makeLayout(device)) {
+Materials::Materials(Device& device, Uploader& uploader, const Scene& scene)
+    : textures_(upload(device, uploader, scene)), layout_(makeLayout(device)) {
+    make(device, uploader, scene.materials);
+}
+
+Materials::Materials(Device& device, Uploader& uploader, const Materials& rest,
+                     const std::vector<Material>& posed)
+    : textures_(rest.textures_), layout_(makeLayout(device)) {
+    make(device, uploader, posed);
+}
+
+void Materials::make(Device& device, Uploader& uploader, const std::vector<Material>& materials) {
+    // Each at an offset where a uniform buffer may begin.
+    const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
+    const VkDeviceSize stride = (sizeof(gpu::Material) + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> data(materials.size() * stride);
+    for (const Material& material : materials) {
+        variants_.push_back(variantOf(material));
+        blends_.push_back(diptych::blends(material));
+        const gpu::Material factors = gpuMaterial(material);
+        std::memcpy(&data[(variants_.size() - 1) * stride], &factors, sizeof factors);
+    }
+    buffer_ = makeBuffer<std::byte>(device, uploader, "materials", data, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+
+    sets_ = DescriptorSets(device, layout_, setTypes, count());
+    for (std::uint32_t m = 0; m < count(); ++m) {
+        sets_.buffer(m, gpu::BINDING_MATERIAL, buffer_.handle(), m * stride, sizeof(gpu::Material));
+        for (std::uint32_t slot = 0; slot < materialSlots.size(); ++slot) {
+            const int texture = (materials[m].*materialSlots[slot].texture).texture;
+            const bool read = readsSlot(materials[m], slot);
+            const std::size_t image = read ? textures_->image_of.at({texture, materialSlots[slot].srgb}) : 0;
+            const std::size_t sampler = read ? textures_->sampler_of.at(texture) : 0;
+            sets_.image(m, slot, textures_->images[image].view(), textures_->samplers[sampler],
+                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        }
+    }
+}
+
+std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Uploader& uploader,
+                                                             const Scene& scene) {
     // Every image that a slot reads, as sRGB or as linear; slots without a texture use index 0.
+    const auto textures = std::make_shared<Textures>();
     std::map<ImageUse, std::size_t> imageOf;
     std::vector<ImageUse> uses;
     std::vector<Sampler> kinds{Sampler{}};
@@ -83,54 +125,30 @@ Materials::Materials(Device& device, Uploader& uploader, const Scene& scene) : l
         kinds.push_back(sampler);
         return kinds.size() - 1;
     };
-    const auto imageUse = [&](const TextureSlot& slot, bool srgb) {
-        const ImageUse use{scene.textures[static_cast<std::size_t>(slot.texture)].image, srgb};
-        const auto [entry, isNew] = imageOf.try_emplace(use, uses.size() + 1);
-        if (isNew) uses.push_back(use);
-        return entry->second;
-    };
-
-    // Each at an offset where a uniform buffer may begin.
-    const VkDeviceSize alignment = device.limits().minUniformBufferOffsetAlignment;
-    const VkDeviceSize stride = (sizeof(gpu::Material) + alignment - 1) / alignment * alignment;
-    std::vector<std::byte> data(scene.materials.size() * stride);
-    for (const Material& material : scene.materials) {
-        variants_.push_back(variantOf(material));
-        blends_.push_back(diptych::blends(material));
-        const gpu::Material factors = gpuMaterial(material);
-        std::memcpy(&data[(variants_.size() - 1) * stride], &factors, sizeof factors);
-        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
-            if (readsSlot(material, slot))
-                imageUse(material.*materialSlots[slot].texture, materialSlots[slot].srgb);
-    }
-    buffer_ = makeBuffer<std::byte>(device, uploader, "materials", data, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-
-    images_.push_back(uploadTexture(
+    const std::set<int> moving = materialsThatMove(scene);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
+            if (!mayReadSlot(scene.materials[m], slot, moving.contains(static_cast<int>(m)))) continue;
+            const int texture = (scene.materials[m].*materialSlots[slot].texture).texture;
+            const Texture& read = scene.textures[static_cast<std::size_t>(texture)];
+            const ImageUse use{read.image, materialSlots[slot].srgb};
+            const auto [entry, isNew] = imageOf.try_emplace(use, uses.size() + 1);
+            if (isNew) uses.push_back(use);
+            textures->image_of[{texture, use.second}] = entry->second;
+            textures->sampler_of[texture] = samplerOf(read.sampler);
+        }
+    textures->images.push_back(uploadTexture(
         device, uploader, MipChain(TextureImage{"white", 1, 1, {255, 255, 255, 255}}, false, Texels::linear8),
         VK_FORMAT_R8G8B8A8_UNORM));
-    uploadInUse(device, uploader, scene, uses);
-
-    sets_ = DescriptorSets(device, layout_, setTypes, count());
-    for (std::uint32_t m = 0; m < count(); ++m) {
-        sets_.buffer(m, gpu::BINDING_MATERIAL, buffer_.handle(), m * stride, sizeof(gpu::Material));
-        for (std::uint32_t slot = 0; slot < materialSlots.size(); ++slot) {
-            const TextureSlot& texture = scene.materials[m].*materialSlots[slot].texture;
-            const bool read = readsSlot(scene.materials[m], slot);
-            const std::size_t image = read ? imageUse(texture, materialSlots[slot].srgb) : 0;
-            const std::size_t sampler =
-                read ? samplerOf(scene.textures[static_cast<std::size_t>(texture.texture)].sampler) : 0;
-            while (samplers_.size() < kinds.size())
-                samplers_.push_back(makeSampler(device, kinds[samplers_.size()]));
-            sets_.image(m, slot, images_[image].view(), samplers_[sampler],
-                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-        }
-    }
+    uploadInUse(device, uploader, scene, uses, *textures);
+    for (const Sampler& kind : kinds) textures->samplers.push_back(makeSampler(device, kind));
+    return textures;
 }
 
 // Chains are made on all cores, as few ahead of the upload as keep them busy: all at once they would take a
 // third of the scene's images again.
 void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
-                            const std::vector<ImageUse>& uses) {
+                            const std::vector<ImageUse>& uses, Textures& textures) {
     std::size_t next = 0, reduced = 0;
     const auto choose = [&](tbb::flow_control& flow) {
         if (next == uses.size()) flow.stop();
@@ -142,7 +160,7 @@ void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& sce
         return std::pair(MipChain(image, uses[i].second, format.texels), format);
     };
     const auto upload = [&](const std::pair<MipChain, TextureFormat>& made) {
-        images_.push_back(uploadTexture(device, uploader, made.first, made.second.format));
+        textures.images.push_back(uploadTexture(device, uploader, made.first, made.second.format));
         reduced += !made.second.exact;
     };
     using Made = std::pair<MipChain, TextureFormat>;
@@ -152,7 +170,7 @@ void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& sce
                                tbb::make_filter<std::size_t, Made>(tbb::filter_mode::parallel, make) &
                                tbb::make_filter<Made, void>(inOrder, upload));
     if (reduced)
-        notes_.push_back(
+        textures.notes.push_back(
             fmt::format("{} texture{} of over 8 bits a component: sampled as half floats (11 bits), {} "
                         "filters nothing wider",
                         reduced, reduced == 1 ? "" : "s", device.info().name));
@@ -160,7 +178,7 @@ void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& sce
 
 std::uint64_t Materials::imageBytes() const {
     std::uint64_t bytes = 0;
-    for (const GpuImage& image : images_) bytes += image.bytes();
+    for (const GpuImage& image : textures_->images) bytes += image.bytes();
     return bytes;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene's materials on the device: one buffer of factors, one descriptor set and one Variant each.
+// A scene's materials on the device, at rest or as animations have moved them: one buffer of factors, one
+// descriptor set and one Variant each. Textures are uploaded once for all times.
 #pragma once
 
 #include "shared/contract/material.h"
@@ -9,6 +10,9 @@
 #include "shared/vulkan/resources.h"
 
 #include <array>
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,8 +26,10 @@ inline constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{MATERIAL_SL
 
 class Materials {
 public:
-    // Uploads every texture that a material reads, once for each way it is read (sRGB or linear).
+    // Uploads every texture that a material reads at any time, once for each way it is read (sRGB or linear).
     Materials(Device& device, Uploader& uploader, const Scene& scene);
+    // The same materials at another time, as many as the scene has, with the textures of `rest`.
+    Materials(Device& device, Uploader& uploader, const Materials& rest, const std::vector<Material>& posed);
 
     // What set() is allocated with: the same for every scene, so that sets of any fit pipelines made with it.
     static OwnedDescriptorSetLayout makeLayout(Device& device);
@@ -37,24 +43,35 @@ public:
     // shadow.
     bool blends(std::uint32_t material) const { return blends_[material]; }
 
-    std::uint64_t imageBytes() const;
+    std::uint64_t imageBytes() const;  // of what both constructors share too
     std::uint64_t bufferBytes() const { return buffer_.size(); }
 
-    const std::vector<std::string>& notes() const { return notes_; }  // what is sampled with fewer bits
+    const std::vector<std::string>& notes() const {
+        return textures_->notes;
+    }  // what is sampled with fewer bits
 
 private:
+    // What no animation changes.
+    struct Textures {
+        using Use = std::pair<int, bool>;       // into Scene::textures; whether its colours are sRGB
+        std::map<Use, std::size_t> image_of;    // into images
+        std::map<int, std::size_t> sampler_of;  // texture -> into samplers
+        std::vector<GpuImage> images;           // the first is white
+        std::vector<OwnedSampler> samplers;     // the first is the default one
+        std::vector<std::string> notes;
+    };
     using ImageUse = std::pair<int, bool>;  // into Scene::images; whether its colours are sRGB
-    void uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
-                     const std::vector<ImageUse>& uses);
+    static std::shared_ptr<const Textures> upload(Device& device, Uploader& uploader, const Scene& scene);
+    static void uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
+                            const std::vector<ImageUse>& uses, Textures& textures);
+    void make(Device& device, Uploader& uploader, const std::vector<Material>& materials);
 
+    std::shared_ptr<const Textures> textures_;
     OwnedDescriptorSetLayout layout_;
-    std::vector<GpuImage> images_;
-    std::vector<OwnedSampler> samplers_;
     GpuBuffer buffer_;
     DescriptorSets sets_;
     std::vector<Variant> variants_;
     std::vector<bool> blends_;
-    std::vector<std::string> notes_;
 };
 
 }  // namespace diptych

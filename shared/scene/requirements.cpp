@@ -74,7 +74,7 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
 
     std::set<int> textures;
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i]) addMaterial(r, scene, scene.materials[i], textures);
+        if (used[i]) addMaterial(r, scene, materialsOf(scene, pose)[i], textures);
     r.textures = static_cast<std::uint32_t>(textures.size());
 
     for (const Light& light : lights) {
@@ -145,9 +145,8 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(dielectric_specular, "dielectric specular", "a material has KHR_materials_specular, _ior or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
     say(animations > 0, "animation",
-        fmt::format(
-            "{} in the scene: nodes, lights and cameras stand as at 0 s, the reference goes on from there",
-            animations),
+        fmt::format("{} play{}: nodes, lights, cameras and materials are as at the picture's time",
+                    animations, animations == 1 ? "s" : ""),
         "nothing of the scene is animated");
     result.push_back({false, "skins and morph targets",
                       skinned + morphed > 0

@@ -151,6 +151,43 @@ GltfFile dressed() {
     return m;
 }
 
+// As `dressed`, with a pointer to every kind of property.
+GltfFile pointed() {
+    GltfFile m = dressed();
+    const auto extension = [](const std::string& pointer) {
+        return Json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+    };
+    // Two keys at one time.
+    const int times = m.accessor<float>({0, 1, 1}, FLOAT, "SCALAR", 1);
+    const int outputs[] = {m.accessor<std::uint16_t>({0, 30000, 65535}, USHORT, "SCALAR", 1, true),
+                           m.accessor<float>({0, 1, 2, 3, 4, 5}, FLOAT, "VEC2", 2),
+                           m.accessor<float>({0, 0, 0, 1, 1, 1, 2, 2, 2}, FLOAT, "VEC3", 3),
+                           m.accessor<float>({0, 0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 1}, FLOAT, "VEC4", 4)};
+    Json samplers = Json::array(), channels = Json::array();
+    for (const int output : outputs)
+        samplers.push_back({{"input", times}, {"output", output}, {"interpolation", "LINEAR"}});
+    const std::pair<int, const char*> pointers[] = {
+        {2, "/nodes/3/translation"},
+        {3, "/nodes/1/rotation"},
+        {0, "/extensions/KHR_lights_punctual/lights/1/range"},
+        {0, "/extensions/KHR_lights_punctual/lights/2/spot/innerConeAngle"},
+        {2, "/extensions/KHR_lights_punctual/lights/0/color"},
+        {0, "/cameras/0/perspective/znear"},
+        {0, "/cameras/1/orthographic/zfar"},
+        {3, "/materials/0/pbrMetallicRoughness/baseColorFactor"},
+        {2, "/materials/0/emissiveFactor"},
+        {0, "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength"},
+        {0, "/materials/0/extensions/KHR_materials_ior/ior"},
+        {0, "/materials/0/extensions/KHR_materials_transmission/transmissionFactor"},
+        {0, "/materials/0/normalTexture/scale"},
+        {1, "/materials/0/emissiveTexture/extensions/KHR_texture_transform/offset"},
+        {0, "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation"}};
+    for (const auto& [sampler, pointer] : pointers)
+        channels.push_back({{"sampler", sampler}, {"target", extension(pointer)}});
+    m.json["animations"] = {{{"samplers", samplers}, {"channels", channels}, {"name", "all"}}};
+    return m;
+}
+
 // Positions and indices as streams of meshoptimizer.
 GltfFile packed() {
     const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
@@ -185,6 +222,7 @@ void writeGltfSeeds(const fs::path& out) {
     for (const auto& [name, file] :
          {std::pair{"moved", moved()},
           {"dressed", dressed()},
+          {"pointed", pointed()},
           {"meshopt", packed()},
           {"draco-sequential", compressed(encoded(2, {draco::MESH_SEQUENTIAL_ENCODING}))},
           {"draco-0", compressed(encoded(3, {draco::MESH_EDGEBREAKER_ENCODING, 0, 8}))},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/sound_scene.h"
 
+#include "shared/scene/model/animated.h"
 #include "shared/scene/motion/posed.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sound_light.h"
@@ -135,18 +136,28 @@ void requireSoundMotion(const Scene& scene) {
             require(!keys.times.empty() && keys.values.size() == keys.times.size() * each,
                     "a key has its values");
             require(keys.times.front() >= 0 && std::isfinite(keys.times.back()), "keys are at finite times");
-            require(std::ranges::adjacent_find(keys.times, std::greater_equal()) == keys.times.end(),
+            require(std::ranges::adjacent_find(keys.times, std::greater()) == keys.times.end(),
                     "keys follow each other");
             require(std::ranges::all_of(keys.values, [](float v) { return std::isfinite(v); }),
                     "keys are finite");
         }
-        for (const AnimationChannel& channel : animation.channels)
-            require(within(channel.node, scene.nodes) && within(channel.keyframes, animation.keyframes),
-                    "a channel moves a node");
+        for (const AnimationChannel& channel : animation.channels) {
+            require(within(channel.keyframes, animation.keyframes), "a channel has keys");
+            require(isNodePart(channel.part)       ? within(channel.node, scene.nodes)
+                    : isMeshPart(channel.part)     ? within(channel.object, scene.meshes)
+                    : isMaterialPart(channel.part) ? within(channel.object, scene.materials)
+                                                   : channel.object >= 0,
+                    "a channel moves what is there");
+        }
     }
 }
 
 void requireSoundPose(const Scene& scene, const Pose& pose) {
+    require(pose.materials.empty() || pose.materials.size() == scene.materials.size(),
+            "all materials are posed or none is");
+    for (const Material& material : pose.materials) requireSound(material, scene);
+    for (const Camera& camera : pose.cameras)
+        require(camera.far > camera.near && camera.near >= 0, "a camera sees what lies between its planes");
     for (const Light& light : pose.lights) fuzz::requireSound(light);
     for (const Instance& instance : pose.instances) {
         require(within(instance.mesh, scene.meshes), "an instance's mesh is there");

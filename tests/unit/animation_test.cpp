@@ -66,6 +66,40 @@ TEST(Animation, LinearBetweenKeysAndClampedBeyond) {
     EXPECT_EQ(sampled(keys(Interpolation::linear, {2}, {7}, 1), weights, 1), (Values{7})) << "one key";
 }
 
+// Before the first key, at one key and long after the last the value is held, whatever lies between keys.
+TEST(Animation, OneKeyAndTimesFarAway) {
+    using Values = std::vector<double>;
+    for (const auto interpolation : {Interpolation::step, Interpolation::linear}) {
+        const Keyframes one = keys(interpolation, {2}, {7, 8}, 2);
+        const Keyframes two = keys(interpolation, {2, 3}, {7, 8, 9, 10}, 2);
+        for (const double t : {0.0, 1.999, 2.0, 1e6})
+            EXPECT_EQ(sampled(one, weights, t), (Values{7, 8})) << t;
+        for (const double t : {0.0, 2.0}) EXPECT_EQ(sampled(two, weights, t), (Values{7, 8})) << t;
+        for (const double t : {3.0, 1e6}) EXPECT_EQ(sampled(two, weights, t), (Values{9, 10})) << t;
+    }
+    const Keyframes cubic = keys(Interpolation::cubic_spline, {2}, {99, 7, 99}, 1);
+    for (const double t : {0.0, 2.0, 1e6}) EXPECT_EQ(sampled(cubic, weights, t), (Values{7})) << t;
+}
+
+// Keys at one time are a step: up to it as the first of them, from it on as the last.
+TEST(Animation, KeysAtOneTimeAreAStep) {
+    using Values = std::vector<double>;
+    const Keyframes k = keys(Interpolation::linear, {0, 1, 1, 1, 2}, {0, 4, 50, 8, 10}, 1);
+    EXPECT_EQ(sampled(k, weights, 0.75), (Values{3}));
+    EXPECT_EQ(sampled(k, weights, 1), (Values{8}));
+    EXPECT_EQ(sampled(k, weights, 1.5), (Values{9}));
+    const Keyframes ends = keys(Interpolation::linear, {1, 1, 2, 2}, {1, 2, 3, 4}, 1);
+    EXPECT_EQ(sampled(ends, weights, 0), (Values{1}));
+    EXPECT_EQ(sampled(ends, weights, 1), (Values{2}));
+    EXPECT_EQ(sampled(ends, weights, 2), (Values{4}));
+    EXPECT_EQ(sampled(ends, weights, 9), (Values{4}));
+    const Keyframes cubic =
+        keys(Interpolation::cubic_spline, {0, 1, 1, 2}, {0, 0, 0, 0, 4, 0, 0, 8, 0, 0, 10, 0}, 1);
+    EXPECT_EQ(sampled(cubic, weights, 0.5), (Values{2}));
+    EXPECT_EQ(sampled(cubic, weights, 1), (Values{8}));
+    EXPECT_EQ(sampled(cubic, weights, 1.5), (Values{9}));
+}
+
 // Interpolating the quaternions linearly and normalising would give 26.6 degrees after a third of 0 to 90.
 TEST(Animation, RotationsTurnEvenly) {
     const Keyframes k = keys(Interpolation::linear, {0, 3}, appended(turn(0), turn(90)), 4);

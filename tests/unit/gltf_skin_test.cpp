@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/motion/bounds.h"
+#include "shared/scene/motion/posed.h"
 #include "tests/unit/gltf_maker.h"
 
 #include <glm/geometric.hpp>
@@ -212,4 +213,51 @@ TEST(GltfSkin, FaultsOfWhatMovesNothingAreNoFaults) {
     f.primitive()["attributes"].erase("JOINTS_0");
     f.primitive()["attributes"].erase("WEIGHTS_0");
     EXPECT_TRUE(mentions(f.load().notes, "node 0: has a skin, but its mesh has no JOINTS_0"));
+}
+
+// Two nodes draw one mesh, each with a skin of its own: each is where its own joints are.
+TEST(GltfSkin, AMeshMayHaveTwoSkins) {
+    SkinnedFile f;
+    f.json["nodes"].push_back({{"mesh", 0}, {"skin", 1}});
+    f.json["nodes"].push_back({{"translation", {7, 0, 0}}});
+    f.json["nodes"].push_back({{"translation", {8, 0, 0}}});
+    f.json["scenes"][0]["nodes"] = {0, 1, 3, 4, 5};
+    f.json["skins"].push_back({{"joints", {4, 5}}});
+    const Scene scene = f.load();
+    ASSERT_EQ(scene.skins.size(), 2u);
+    const Pose pose = poseAt(scene, 0);
+    ASSERT_EQ(pose.instances.size(), 2u);
+    EXPECT_NE(pose.instances[0].skin, pose.instances[1].skin);
+    // Vertex 2, (0, 1, 0): a quarter of the first joint and three of the second.
+    const std::vector<glm::dvec3> first = posedPositions(scene, pose, pose.instances[0]),
+                                  second = posedPositions(scene, pose, pose.instances[1]);
+    EXPECT_NEAR(first.at(2).y, 1 + 0.25 * 5 + 0.75 * 6, 1e-12);
+    EXPECT_NEAR(first[2].x, 0, 1e-12);
+    EXPECT_NEAR(second.at(2).x, 0.25 * 7 + 0.75 * 8, 1e-12);
+    EXPECT_NEAR(second[2].y, 1, 1e-12);
+}
+
+// As many joints as an index of 16 bits counts, without inverse bind matrices: joint j is j * 1 mm up.
+TEST(GltfSkin, SixtyFiveThousandJoints) {
+    constexpr std::size_t count = 65535;
+    SkinnedFile f;
+    Json joints = Json::array(), roots = {0};
+    f.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}};
+    for (std::size_t j = 0; j < count; ++j) {
+        f.json["nodes"].push_back({{"translation", {0, 0.001 * static_cast<double>(j), 0}}});
+        joints.push_back(j + 1);
+        roots.push_back(j + 1);
+    }
+    f.json["scenes"][0]["nodes"] = roots;
+    f.json["skins"][0]["joints"] = joints;
+    f.primitive()["attributes"]["JOINTS_0"] =
+        f.accessor<std::uint16_t>({0, 0, 0, 0, 65534, 0, 0, 0, 65533, 65534, 0, 0}, USHORT, "VEC4", 4);
+    const Scene scene = f.load();
+    ASSERT_EQ(scene.skins.at(0).joints.size(), count);
+    EXPECT_EQ(scene.skins[0].joint_from_mesh[count - 1], glm::mat4(1));
+    const Pose pose = poseAt(scene, 0);
+    const std::vector<glm::dvec3> posed = posedPositions(scene, pose, pose.instances.at(0));
+    EXPECT_EQ(posed.at(0).y, 0);
+    EXPECT_NEAR(posed.at(1).y, 65.534, 1e-12);
+    EXPECT_NEAR(posed.at(2).y, 1 + 0.25 * 65.533 + 0.75 * 65.534, 1e-12);
 }

@@ -106,6 +106,20 @@ TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
     }
 }
 
+// The patch turns from dark to white, and begins to glow.
+TEST(ReferenceMotion, MaterialsAreThoseOfTheTime) {
+    Scene scene = patch();
+    Animation a;
+    a.keyframes = {{Interpolation::linear, {0, 1}, {0, 0, 0, 1, 1, 1, 1, 1}, 4},
+                   {Interpolation::linear, {0, 1}, {0, 0, 0, 2, 2, 2}, 3}};
+    a.channels = {{.keyframes = 0, .part = AnimatedPart::base_color, .object = 0},
+                  {.keyframes = 1, .part = AnimatedPart::emissive, .object = 0}};
+    scene.animations.push_back(a);
+    for (const auto& [seconds, expected] : {std::pair{0.0, 0.0}, {0.5, 0.5 / pi + 1}, {1.0, 1 / pi + 2}})
+        EXPECT_NEAR(at(drawnAt(scene, seconds, fromAbove), gpu::DEBUG_lit, left, row).x, expected, 1e-6)
+            << seconds;
+}
+
 // A joint with half the weight bends the patch: its shading normal follows from the joints, its geometric
 // normal from the corners.
 TEST(ReferenceMotion, NormalsArePosedToo) {

@@ -250,7 +250,12 @@ TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     scene.weights = {{0.5f}};
     scene.nodes[1].weights = 0;
     scene.nodes[1].skin = -1;
-    scene.animations.resize(2);
+    // A third moves nothing of the scene.
+    scene.animations.resize(3);
+    for (const std::size_t moving : {0u, 2u}) {
+        scene.animations[moving].keyframes = {{Interpolation::step, {0}, {0.5f}, 1}};
+        scene.animations[moving].channels = {{1, 0, AnimatedPart::weights}};
+    }
     const Requirements r = of(scene);
     EXPECT_EQ(r.deformedInWords(), "1 skinned mesh, 1 morphed");
     EXPECT_EQ(r.animations, 2u);

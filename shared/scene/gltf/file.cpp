@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/file.h"
 
+#include "shared/scene/gltf/animation_pointer.h"
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/schema.h"
@@ -27,10 +28,11 @@ using Json = nlohmann::json;
 using Bytes = std::vector<unsigned char>;
 
 constexpr std::array builtExtensions{
-    "EXT_lights_image_based", "EXT_meshopt_compression",         "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
-    "KHR_materials_volume",   "KHR_mesh_quantization",           "KHR_texture_transform"};
+    "EXT_lights_image_based",          "EXT_meshopt_compression",
+    "KHR_animation_pointer",           "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "KHR_materials_emissive_strength", "KHR_materials_ior",          "KHR_materials_specular",
+    "KHR_materials_transmission",      "KHR_materials_unlit",        "KHR_materials_volume",
+    "KHR_mesh_quantization",           "KHR_texture_transform"};
 
 bool isBuilt(std::string_view extension) {
     return std::ranges::find(builtExtensions, extension) != builtExtensions.end();
@@ -303,6 +305,7 @@ Document open(Bytes bytes, const std::filesystem::path& folder) {
         std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
         buffers = taken(document, "buffers");
         images = taken(document, "images");
+        keepPointerChannels(document);
         const std::vector<Withheld> withheld = withholdIndices(document);
         const std::string text = document.dump();
         document = nullptr;  // free it, since tinygltf builds the same tree once more

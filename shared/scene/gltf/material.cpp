@@ -4,6 +4,7 @@
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/texture.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/text/fail.h"
 #include "shared/text/one_line.h"
@@ -12,8 +13,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
 namespace diptych::gltf {
 
@@ -61,6 +65,9 @@ public:
         return m;
     }
 
+    // After read(): what the material holds combined.
+    const MaterialParts& parts() const { return parts_; }
+
 private:
     const tinygltf::Model& model_;
     const tinygltf::Material& file_;
@@ -68,10 +75,14 @@ private:
     const std::vector<std::string>& faults_;
     const MaterialExtras::Lightmap* lightmap_;  // nullptr: the material has none
     std::string who_;
+    MaterialParts parts_;
 
-    // Bound for numbers that glTF leaves unbounded, at least on one side: keeps their squares and products
-    // finite in float32.
-    static constexpr double maxFactor = 1e12;
+    static std::size_t slotNumber(std::string_view name) {
+        constexpr std::string_view names[] = {"baseColorTexture", "metallicRoughnessTexture",
+                                              "normalTexture",    "occlusionTexture",
+                                              "emissiveTexture",  "specularTexture"};
+        return static_cast<std::size_t>(std::ranges::find(names, name) - std::begin(names));
+    }
 
     double bounded(const std::string& what, double x, double least, double most) {
         const double inside = std::clamp(x, least, most);
@@ -129,10 +140,9 @@ private:
         std::vector<double> scale = numbersIn(transform, "scale", {1, 1}, who);
         for (double& x : offset) x = bounded(slot + " offset", x, -maxFactor, maxFactor);
         for (double& x : scale) x = bounded(slot + " scale", x, -maxFactor, maxFactor);
-        const double angle = numberIn(transform, "rotation", 0, who);
-        const double c = std::cos(angle), s = std::sin(angle);
-        result.u = {c * scale[0], s * scale[1], offset[0]};
-        result.v = {-s * scale[0], c * scale[1], offset[1]};
+        TextureTransform& parts = parts_.transforms[slotNumber(slot)];
+        parts = {{offset[0], offset[1]}, {scale[0], scale[1]}, numberIn(transform, "rotation", 0, who)};
+        setTransform(result, parts);
         return indexIn(transform, "texCoord", texcoord, who);
     }
 
@@ -172,7 +182,9 @@ private:
             if (!(emitted <= static_cast<double>(std::numeric_limits<float>::max())))
                 fail(who_, fmt::format("emits {:g}, beyond any float", emitted));
             m.emissive[c] = within("emissiveFactor", emitted, 0, std::numeric_limits<float>::max());
+            parts_.emissive[c] = std::max(file_.emissiveFactor[static_cast<std::size_t>(c)], 0.0);
         }
+        parts_.emissive_strength = strength;
     }
 
     void readLightmap(Material& m) {
@@ -226,7 +238,13 @@ void noteMaterials(const tinygltf::Model& model, const Test& test, const char* w
 
 // What the model of thin transmission leaves out, once a scene.
 void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& drawn, Scene& scene) {
-    const auto transmits = [&](std::size_t i) { return drawn[i] && scene.materials[i].transmission > 0; };
+    std::set<int> begin;  // that an animation may make transmit
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            if (channel.part == AnimatedPart::transmission) begin.insert(channel.object);
+    const auto transmits = [&](std::size_t i) {
+        return drawn[i] && (scene.materials[i].transmission > 0 || begin.contains(static_cast<int>(i)));
+    };
     const auto extensionOf = [&](std::size_t i, const char* name) {
         return extension(model.materials[i].extensions, name);
     };
@@ -236,7 +254,8 @@ void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& dra
         "and the colour of what passes are not modelled",
         scene);
     const auto textured = [&](std::size_t i) {
-        return transmits(i) && extensionOf(i, "KHR_materials_transmission")->Has("transmissionTexture");
+        const auto* e = extensionOf(i, "KHR_materials_transmission");
+        return transmits(i) && e && e->Has("transmissionTexture");
     };
     noteMaterials(model, textured,
                   "with a transmissionTexture: not read, transmissionFactor counts everywhere", scene);
@@ -283,11 +302,15 @@ void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, S
     const std::size_t before = scene.notes.size();
     const std::vector<std::string> faults = readTextures(model, scene);
     const std::vector<bool> drawn = drawnMaterials(model, scene);
+    const std::set<int> moving = materialsThatMove(scene);
     NoteList left("materials");
     for (std::size_t i = 0; i < model.materials.size(); ++i) {
         Material& m = scene.materials.emplace_back();
         try {
-            m = MaterialReader(model, extras, scene, faults, i).read();
+            MaterialReader reader(model, extras, scene, faults, i);
+            m = reader.read();
+            if (moving.contains(static_cast<int>(i)))
+                scene.material_parts[static_cast<int>(i)] = reader.parts();
         } catch (const std::runtime_error& e) {
             if (drawn[i]) throw;
             left.add(std::string(e.what()) + ": left out, nothing is drawn with it");

@@ -11,8 +11,9 @@ class Model;
 
 namespace diptych::gltf {
 
-// Reads skins and animations, and sets Node::skin, transform and weights. `sceneNode[n]` is the index in
-// Scene::nodes of the file's node n, -1 if the scene does not contain it.
+// Reads skins and animations, and sets Node::skin, transform and weights. `sceneNode[n]`
+// is the index in Scene::nodes of the file's node n, -1 if the scene does not contain it. Lights and cameras
+// must have been read.
 //
 // A skin that a drawn mesh uses must be valid: every joint in the scene, inverse bind matrices finite and
 // affine; otherwise std::runtime_error is thrown, "skin 0: ...". Animation channels of nodes outside the

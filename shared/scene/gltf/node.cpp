@@ -248,6 +248,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
                                            fmt::format("camera {}", file.camera), notes);
                 if (camera.name.empty()) camera.name = file.name;
                 camera.node = place[n];
+                camera.source = file.camera;
                 cameras.emplace_back(file.camera, camera);
             } catch (const std::runtime_error& e) {
                 notes.add(std::string(e.what()) + ": left out");
@@ -262,6 +263,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
                 addExtras(extras, static_cast<std::size_t>(index), light, notes);
                 if (light.name.empty()) light.name = file.name;
                 light.node = place[n];
+                light.source = index;
                 scene.lights.push_back(light);
             }
         }

@@ -212,8 +212,11 @@ constexpr Property camera[] = {required(text("type", "perspective orthographic")
                                object("perspective", perspective), object("orthographic", orthographic),
                                name()};
 
+constexpr Property animationPointer[] = {required(text("pointer"))};
+constexpr Property targetExtensions[] = {object("KHR_animation_pointer", animationPointer)};
 constexpr Property channelTarget[] = {index("node", "nodes"),
-                                      required(Property{.key = "path", .kind = Kind::name})};
+                                      required(Property{.key = "path", .kind = Kind::name}),
+                                      extensions(targetExtensions)};
 constexpr Property channel[] = {required(whole("sampler")), required(object("target", channelTarget))};
 constexpr Property animationSampler[] = {required(index("input", "accessors")),
                                          text("interpolation", "LINEAR STEP CUBICSPLINE"),

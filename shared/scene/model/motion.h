@@ -63,14 +63,49 @@ struct Skin {
 };
 
 enum class Interpolation { step, linear, cubic_spline };
-enum class AnimatedPart { translation, rotation, scale, weights };
+// What a channel moves. The order tells nodes, meshes, lights, cameras and materials apart: see animated.h,
+// which has widths and valid ranges.
+enum class AnimatedPart {
+    translation,
+    rotation,
+    scale,
+    weights,       // of all morph targets of a node
+    weight,        // of one of them
+    mesh_weights,  // of a mesh's morph targets, for its nodes that have no weights of their own
+    mesh_weight,
+    light_color,
+    light_intensity,
+    light_range,
+    light_inner_cone,
+    light_outer_cone,
+    camera_yfov,
+    camera_ymag,
+    camera_near,
+    camera_far,
+    base_color,
+    metallic,
+    roughness,
+    emissive,  // the factor, without its strength
+    emissive_strength,
+    normal_scale,
+    occlusion_strength,
+    alpha_cutoff,
+    ior,
+    specular,
+    specular_color,
+    transmission,
+    texture_offset,  // KHR_texture_transform of one slot
+    texture_rotation,
+    texture_scale
+};
 
 // Keyframes that several channels may share. A key has `width` values: 3 for a translation (m) or a scale, 4
 // for a rotation (x, y, z, w: unit, except that a cubic spline's are as in the file), one for each morph
-// target for weights. With a cubic spline each key has in-tangent, value and out-tangent, in this order.
+// target for weights, otherwise those of factsOf(). With a cubic spline each key has in-tangent, value and
+// out-tangent, in this order.
 struct Keyframes {
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times;   // s, >= 0, strictly increasing; at least one
+    std::vector<float> times;   // s, >= 0, not decreasing; at least one. Of equal ones the last counts
     std::vector<float> values;  // times.size() * width * (cubic_spline ? 3 : 1)
     std::size_t width = 0;
 };
@@ -79,12 +114,15 @@ struct AnimationChannel {
     int node = -1;       // into Scene::nodes; that node has Node::transform, or a mesh with morph targets
     int keyframes = -1;  // into Animation::keyframes
     AnimatedPart part = AnimatedPart::translation;
+    int object =
+        -1;  // what else than a node it moves: into Scene::meshes or materials, Light or Camera::source
+    int element = 0;  // of one weight: the morph target; of a texture transform: the slot (SLOT_*)
 };
 
 struct Animation {
     std::string name;
     std::vector<Keyframes> keyframes;
-    std::vector<AnimationChannel> channels;  // no two move the same part of a node
+    std::vector<AnimationChannel> channels;  // no two move the same thing
 };
 
 // False of an animation that moves nothing of the scene; it is there so that the others keep their indices.

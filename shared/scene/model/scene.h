@@ -4,6 +4,7 @@
 #pragma once
 
 #include "shared/contract/constants.h"
+#include "shared/contract/material.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/motion.h"
 
@@ -13,8 +14,10 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +63,12 @@ struct TextureSlot {
     bool operator==(const TextureSlot&) const = default;
 };
 
+// KHR_texture_transform of a slot in the parts that animations replace: see setTransform() in animated.h.
+struct TextureTransform {
+    glm::dvec2 offset{0, 0}, scale{1, 1};
+    double rotation = 0;  // rad
+};
+
 enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
@@ -80,6 +89,13 @@ struct Material {
     // In the order of SLOT_* of contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture, lightmap_texture;
+};
+
+// What a Material holds combined, in the parts that animations replace.
+struct MaterialParts {
+    glm::dvec3 emissive{0, 0, 0};
+    double emissive_strength = 1;
+    std::array<TextureTransform, gpu::SLOT_COUNT> transforms;  // by SLOT_*
 };
 
 // Whether it is drawn over what lies behind it, which is seen through it.
@@ -153,6 +169,7 @@ struct Light {
     glm::dvec3 position{0, 0, 0};    // area: of its centre
     glm::dvec3 direction{0, 0, -1};  // unit, in which it shines; without effect for a tube
     glm::dvec3 axis{1, 0, 0};        // unit; rect: at right angles to the direction
+    int source = -1;  // of a light of KHR_lights_punctual: its index there, which animations name
 };
 
 // Light from all directions, as a lat-long picture: the centre x + 0.5 of column x of `width` has the
@@ -173,6 +190,7 @@ struct Camera {
     double far = std::numeric_limits<double>::infinity();
     int node = -1;
     glm::dmat4 world_from_camera{1.0};  // used where `node` is -1
+    int source = -1;                    // its index in the file, which animations name
 };
 
 struct Scene {
@@ -180,15 +198,16 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
+    std::map<int, MaterialParts> material_parts;  // of materials that animations move, by their index
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
     std::vector<Light> lights;
     std::optional<Environment> environment;
     std::vector<Camera> cameras;
-    std::vector<Transform> transforms;        // of the nodes that animations move
-    std::vector<std::vector<float>> weights;  // of morph targets, of the nodes that have their own
-    std::vector<Skin> skins;                  // those that a drawn mesh uses
-    std::vector<Animation> animations;        // as in the file, but empty where none moves this scene
+    std::vector<Transform> transforms;            // of the nodes that animations move
+    std::vector<std::vector<float>> weights;      // of morph targets, of the nodes that have their own
+    std::vector<Skin> skins;                      // those that a drawn mesh uses
+    std::vector<Animation> animations;            // as in the file, but empty where none moves this scene
     glm::vec3 background{0, 0, 0};   // colour of uncovered pixels in pictures; in channels they are 0
     std::vector<std::string> notes;  // what was read otherwise than as the file says, one line each
 };

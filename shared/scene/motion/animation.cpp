@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/motion/animation.h"
 
+#include "shared/scene/model/animated.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -110,6 +111,36 @@ std::span<const Animation> animationsOf(const Scene& scene, const std::string& c
         all.empty() ? "nothing of the scene is animated" : "the scene's animations are " + there));
 }
 
+namespace {
+
+template <class Weight>
+std::vector<double> inDouble(const std::vector<Weight>& weights) {
+    return {weights.begin(), weights.end()};
+}
+
+// Those of all targets, or of one, the others being as they are at rest or as an earlier channel left them.
+void moveWeights(const Scene& scene, const AnimationChannel& channel, std::vector<double> values,
+                 NodeMotion& motion) {
+    const bool ofNode = isNodePart(channel.part);
+    const int key = ofNode ? channel.node : channel.object;
+    std::map<int, std::vector<double>>& all = ofNode ? motion.weights : motion.mesh_weights;
+    if (channel.part == AnimatedPart::weights || channel.part == AnimatedPart::mesh_weights) {
+        all[key] = std::move(values);
+        return;
+    }
+    const auto [at, isNew] = all.try_emplace(key);
+    if (isNew) {
+        const Node* node = ofNode ? &scene.nodes[static_cast<std::size_t>(key)] : nullptr;
+        const int mesh = node ? node->mesh : key;
+        at->second = node && node->weights >= 0
+                         ? inDouble(scene.weights[static_cast<std::size_t>(node->weights)])
+                         : inDouble(scene.meshes[static_cast<std::size_t>(mesh)].weights);
+    }
+    at->second[static_cast<std::size_t>(channel.element)] = values[0];
+}
+
+}  // namespace
+
 NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choice) {
     NodeMotion motion;
     for (const Node& node : scene.nodes) motion.parent_from_node.push_back(node.parent_from_node);
@@ -118,8 +149,9 @@ NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choic
         for (const AnimationChannel& channel : animation.channels) {
             std::vector<double> values = sampled(
                 animation.keyframes[static_cast<std::size_t>(channel.keyframes)], channel.part, seconds);
-            if (channel.part == AnimatedPart::weights) {
-                motion.weights[channel.node] = std::move(values);
+            if (!isNodePart(channel.part) && !isMeshPart(channel.part)) continue;
+            if (channel.part >= AnimatedPart::weights) {
+                moveWeights(scene, channel, std::move(values), motion);
                 continue;
             }
             const int rest = scene.nodes[static_cast<std::size_t>(channel.node)].transform;

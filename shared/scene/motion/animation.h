@@ -25,6 +25,7 @@ struct NodeMotion {
     std::vector<glm::dmat4> parent_from_node;  // of every node, animated or not
     std::map<int, std::vector<double>>
         weights;  // by node: weights of the morph targets, for nodes whose weights an animation moves
+    std::map<int, std::vector<double>> mesh_weights;  // by mesh, likewise
 };
 NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choice = {});
 

@@ -4,6 +4,7 @@
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/animation.h"
 #include "shared/scene/motion/posed.h"
+#include "shared/scene/motion/properties.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -138,8 +139,11 @@ public:
             return add(std::move(moved->second));
         if (node.weights >= 0) return addCopy(scene_.weights[static_cast<std::size_t>(node.weights)]);
         int& place = place_of_mesh_[static_cast<std::size_t>(node.mesh)];
-        if (place == unknown) place = addCopy(scene_.meshes[static_cast<std::size_t>(node.mesh)].weights);
-        return place;
+        if (place != unknown) return place;
+        const auto moved = motion_.mesh_weights.find(node.mesh);
+        return place = moved != motion_.mesh_weights.end()
+                           ? add(std::move(moved->second))
+                           : addCopy(scene_.meshes[static_cast<std::size_t>(node.mesh)].weights);
     }
 
 private:
@@ -205,11 +209,13 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
         pose.boxes.back().first_vertex = vertices;
         vertices += primitiveOf(scene, instance).positions.size();
     }
-    for (const Light& light : scene.lights)
+    PropertyMotion properties = propertiesAt(scene, seconds, animation);
+    pose.materials = std::move(properties.materials);
+    for (const Light& light : properties.lights)
         if (hasPlace(light, world)) pose.lights.push_back(inWorld(light, world));
     std::stable_partition(pose.lights.begin(), pose.lights.end(),
                           [](const Light& light) { return light.kind == LightKind::directional; });
-    for (Camera camera : scene.cameras) {
+    for (Camera camera : properties.cameras) {
         if (!hasPlace(camera, world)) continue;
         if (camera.node >= 0) camera.world_from_camera = world[static_cast<std::size_t>(camera.node)];
         camera.node = -1;

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/animation.h"
+
+#include "shared/scene/gltf/animation_pointer.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/scene/model/animated.h"
+#include "shared/text/fail.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::gltf {
+
+namespace {
+
+bool isPointer(const tinygltf::AnimationChannel& channel) {
+    return channel.target_path == "pointer" && extension(channel.target_extensions, "KHR_animation_pointer");
+}
+
+bool hasTransform(AnimatedPart part) {
+    return part == AnimatedPart::translation || part == AnimatedPart::rotation || part == AnimatedPart::scale;
+}
+
+// How an output is read. Channels that read the same sampler alike share its keyframes.
+struct OutputShape {
+    std::size_t width;  // of its accessor's elements
+    bool several;       // elements a key: the weights of all morph targets
+    bool rotation;
+    bool integers;  // of any kind: KHR_animation_pointer
+    auto operator<=>(const OutputShape&) const = default;
+};
+
+// Which things of the file the scene contains.
+struct Contained {
+    std::set<int> meshes, lights, cameras, materials;
+
+    Contained(const tinygltf::Model& model, const Scene& scene) {
+        for (const Node& node : scene.nodes)
+            if (node.mesh >= 0) meshes.insert(node.mesh);
+        for (const int mesh : meshes)
+            for (const tinygltf::Primitive& p : model.meshes[static_cast<std::size_t>(mesh)].primitives)
+                materials.insert(p.material);
+        for (const Light& light : scene.lights) lights.insert(light.source);
+        for (const Camera& camera : scene.cameras) cameras.insert(camera.source);
+    }
+};
+
+class AnimationReader {
+public:
+    AnimationReader(const tinygltf::Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
+                    Scene& scene)
+        : model_(model), scene_node_(sceneNode), budget_(budget), scene_(scene), contained_(model, scene) {}
+
+    void read() {
+        const std::size_t before = scene_.notes.size();
+        for (std::size_t a = 0; a < model_.animations.size(); ++a) animation(a);
+        limitNotes(scene_.notes, before, "animations");
+        const auto moving = std::ranges::count_if(scene_.animations, movesAnything);
+        if (moving == 0) scene_.animations.clear();
+        if (moving > 1)
+            scene_.notes.push_back(fmt::format(
+                "{} animations: all play at once, later ones win; --animation plays one alone", moving));
+    }
+
+private:
+    const tinygltf::Model& model_;
+    const std::vector<int>& scene_node_;
+    MotionBudget& budget_;
+    Scene& scene_;
+    Contained contained_;
+    const tinygltf::Animation* file_ = nullptr;
+    std::map<std::pair<int, OutputShape>, int> place_;  // (the file's sampler, shape) -> into keyframes
+    std::set<ChannelTarget> moved_;
+
+    void animation(std::size_t index) {
+        file_ = &model_.animations[index];
+        place_.clear();
+        moved_.clear();
+        const std::string who = fmt::format("animation {}", index);
+        Animation result;
+        result.name = file_->name;
+        std::size_t faulty = 0;
+        std::string first;  // the fault of the first of them
+        for (std::size_t c = 0; c < file_->channels.size(); ++c) {
+            try {
+                channel(file_->channels[c], who, fmt::format("channel {}", c), result);
+            } catch (const std::runtime_error& e) {
+                if (faulty++ == 0) first = e.what();
+            }
+        }
+        if (faulty)
+            scene_.notes.push_back(fmt::format("{}: {} of {} channels left out: {}", who, faulty,
+                                               file_->channels.size(), first));
+        if (result.channels.empty()) result.keyframes.clear();
+        scene_.animations.push_back(std::move(result));
+    }
+
+    void channel(const tinygltf::AnimationChannel& file, const std::string& animation, const std::string& who,
+                 Animation& result) {
+        const ChannelTarget target = targetOf(file, who);
+        if (target.object < 0 || !isContained(target)) return;
+        if (hasTransform(target.part) && !nodeOf(target).matrix.empty())
+            fail(who, fmt::format("node {} has a matrix, which cannot be animated", target.object));
+        claim(target, who);
+        const OutputShape shape{
+            factsOf(target.part).width,
+            target.part == AnimatedPart::weights || target.part == AnimatedPart::mesh_weights,
+            target.part == AnimatedPart::rotation, isPointer(file)};
+        const auto known = place_.find({file.sampler, shape});
+        const int keys = known == place_.end() ? static_cast<int>(result.keyframes.size()) : known->second;
+        Keyframes fresh;
+        if (known == place_.end()) fresh = keyframes(file.sampler, shape, who);
+        const Keyframes& these =
+            known == place_.end() ? fresh : result.keyframes[static_cast<std::size_t>(keys)];
+        checkWeights(these, target, who);
+        noteKeys(these, target, known == place_.end(), fmt::format("{}: {}", animation, who));
+        AnimationChannel made{.keyframes = keys, .part = target.part, .element = target.element};
+        if (isNodePart(target.part))
+            made.node = scene_node_[static_cast<std::size_t>(target.object)];
+        else
+            made.object = target.object;
+        if (known == place_.end()) {
+            place_[{file.sampler, shape}] = keys;
+            result.keyframes.push_back(std::move(fresh));
+        }
+        if (hasTransform(target.part)) giveTransform(target.object);
+        result.channels.push_back(made);
+    }
+
+    const tinygltf::Node& nodeOf(const ChannelTarget& target) const {
+        return model_.nodes[static_cast<std::size_t>(target.object)];
+    }
+
+    ChannelTarget targetOf(const tinygltf::AnimationChannel& channel, const std::string& who) const {
+        if (isPointer(channel))
+            return pointerTarget(model_,
+                                 extension(channel.target_extensions, "KHR_animation_pointer")
+                                     ->Get("pointer")
+                                     .Get<std::string>(),
+                                 who);
+        ChannelTarget target;
+        target.object = checkedIndex(channel.target_node, model_.nodes.size(), who, "node");
+        if (target.object < 0 || !isContained(target)) return target;
+        static const std::map<std::string, AnimatedPart> parts{{"translation", AnimatedPart::translation},
+                                                               {"rotation", AnimatedPart::rotation},
+                                                               {"scale", AnimatedPart::scale},
+                                                               {"weights", AnimatedPart::weights}};
+        const auto part = parts.find(channel.target_path);
+        if (part == parts.end())
+            fail(who, fmt::format("path \"{}\" is none of translation, rotation, scale, weights",
+                                  channel.target_path));
+        target.part = part->second;
+        return target;
+    }
+
+    bool isContained(const ChannelTarget& target) const {
+        if (!target.effect) return false;
+        if (isNodePart(target.part)) return scene_node_[static_cast<std::size_t>(target.object)] >= 0;
+        return (isMeshPart(target.part)     ? contained_.meshes
+                : isLightPart(target.part)  ? contained_.lights
+                : isCameraPart(target.part) ? contained_.cameras
+                                            : contained_.materials)
+            .contains(target.object);
+    }
+
+    // One animation moves nothing twice, nor an array and one of its elements.
+    void claim(const ChannelTarget& target, const std::string& who) {
+        const auto taken = [&](AnimatedPart part, int element) {
+            return moved_.contains({part, target.object, element});
+        };
+        const AnimatedPart all = target.part == AnimatedPart::weight        ? AnimatedPart::weights
+                                 : target.part == AnimatedPart::mesh_weight ? AnimatedPart::mesh_weights
+                                                                            : target.part;
+        const AnimatedPart one = all == AnimatedPart::weights        ? AnimatedPart::weight
+                                 : all == AnimatedPart::mesh_weights ? AnimatedPart::mesh_weight
+                                                                     : target.part;
+        const bool element = all != target.part;
+        constexpr int any = -1;
+        if (taken(target.part, target.element) || (element && taken(all, 0)) ||
+            (!element && one != all && taken(one, any)))
+            fail(who, fmt::format("{} {} is moved by an earlier channel already",
+                                  isNodePart(target.part)     ? "node"
+                                  : isMeshPart(target.part)   ? "mesh"
+                                  : isLightPart(target.part)  ? "light"
+                                  : isCameraPart(target.part) ? "camera"
+                                                              : "material",
+                                  target.object));
+        moved_.insert(target);
+        if (element) moved_.insert({one, target.object, any});
+    }
+
+    Keyframes keyframes(int index, const OutputShape& shape, const std::string& who) {
+        if (checkedIndex(index, file_->samplers.size(), who, "sampler") < 0) fail(who, "names no sampler");
+        const tinygltf::AnimationSampler& file = file_->samplers[static_cast<std::size_t>(index)];
+        Keyframes result;
+        if (file.interpolation == "STEP")
+            result.interpolation = Interpolation::step;
+        else if (file.interpolation == "CUBICSPLINE")
+            result.interpolation = Interpolation::cubic_spline;
+        else if (file.interpolation != "LINEAR")
+            fail(who, fmt::format("interpolation \"{}\" is none of STEP, LINEAR, CUBICSPLINE",
+                                  file.interpolation));
+        readTimes(file.input, who + ": input", result);
+        readValues(file.output, shape, who + ": output", result);
+        return result;
+    }
+
+    void readTimes(int accessor, const std::string& who, Keyframes& result) {
+        Numbers times = budget_.read(model_, accessor, who);
+        if (times.width != 1 || times.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+            fail(who, fmt::format("accessor {} is not SCALAR of floats", accessor));
+        if (times.count == 0) fail(who, "has no keys");
+        for (std::size_t i = 0; i < times.count; ++i) {
+            const float t = times.values[i];
+            if (!std::isfinite(t) || t < 0) fail(who, fmt::format("key {} is at {:g} s", i, t));
+            if (i > 0 && t < times.values[i - 1])
+                fail(who, fmt::format("key {} at {:g} s is before the one before it", i, t));
+        }
+        result.times = std::move(times.values);
+    }
+
+    void readValues(int accessor, const OutputShape& shape, const std::string& who, Keyframes& result) {
+        Numbers read = budget_.read(model_, accessor, who);
+        const bool floats = read.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+        const bool integers = read.normalized && read.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        const bool mayBeIntegers = shape.rotation || shape.several;
+        if (read.width != shape.width || !(floats || shape.integers || (integers && mayBeIntegers)))
+            fail(who, fmt::format("accessor {} is not {}{}", accessor,
+                                  shape.width == 1 ? "SCALAR" : fmt::format("VEC{}", shape.width),
+                                  shape.integers  ? ""
+                                  : mayBeIntegers ? " of floats or normalized integers"
+                                                  : " of floats"));
+        if (!std::ranges::all_of(read.values, [](float v) { return std::isfinite(v); }))
+            fail(who, "holds values that are not finite");
+        const std::size_t keys =
+            result.times.size() * (result.interpolation == Interpolation::cubic_spline ? 3 : 1);
+        if (read.count == 0 || read.count % keys != 0 || (!shape.several && read.count != keys))
+            fail(who, fmt::format("{} elements for {} keys", read.count, result.times.size()));
+        result.width = read.values.size() / keys;
+        result.values = std::move(read.values);
+        if (shape.rotation && result.interpolation != Interpolation::cubic_spline)
+            makeUnit(result.values, who);
+    }
+
+    static void makeUnit(std::vector<float>& rotations, const std::string& who) {
+        for (std::size_t i = 0; i + 3 < rotations.size(); i += 4) {
+            const glm::dvec4 q(rotations[i], rotations[i + 1], rotations[i + 2], rotations[i + 3]);
+            const double length = glm::length(q);
+            if (!(length > 0)) fail(who, fmt::format("rotation {} is 0 0 0 0", i / 4));
+            for (std::size_t c = 0; c < 4; ++c)
+                rotations[i + c] = static_cast<float>(q[static_cast<int>(c)] / length);
+        }
+    }
+
+    // Channels may share keyframes, but every animated node or mesh has its own weights.
+    void checkWeights(const Keyframes& keys, const ChannelTarget& target, const std::string& who) {
+        const bool node = isNodePart(target.part);
+        if (hasTransform(target.part) || !(node || isMeshPart(target.part))) return;
+        const std::size_t targets = node ? targetsOf(model_, nodeOf(target))
+                                         : targetsOf(model_.meshes[static_cast<std::size_t>(target.object)]);
+        const char* what = node ? "node" : "mesh";
+        if (targets == 0) fail(who, fmt::format("{} {} has no morph targets", what, target.object));
+        const bool all = target.part == AnimatedPart::weights || target.part == AnimatedPart::mesh_weights;
+        if (all && keys.width != targets)
+            fail(who, fmt::format("{} weights a key, but {} {} has {} morph targets", keys.width, what,
+                                  target.object, targets));
+        budget_.hold(sizeof(double), targets, who, "weights");
+    }
+
+    void noteKeys(const Keyframes& keys, const ChannelTarget& target, bool fresh, const std::string& who) {
+        if (fresh && std::ranges::adjacent_find(keys.times) != keys.times.end())
+            scene_.notes.push_back(who + ": keys at one time: the last of them counts from there on");
+        if (isNodePart(target.part) || isMeshPart(target.part)) return;
+        const PartFacts facts = factsOf(target.part);
+        const std::size_t width = keys.width;
+        const std::size_t stride = keys.interpolation == Interpolation::cubic_spline ? 3 * width : width;
+        const std::size_t first = stride - width > 0 ? width : 0;  // tangents may be any
+        for (std::size_t k = first; k < keys.values.size(); k += stride)
+            for (std::size_t i = k; i < k + width; ++i) {
+                const double x = keys.values[i];
+                const bool gap = target.part == AnimatedPart::ior && x > 0 && x < 1;
+                if (x >= facts.least && x <= facts.most && !gap) continue;
+                scene_.notes.push_back(
+                    gap ? fmt::format("{}: ior {:g} is neither 0 nor at least 1: taken as 1", who, x)
+                        : fmt::format("{}: {:g} is outside {:g} to {:g}: taken as the nearest", who, x,
+                                      facts.least, facts.most));
+                return;
+            }
+    }
+
+    // The numbers have been checked when the node's matrix was made from them.
+    void giveTransform(int node) {
+        Node& target = scene_.nodes[static_cast<std::size_t>(scene_node_[static_cast<std::size_t>(node)])];
+        if (target.transform >= 0) return;
+        const tinygltf::Node& file = model_.nodes[static_cast<std::size_t>(node)];
+        Transform t;
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (file.translation.size() == 3) t.translation[static_cast<int>(c)] = file.translation[c];
+            if (file.scale.size() == 3) t.scale[static_cast<int>(c)] = file.scale[c];
+        }
+        if (file.rotation.size() == 4) {
+            const std::vector<double>& r = file.rotation;
+            const glm::dquat q(r[3], r[0], r[1], r[2]);
+            if (glm::length(q) > 0) t.rotation = glm::normalize(q);
+        }
+        target.transform = static_cast<int>(scene_.transforms.size());
+        scene_.transforms.push_back(t);
+    }
+};
+
+}  // namespace
+
+void readAnimations(const tinygltf::Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
+                    Scene& scene) {
+    AnimationReader(model, sceneNode, budget, scene).read();
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/animation_pointer.h"
+
+#include "shared/contract/material.h"
+#include "shared/scene/gltf/motion_budget.h"
+#include "shared/scene/gltf/value.h"
+#include "shared/text/fail.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace diptych::gltf {
+
+namespace {
+
+// {} stands for an index.
+struct Pattern {
+    std::string_view text;
+    AnimatedPart part;
+    int slot = 0;
+};
+
+constexpr Pattern pointerPatterns[] = {
+    {"/nodes/{}/translation", AnimatedPart::translation},
+    {"/nodes/{}/rotation", AnimatedPart::rotation},
+    {"/nodes/{}/scale", AnimatedPart::scale},
+    {"/nodes/{}/weights", AnimatedPart::weights},
+    {"/nodes/{}/weights/{}", AnimatedPart::weight},
+    {"/meshes/{}/weights", AnimatedPart::mesh_weights},
+    {"/meshes/{}/weights/{}", AnimatedPart::mesh_weight},
+    {"/extensions/KHR_lights_punctual/lights/{}/color", AnimatedPart::light_color},
+    {"/extensions/KHR_lights_punctual/lights/{}/intensity", AnimatedPart::light_intensity},
+    {"/extensions/KHR_lights_punctual/lights/{}/range", AnimatedPart::light_range},
+    {"/extensions/KHR_lights_punctual/lights/{}/spot/innerConeAngle", AnimatedPart::light_inner_cone},
+    {"/extensions/KHR_lights_punctual/lights/{}/spot/outerConeAngle", AnimatedPart::light_outer_cone},
+    {"/cameras/{}/perspective/yfov", AnimatedPart::camera_yfov},
+    {"/cameras/{}/perspective/znear", AnimatedPart::camera_near},
+    {"/cameras/{}/perspective/zfar", AnimatedPart::camera_far},
+    {"/cameras/{}/orthographic/ymag", AnimatedPart::camera_ymag},
+    {"/cameras/{}/orthographic/znear", AnimatedPart::camera_near},
+    {"/cameras/{}/orthographic/zfar", AnimatedPart::camera_far},
+    {"/materials/{}/pbrMetallicRoughness/baseColorFactor", AnimatedPart::base_color},
+    {"/materials/{}/pbrMetallicRoughness/metallicFactor", AnimatedPart::metallic},
+    {"/materials/{}/pbrMetallicRoughness/roughnessFactor", AnimatedPart::roughness},
+    {"/materials/{}/emissiveFactor", AnimatedPart::emissive},
+    {"/materials/{}/normalTexture/scale", AnimatedPart::normal_scale, gpu::SLOT_normal},
+    {"/materials/{}/occlusionTexture/strength", AnimatedPart::occlusion_strength, gpu::SLOT_occlusion},
+    {"/materials/{}/alphaCutoff", AnimatedPart::alpha_cutoff},
+    {"/materials/{}/extensions/KHR_materials_emissive_strength/emissiveStrength",
+     AnimatedPart::emissive_strength},
+    {"/materials/{}/extensions/KHR_materials_ior/ior", AnimatedPart::ior},
+    {"/materials/{}/extensions/KHR_materials_specular/specularFactor", AnimatedPart::specular},
+    {"/materials/{}/extensions/KHR_materials_specular/specularColorFactor", AnimatedPart::specular_color},
+    {"/materials/{}/extensions/KHR_materials_transmission/transmissionFactor", AnimatedPart::transmission},
+};
+
+// Where a material has the textures of its slots; followed by one of transformPatterns.
+constexpr Pattern texturePatterns[] = {
+    {"/materials/{}/pbrMetallicRoughness/baseColorTexture", {}, gpu::SLOT_base_color},
+    {"/materials/{}/pbrMetallicRoughness/metallicRoughnessTexture", {}, gpu::SLOT_metallic_roughness},
+    {"/materials/{}/normalTexture", {}, gpu::SLOT_normal},
+    {"/materials/{}/occlusionTexture", {}, gpu::SLOT_occlusion},
+    {"/materials/{}/emissiveTexture", {}, gpu::SLOT_emissive},
+    {"/materials/{}/extensions/KHR_materials_specular/specularTexture", {}, gpu::SLOT_specular},
+    {"/materials/{}/extensions/KHR_materials_specular/specularColorTexture", {}, gpu::SLOT_specular_color},
+};
+constexpr Pattern transformPatterns[] = {
+    {"/extensions/KHR_texture_transform/offset", AnimatedPart::texture_offset},
+    {"/extensions/KHR_texture_transform/rotation", AnimatedPart::texture_rotation},
+    {"/extensions/KHR_texture_transform/scale", AnimatedPart::texture_scale},
+};
+
+// RFC 6901: no sign, no leading zero.
+std::optional<int> indexOf(std::string_view text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || text[0] == '-') return std::nullopt;
+    if (text.size() > 1 && text[0] == '0') return std::nullopt;
+    return value;
+}
+
+// The indices in a pointer, if it begins as the pattern; `rest`: what follows it.
+std::optional<std::vector<int>> indicesIn(std::string_view pointer, std::string_view pattern,
+                                          std::string_view& rest) {
+    std::vector<int> indices;
+    while (!pattern.empty()) {
+        const std::size_t plain = pattern.find("{}");
+        if (!pointer.starts_with(pattern.substr(0, plain))) return std::nullopt;
+        if (plain == pattern.npos) {
+            pointer.remove_prefix(pattern.size());
+            break;
+        }
+        pointer.remove_prefix(plain);
+        pattern.remove_prefix(plain + 2);
+        const std::string_view token = pointer.substr(0, pointer.find('/'));
+        const std::optional<int> index = indexOf(token);
+        if (!index) return std::nullopt;
+        indices.push_back(*index);
+        pointer.remove_prefix(token.size());
+    }
+    rest = pointer;
+    return indices;
+}
+
+struct Match {
+    AnimatedPart part;
+    int slot;
+    std::vector<int> indices;
+};
+
+std::optional<Match> matchOf(std::string_view pointer) {
+    std::string_view rest;
+    for (const Pattern& pattern : pointerPatterns)
+        if (auto indices = indicesIn(pointer, pattern.text, rest); indices && rest.empty())
+            return Match{pattern.part, pattern.slot, std::move(*indices)};
+    for (const Pattern& texture : texturePatterns)
+        if (auto indices = indicesIn(pointer, texture.text, rest))
+            for (const Pattern& transform : transformPatterns)
+                if (rest == transform.text) return Match{transform.part, texture.slot, std::move(*indices)};
+    return std::nullopt;
+}
+
+// ~1 stands for /, which no name that is read has, and ~0 for ~.
+std::string unescaped(std::string_view pointer) {
+    std::string text;
+    for (std::size_t i = 0; i < pointer.size(); ++i) {
+        const bool escaped = pointer[i] == '~' && i + 1 < pointer.size() && pointer[i + 1] == '0';
+        text += pointer[i];
+        i += escaped;
+    }
+    return text;
+}
+
+class Resolver {
+public:
+    Resolver(const tinygltf::Model& model, const std::string& pointer, const std::string& who)
+        : model_(model), pointer_(oneLine(pointer)), who_(who) {}
+
+    ChannelTarget resolve(const Match& match) const {
+        ChannelTarget target{match.part, match.indices[0], 0};
+        switch (match.part) {
+            case AnimatedPart::translation:
+            case AnimatedPart::rotation:
+            case AnimatedPart::scale:
+            case AnimatedPart::weights:
+            case AnimatedPart::weight:
+                weightOf(targetsOf(model_, item(model_.nodes, target.object)), match, target);
+                return target;
+            case AnimatedPart::mesh_weights:
+            case AnimatedPart::mesh_weight:
+                weightOf(targetsOf(item(model_.meshes, target.object)), match, target);
+                return target;
+            case AnimatedPart::light_color:
+            case AnimatedPart::light_intensity:
+            case AnimatedPart::light_range:
+            case AnimatedPart::light_inner_cone:
+            case AnimatedPart::light_outer_cone:
+                light(item(model_.lights, target.object), target);
+                return target;
+            case AnimatedPart::camera_yfov:
+            case AnimatedPart::camera_ymag:
+            case AnimatedPart::camera_near:
+            case AnimatedPart::camera_far:
+                camera(item(model_.cameras, target.object), target);
+                return target;
+            default:
+                material(item(model_.materials, target.object), match, target);
+                return target;
+        }
+    }
+
+private:
+    const tinygltf::Model& model_;
+    std::string pointer_;
+    const std::string& who_;
+
+    [[noreturn]] void wrong(const std::string& why) const {
+        fail(who_, fmt::format("pointer \"{}\": {}", pointer_, why));
+    }
+
+    template <class Item>
+    const Item& item(const std::vector<Item>& items, int index) const {
+        if (static_cast<std::size_t>(index) >= items.size())
+            wrong(fmt::format("the file has {} of them", items.size()));
+        return items[static_cast<std::size_t>(index)];
+    }
+
+    void weightOf(std::size_t targets, const Match& match, ChannelTarget& target) const {
+        if (match.indices.size() < 2) return;
+        if (static_cast<std::size_t>(match.indices[1]) >= targets)
+            wrong(fmt::format("there are {} morph targets", targets));
+        target.element = match.indices[1];
+    }
+
+    void light(const tinygltf::Light& light, ChannelTarget& target) const {
+        const bool cone =
+            target.part == AnimatedPart::light_inner_cone || target.part == AnimatedPart::light_outer_cone;
+        if (cone) target.effect = light.type == "spot";
+        if (target.part != AnimatedPart::light_range) return;
+        target.effect = light.type != "directional";
+        if (light.range == 0) wrong("the light has no range");
+    }
+
+    void camera(const tinygltf::Camera& camera, const ChannelTarget& target) const {
+        const bool perspective = camera.type == "perspective";
+        if (perspective != (pointer_.find("/perspective/") != pointer_.npos))
+            wrong(fmt::format("the camera is {}", oneLine(camera.type)));
+        if (target.part == AnimatedPart::camera_far && perspective && camera.perspective.zfar == 0)
+            wrong("the camera has no zfar");
+    }
+
+    void material(const tinygltf::Material& material, const Match& match, ChannelTarget& target) const {
+        const bool unlit = extension(material.extensions, "KHR_materials_unlit") != nullptr;
+        const bool textured =
+            target.part == AnimatedPart::normal_scale || target.part == AnimatedPart::occlusion_strength ||
+            target.part == AnimatedPart::texture_offset || target.part == AnimatedPart::texture_rotation ||
+            target.part == AnimatedPart::texture_scale;
+        if (textured && !hasTexture(material, match.slot)) wrong("the material has no such texture");
+        const bool transform = textured && target.part != AnimatedPart::normal_scale &&
+                               target.part != AnimatedPart::occlusion_strength;
+        if (transform) target.element = match.slot;
+        target.effect = !unlit || target.part == AnimatedPart::base_color ||
+                        target.part == AnimatedPart::alpha_cutoff ||
+                        (transform && match.slot == gpu::SLOT_base_color);
+    }
+
+    static bool hasTexture(const tinygltf::Material& material, int slot) {
+        const auto inSpecular = [&](const char* name) {
+            const tinygltf::Value* e = extension(material.extensions, "KHR_materials_specular");
+            return e && e->Has(name);
+        };
+        switch (slot) {
+            case gpu::SLOT_base_color:
+                return material.pbrMetallicRoughness.baseColorTexture.index >= 0;
+            case gpu::SLOT_metallic_roughness:
+                return material.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0;
+            case gpu::SLOT_normal:
+                return material.normalTexture.index >= 0;
+            case gpu::SLOT_occlusion:
+                return material.occlusionTexture.index >= 0;
+            case gpu::SLOT_emissive:
+                return material.emissiveTexture.index >= 0;
+            case gpu::SLOT_specular:
+                return inSpecular("specularTexture");
+            default:
+                return inSpecular("specularColorTexture");
+        }
+    }
+};
+
+}  // namespace
+
+ChannelTarget pointerTarget(const tinygltf::Model& model, const std::string& pointer,
+                            const std::string& who) {
+    const std::optional<Match> match = matchOf(unescaped(pointer));
+    if (!match) fail(who, fmt::format("pointer \"{}\" names nothing that is moved here", oneLine(pointer)));
+    return Resolver(model, pointer, who).resolve(*match);
+}
+
+void keepPointerChannels(nlohmann::json& document) {
+    const auto animations = document.find("animations");
+    if (animations == document.end()) return;
+    static const nlohmann::json::json_pointer pointer("/extensions/KHR_animation_pointer/pointer");
+    for (nlohmann::json& animation : *animations)
+        for (nlohmann::json& channel : animation["channels"]) {
+            nlohmann::json& target = channel["target"];
+            if (target.contains(pointer) && !target.contains("node")) target["node"] = 0;
+        }
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/limits.h"
+#include "shared/text/fail.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <string>
+
+namespace diptych::gltf {
+
+// The number of morph targets.
+inline std::size_t targetsOf(const tinygltf::Mesh& mesh) {
+    return mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
+}
+inline std::size_t targetsOf(const tinygltf::Model& model, const tinygltf::Node& node) {
+    return node.mesh < 0 ? 0 : targetsOf(model.meshes[static_cast<std::size_t>(node.mesh)]);
+}
+
+// Counts, over the whole file, data that decodes to more bytes than the file has for it.
+class MotionBudget {
+public:
+    explicit MotionBudget(const tinygltf::Model& model) : left_(FREE_DECODED_BYTES) {
+        for (const tinygltf::Buffer& buffer : model.buffers)
+            left_ += buffer.data.size() * DECODED_BYTES_PER_BYTE;
+    }
+    Numbers read(const tinygltf::Model& model, int accessor, const std::string& who) {
+        // The widest element is a MAT4; sparse elements are visited twice.
+        const std::size_t count = soundCount(model, accessor, who);
+        hold(2 * 16 * sizeof(float), count, who, "keys or matrices");
+        return readNumbers(model, accessor, who);
+    }
+    void hold(std::size_t bytesEach, std::size_t count, const std::string& who, const char* what) {
+        if (count > left_ / bytesEach) fail(who, fmt::format("{} {} more are too many", count, what));
+        left_ -= bytesEach * count;
+    }
+
+private:
+    std::size_t left_;
+};
+
+}  // namespace diptych::gltf

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// What animations may move, as data: how many numbers it has, which of them are valid, and which materials
+// change over time.
+#pragma once
+
+#include "shared/scene/model/material_slots.h"
+#include "shared/scene/model/motion.h"
+#include "shared/scene/model/scene.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace diptych {
+
+// Bound for numbers of materials that glTF leaves unbounded, at least on one side: keeps their squares and
+// products finite in float32.
+inline constexpr double maxFactor = 1e12;
+
+struct PartFacts {
+    std::size_t width;                                  // numbers a key; of weights, for each morph target
+    double least = -std::numeric_limits<float>::max();  // what is valid; beyond, the nearest counts
+    double most = std::numeric_limits<float>::max();
+};
+
+constexpr PartFacts factsOf(AnimatedPart part) {
+    constexpr double any = std::numeric_limits<float>::max();
+    constexpr double thin =
+        1e-6;  // rad or m: below, a camera or light has no extent that float32 can divide by
+    switch (part) {
+        case AnimatedPart::translation:
+        case AnimatedPart::scale:
+            return {3};
+        case AnimatedPart::rotation:
+            return {4};
+        case AnimatedPart::weights:
+        case AnimatedPart::weight:
+        case AnimatedPart::mesh_weights:
+        case AnimatedPart::mesh_weight:
+        case AnimatedPart::texture_rotation:
+            return {1};
+        case AnimatedPart::light_color:
+            return {3, 0, any};
+        case AnimatedPart::light_intensity:
+        case AnimatedPart::emissive_strength:
+            return {1, 0, any};
+        case AnimatedPart::light_range:
+        case AnimatedPart::camera_ymag:
+        case AnimatedPart::camera_far:
+            return {1, thin, any};
+        case AnimatedPart::light_inner_cone:
+        case AnimatedPart::light_outer_cone:
+            return {1, 0, glm::half_pi<double>()};
+        case AnimatedPart::camera_yfov:
+            return {1, thin, glm::pi<double>() - thin};
+        case AnimatedPart::camera_near:  // 0 is valid of an orthographic camera
+            return {1, 0, any};
+        case AnimatedPart::base_color:
+            return {4, 0, 1};
+        case AnimatedPart::emissive:
+            return {3, 0, any};
+        case AnimatedPart::specular_color:
+            return {3, 0, maxFactor};
+        case AnimatedPart::metallic:
+        case AnimatedPart::roughness:
+        case AnimatedPart::occlusion_strength:
+        case AnimatedPart::specular:
+        case AnimatedPart::transmission:
+            return {1, 0, 1};
+        case AnimatedPart::normal_scale:
+            return {1, -maxFactor, maxFactor};
+        case AnimatedPart::alpha_cutoff:
+            return {1, 0, maxFactor};
+        case AnimatedPart::ior:  // 0, or at least 1
+            return {1, 0, any};
+        case AnimatedPart::texture_offset:
+        case AnimatedPart::texture_scale:
+            return {2, -maxFactor, maxFactor};
+    }
+    return {0};
+}
+
+constexpr bool isNodePart(AnimatedPart part) {
+    return part <= AnimatedPart::weight;
+}
+constexpr bool isMeshPart(AnimatedPart part) {
+    return part == AnimatedPart::mesh_weights || part == AnimatedPart::mesh_weight;
+}
+constexpr bool isLightPart(AnimatedPart part) {
+    return part >= AnimatedPart::light_color && part <= AnimatedPart::light_outer_cone;
+}
+constexpr bool isCameraPart(AnimatedPart part) {
+    return part >= AnimatedPart::camera_yfov && part <= AnimatedPart::camera_far;
+}
+constexpr bool isMaterialPart(AnimatedPart part) {
+    return part >= AnimatedPart::base_color;
+}
+
+// KHR_texture_transform: scale, then rotation (counter-clockwise with v growing downwards), then offset.
+inline void setTransform(TextureSlot& slot, const TextureTransform& t) {
+    const double c = std::cos(t.rotation), s = std::sin(t.rotation);
+    slot.u = {c * t.scale.x, s * t.scale.y, t.offset.x};
+    slot.v = {-s * t.scale.x, c * t.scale.y, t.offset.y};
+}
+
+// The materials of which any of the scene's animations moves something, whichever of them plays.
+inline std::set<int> materialsThatMove(const Scene& scene) {
+    std::set<int> moving;
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            if (isMaterialPart(channel.part)) moving.insert(channel.object);
+    return moving;
+}
+
+// For each material, whether it blends at any time: an animation may make it let light through.
+inline std::vector<bool> materialsThatBlend(const Scene& scene) {
+    std::vector<bool> blended;
+    for (const Material& material : scene.materials) blended.push_back(blends(material));
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            if (channel.part == AnimatedPart::transmission)
+                blended[static_cast<std::size_t>(channel.object)] = true;
+    return blended;
+}
+
+// readsSlot() at any time of a material that moves.
+inline bool mayReadSlot(const Material& material, std::size_t slot, bool moves) {
+    if (!moves) return readsSlot(material, slot);
+    return (material.*materialSlots[slot].texture).texture >= 0 &&
+           (!material.unlit || slot == gpu::SLOT_base_color);
+}
+
+}  // namespace diptych
