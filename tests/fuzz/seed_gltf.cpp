@@ -151,7 +151,7 @@ GltfFile dressed() {
     return m;
 }
 
-// As `dressed`, with a pointer to every kind of property.
+// As `dressed`, with a pointer to every kind of property, and drawn several times.
 GltfFile pointed() {
     GltfFile m = dressed();
     const auto extension = [](const std::string& pointer) {
@@ -185,6 +185,10 @@ GltfFile pointed() {
     for (const auto& [sampler, pointer] : pointers)
         channels.push_back({{"sampler", sampler}, {"target", extension(pointer)}});
     m.json["animations"] = {{{"samplers", samplers}, {"channels", channels}, {"name", "all"}}};
+    m.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", m.accessor<float>({0, 0, 0, 1, 0, 0}, FLOAT, "VEC3", 3)},
+        {"ROTATION", m.accessor<std::int8_t>({0, 0, 0, 127, 0, 127, 0, 0}, BYTE, "VEC4", 4, true)},
+        {"SCALE", m.accessor<float>({1, 1, 1, 2, 2, 2}, FLOAT, "VEC3", 3)}};
     return m;
 }
 

@@ -102,6 +102,7 @@ void requireTrees(const Scene& scene) {
         require(withinOrNone(node.skin, scene.skins), "a node's skin is there");
         require(withinOrNone(node.transform, scene.transforms), "a node's transform is there");
         require(withinOrNone(node.weights, scene.weights), "a node's weights are there");
+        require(withinOrNone(node.copies, scene.copies), "a node's copies are there");
         require(finite(node.parent_from_node), "a node's matrix is finite");
         if (node.skin < 0 || node.mesh < 0) continue;
         const std::size_t joints = scene.skins[static_cast<std::size_t>(node.skin)].joints.size();

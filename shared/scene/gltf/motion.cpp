@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/animation.h"
+#include "shared/scene/gltf/instancing.h"
 #include "shared/scene/gltf/motion_budget.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
@@ -129,6 +130,7 @@ void readMotion(const tinygltf::Model& model, const std::vector<int>& sceneNode,
     MotionBudget budget(model);
     SkinReader(model, sceneNode, budget, scene).read();
     readNodeWeights(model, sceneNode, scene);
+    readInstancing(model, sceneNode, budget, scene);
     readAnimations(model, sceneNode, budget, scene);
 }
 

@@ -11,7 +11,7 @@ class Model;
 
 namespace diptych::gltf {
 
-// Reads skins and animations, and sets Node::skin, transform and weights. `sceneNode[n]`
+// Reads skins, instances and animations, and sets Node::skin, transform, weights and copies. `sceneNode[n]`
 // is the index in Scene::nodes of the file's node n, -1 if the scene does not contain it. Lights and cameras
 // must have been read.
 //

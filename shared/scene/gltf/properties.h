@@ -188,7 +188,9 @@ constexpr Property mesh[] = {required(objects("primitives", "primitive", primiti
                              numbers("weights", 0, anyLength), name()};
 
 constexpr Property nodeLight[] = {index("light", "KHR_lights_punctual")};
-constexpr Property nodeExtensions[] = {object("KHR_lights_punctual", nodeLight)};
+constexpr Property instancing[] = {required(attributes("attributes", "accessors"))};
+constexpr Property nodeExtensions[] = {object("EXT_mesh_gpu_instancing", instancing),
+                                       object("KHR_lights_punctual", nodeLight)};
 constexpr Property node[] = {index("camera", "cameras"),
                              indices("children", "nodes"),
                              index("skin", "skins"),

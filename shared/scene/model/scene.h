@@ -134,6 +134,7 @@ struct Node {
     int skin = -1;       // into Scene::skins; applies to the primitives of the mesh that have joint sets
     int transform = -1;  // into Scene::transforms, parent_from_node in parts; -1 unless an animation moves it
     int weights = -1;    // into Scene::weights, which replace the mesh's; -1: the mesh's are used
+    int copies = -1;     // into Scene::copies: where its mesh is drawn; -1: once, at the node
 };
 
 enum class LightKind { directional, point, spot, rect, disc, tube };
@@ -206,6 +207,7 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<Transform> transforms;            // of the nodes that animations move
     std::vector<std::vector<float>> weights;      // of morph targets, of the nodes that have their own
+    std::vector<std::vector<glm::dmat4>> copies;  // EXT_mesh_gpu_instancing: node from mesh; maybe none
     std::vector<Skin> skins;                      // those that a drawn mesh uses
     std::vector<Animation> animations;            // as in the file, but empty where none moves this scene
     glm::vec3 background{0, 0, 0};   // colour of uncovered pixels in pictures; in channels they are 0

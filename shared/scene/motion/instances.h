@@ -16,6 +16,7 @@ namespace diptych {
 // first joint.
 struct Instance {
     int mesh = 0, primitive = 0, node = 0;
+    int copy = 0;  // of its node's: into Scene::copies[...]; 0 where the mesh is drawn once
     glm::dmat4 world_from_object{1.0};
     int skin = -1;     // into Pose::skins
     int weights = -1;  // into Pose::weights; -1: no morph target applies
@@ -34,7 +35,7 @@ struct PosedBox {
 
 // The scene at one time, in world space.
 struct Pose {
-    std::vector<Instance> instances;  // in node order, primitives in order
+    std::vector<Instance> instances;  // in node order, primitives in order, copies in order
     std::vector<Light> lights;        // node = -1, world position and direction; directional lights first
     std::vector<Camera> cameras;      // node = -1
     double seconds = 0;

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 namespace diptych {
 
@@ -112,6 +113,13 @@ const std::vector<Primitive>& primitivesOf(const Scene& scene, const Node& node)
     return node.mesh < 0 ? none : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
 }
 
+// Node from mesh, for each time that the node draws its mesh.
+std::span<const glm::dmat4> copiesOf(const Scene& scene, const Node& node) {
+    static const glm::dmat4 once(1.0);
+    if (node.copies < 0) return {&once, 1};
+    return scene.copies[static_cast<std::size_t>(node.copies)];
+}
+
 glm::dvec3 extentOf(const Primitive& primitive) {
     glm::vec3 extent(0);
     for (const glm::vec3& p : primitive.positions) extent = glm::max(extent, glm::abs(p));
@@ -189,16 +197,21 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
         const std::vector<Primitive>& primitives = primitivesOf(scene, node);
         const int placeOfWeights = primitives.empty() ? -1 : weights.placeOf(static_cast<int>(n));
         for (std::size_t p = 0; p < primitives.size(); ++p) {
-            const glm::dmat4 worldFromObject = worldFromPrimitive(scene, world, n, primitives[p]);
+            const glm::dmat4 worldFromNode = worldFromPrimitive(scene, world, n, primitives[p]);
             // At rest, all vertices have been checked by leaveOutWhatIsBeyond().
             const glm::dvec3 extent = scene.animations.empty() ? glm::dvec3(0) : extentOf(primitives[p]);
-            if (!isWithin(worldFromObject, extent)) continue;
-            pose.instances.push_back({.mesh = node.mesh,
-                                      .primitive = static_cast<int>(p),
-                                      .node = static_cast<int>(n),
-                                      .world_from_object = worldFromObject,
-                                      .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
-                                      .weights = placeOfWeights});
+            const std::span<const glm::dmat4> copies = copiesOf(scene, node);
+            for (std::size_t c = 0; c < copies.size(); ++c) {
+                const glm::dmat4 worldFromObject = worldFromNode * copies[c];
+                if (!isWithin(worldFromObject, extent)) continue;
+                pose.instances.push_back({.mesh = node.mesh,
+                                          .primitive = static_cast<int>(p),
+                                          .node = static_cast<int>(n),
+                                          .copy = static_cast<int>(c),
+                                          .world_from_object = worldFromObject,
+                                          .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
+                                          .weights = placeOfWeights});
+            }
         }
     }
     std::uint64_t vertices = 0;
@@ -236,7 +249,7 @@ void leaveOutWhatIsBeyond(Scene& scene) {
             scene.notes.push_back(fmt::format("{} {}{} not finite or beyond {:g} m: left out", count, what,
                                               count == 1 ? " is" : "s are", maxCoordinate));
     };
-    std::size_t beyond = 0;
+    std::size_t beyond = 0, copiesBeyond = 0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         Node& node = scene.nodes[n];
         const std::vector<Primitive>& primitives = primitivesOf(scene, node);
@@ -248,7 +261,21 @@ void leaveOutWhatIsBeyond(Scene& scene) {
                 break;
             }
     }
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        const Node& node = scene.nodes[n];
+        if (node.copies < 0) continue;
+        const auto isBeyond = [&](const glm::dmat4& nodeFromMesh) {
+            const std::vector<Primitive>& primitives = primitivesOf(scene, node);
+            for (std::size_t p = 0; p < primitives.size(); ++p)
+                if (!isWithin(worldFromPrimitive(scene, world, n, primitives[p]) * nodeFromMesh,
+                              extents[static_cast<std::size_t>(node.mesh)][p]))
+                    return true;
+            return false;
+        };
+        copiesBeyond += std::erase_if(scene.copies[static_cast<std::size_t>(node.copies)], isBeyond);
+    }
     note(beyond, "drawn node");
+    note(copiesBeyond, "instance");
     note(std::erase_if(scene.lights, [&](const Light& light) { return !hasPlace(light, world); }), "light");
     note(std::erase_if(scene.cameras, [&](const Camera& camera) { return !hasPlace(camera, world); }),
          "camera");
