@@ -22,7 +22,7 @@ inline void requireSound(const Light& light) {
     for (int c = 0; c < 3; ++c)
         require(light.color[c] >= 0 && std::isfinite(light.color[c]), "colour is finite");
     require(light.range > 0, "a range is above 0");
-    require(light.inner_cone >= 0 && light.inner_cone < light.outer_cone, "a cone has an edge");
+    require(light.inner_cone >= 0 && light.inner_cone <= light.outer_cone, "a cone ends within its edge");
     require(light.angle >= 0 && light.angle <= gpu::PI, "a sun's disc is at most half of all directions");
     require(light.angle == 0 || light.kind == LightKind::directional, "only suns have a disc");
     require(isSize(light.width) && isSize(light.height) && isSize(light.radius) && isSize(light.length),
