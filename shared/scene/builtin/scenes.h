@@ -38,6 +38,9 @@ Scene triangle();
 Scene empty();
 Scene background();
 
+// motion.cpp: what moves
+Scene motion();
+
 // lamps.cpp: lights
 Scene rangeEdge();
 Scene suns();
