@@ -14,7 +14,7 @@ vec2 normalized(vec2 v) { return v / lengthOf(v); }
 vec3 normalized(vec3 v) { return v / lengthOf(v); }
 
 // Of any length that float32 holds; 0 where it has none.
-vec3 unitOf(vec3 v) {
+vec3 unitVector(vec3 v) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     return largest > 0.0 ? normalized(v / largest) : vec3(0.0);
 }

@@ -109,7 +109,7 @@ vec3 posedNormal(PosedInstance i, mat4x3 matrix, vec3 normal) {
     float scale = largest > 0.0 ? 1.0 / largest : 0.0;
     vec3 x = matrix[0] * scale, y = matrix[1] * scale, z = matrix[2] * scale;
     vec3 sum = crossProduct(y, z) * normal.x + crossProduct(z, x) * normal.y + crossProduct(x, y) * normal.z;
-    return i.handedness * unitOf(sum);
+    return i.handedness * unitVector(sum);
 }
 
 // Of a vertex whose triangle has a normal of its own: from the posed corners.
@@ -119,7 +119,12 @@ vec3 flatNormal(PosedInstance i, uint vertex) {
     vec3 u = posedPosition(i, first + 1) - a, v = posedPosition(i, first + 2) - a;
     float longest = max(largestOf(u), largestOf(v));
     float scale = longest > 0.0 ? 1.0 / longest : 0.0;
-    return i.handedness * unitOf(crossProduct(u * scale, v * scale));
+    return i.handedness * unitVector(crossProduct(u * scale, v * scale));
+}
+
+// Unit, at right angles to the normal; where nothing says which way it points.
+vec3 anyTangent(vec3 normal) {
+    return unitVector(crossProduct(abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), normal));
 }
 
 // Object; before joints move it.
@@ -127,11 +132,9 @@ vec3 morphedTangent(PosedInstance i, uint vertex) {
     vec3 rest = AttributesArray(i.attributes).at[vertex].tangent.xyz;
     if (i.groups > 0) {
         uint group = UintArray(i.group_of_vertex).at[vertex];
-        if (group < i.groups) {
-            vec3 made = Vec3Array(i.group_tangents).at[group];
-            return largestOf(made) > 0.0 ? made : rest;
-        }
-        return rest;
+        vec3 made = Vec3Array(i.group_tangents).at[min(group, i.groups - 1)];
+        bool any = group >= i.groups || !(largestOf(made) > 0.0);
+        return any ? anyTangent(unitVector(morphedNormal(i, vertex))) : made;
     }
     return rest + morphed3(i, i.normals_end, i.tangents_end, vertex);
 }
@@ -148,7 +151,7 @@ PosedVertex posedVertex(PosedInstance i, uint vertex) {
     posed.position = placedBy(matrix, morphedPosition(i, vertex));
     posed.normal = i.flat_normals != 0 ? flatNormal(i, vertex)
                                        : posedNormal(i, matrix, morphedNormal(i, vertex));
-    posed.tangent = unitOf(mat3(matrix) * morphedTangent(i, vertex));
+    posed.tangent = unitVector(mat3(matrix) * morphedTangent(i, vertex));
     return posed;
 }
 

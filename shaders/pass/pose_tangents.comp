@@ -8,7 +8,7 @@
 #include "shaders/lib/angles.glsl"
 #include "shaders/lib/posing_thread.glsl"
 
-vec3 inPlaneOf(vec3 normal, vec3 v) { return unitOf(v - normal * dot(normal, v)); }
+vec3 inPlaneOf(vec3 normal, vec3 v) { return unitVector(v - normal * dot(normal, v)); }
 
 // At a corner, times its angle.
 vec3 tangentAt(PosedInstance i, uint corner) {
@@ -20,9 +20,9 @@ vec3 tangentAt(PosedInstance i, uint corner) {
     MorphedVertex c = morphed.at[indices.at[triangle + (at + 2) % 3]];
     vec2 tb = b.texcoord - a.texcoord, tc = c.texcoord - a.texcoord;
     float area = tb.x * tc.y - tb.y * tc.x;  // signed, twice
-    vec3 normal = unitOf(a.normal);
-    vec3 toB = unitOf(b.position - a.position), toC = unitOf(c.position - a.position);
-    vec3 along = unitOf((b.position - a.position) * tc.y - (c.position - a.position) * tb.y);
+    vec3 normal = unitVector(a.normal);
+    vec3 toB = unitVector(b.position - a.position), toC = unitVector(c.position - a.position);
+    vec3 along = unitVector((b.position - a.position) * tc.y - (c.position - a.position) * tb.y);
     vec3 u = inPlaneOf(normal, toB), v = inPlaneOf(normal, toC);
     float angle = angleOf(dot(u, v), lengthOf(crossProduct(u, v)));
     return (area > 0.0 ? angle : area < 0.0 ? -angle : 0.0) * inPlaneOf(normal, along);
@@ -36,5 +36,5 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint c = UintArray(i.group_first).at[group]; c < end; ++c)
         sum += tangentAt(i, UintArray(i.group_corners).at[c]);
-    Vec3Array(i.group_tangents).at[group] = unitOf(sum);
+    Vec3Array(i.group_tangents).at[group] = unitVector(sum);
 }

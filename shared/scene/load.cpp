@@ -3,6 +3,7 @@
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/gltf/gltf.h"
 #include "shared/scene/model/scene.h"
+#include "shared/scene/motion/deformation_bounds.h"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,7 @@ Scene loadScene(const std::string& where, const LoadProgress& progress) {
         scene = loadGltf(file, choice, progress);
     }
     scene.name = where;
+    prepareDeformationBounds(scene);
     return scene;
 }
 

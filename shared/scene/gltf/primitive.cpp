@@ -306,7 +306,13 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
         }
     };
     add(file.attributes);
+    // DeformationBounds: in the worst case every vertex is a cluster.
+    if (!file.targets.empty() || file.attributes.contains("JOINTS_0"))
+        perVertex += sizeof(DeformationBounds::Cluster);
+    for (const auto& [name, accessor] : file.attributes)
+        if (name.starts_with("JOINTS_")) perVertex += 4 * sizeof(DeformationBounds::Influence);
     for (const auto& target : file.targets) {
+        perVertex += sizeof(VertexBox);
         bytes += sizeof(MorphTarget);
         perVertex += 2 * sizeof(glm::vec3);  // of normals and tangents
         add(target);

@@ -12,6 +12,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,32 @@ struct TangentGroups {
     std::vector<std::uint32_t> corners;    // into Primitive::indices
     bool empty() const { return of_vertex.empty(); }
     std::uint32_t count() const { return first.empty() ? 0 : static_cast<std::uint32_t>(first.size()) - 1; }
+};
+
+// A box that holds no point until one is added.
+struct VertexBox {
+    glm::vec3 min{std::numeric_limits<float>::infinity()}, max{-std::numeric_limits<float>::infinity()};
+};
+
+// What bounds the posed vertices of a primitive without a visit to each (motion/deformation_bounds.h).
+// Vertices that are near each other and mostly follow one joint are a cluster.
+struct DeformationBounds {
+    struct Influence {               // of a joint on a cluster
+        std::uint32_t joint = 0;     // into Skin::joints
+        double least = 0, most = 0;  // its share in a vertex of the cluster
+        VertexBox box;               // of the cluster's vertices that have a share of it
+    };
+    struct Cluster {
+        VertexBox box;
+        std::uint32_t joint = 0;          // that has the largest share
+        double others = 0;                // the largest sum of the shares of all other joints
+        std::uint32_t end_influence = 0;  // into `influences`, where this cluster's end
+    };
+    std::vector<Cluster> clusters;
+    std::vector<Influence> influences;   // cluster by cluster; none without joints
+    std::vector<std::uint32_t> targets;  // those that move positions
+    std::vector<VertexBox> deltas;       // of each cluster, for each of `targets`
+    bool empty() const { return clusters.empty(); }
 };
 
 // A vertex of a skinned mesh is at the sum over its joints of weight * worldFromNode[joints[j]] *

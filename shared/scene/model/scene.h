@@ -117,6 +117,8 @@ struct Primitive {
     int material = 0;                    // into Scene::materials, always valid
     bool flat = false;           // normals are the triangles' own: recomputed from the positions when posed
     bool tangents_made = false;  // by makeTangents, because the file has none that can be used
+    // Made once the vertices are final; empty: made for each pose anew, which costs as much as posing.
+    DeformationBounds deformation_bounds{};
     TangentGroups tangent_groups{};  // empty unless targets move what makeTangents made tangents of
 };
 

@@ -3,7 +3,7 @@
 #include "shared/scene/model/axes.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/animation.h"
-#include "shared/scene/motion/posed.h"
+#include "shared/scene/motion/deformation_bounds.h"
 #include "shared/scene/motion/properties.h"
 
 #include <fmt/format.h>
@@ -171,15 +171,17 @@ private:
 };
 
 PosedBox boxOf(const Scene& scene, const Pose& pose, const Instance& instance) {
-    glm::dvec3 min(std::numeric_limits<double>::infinity()), max(-min);
-    for (const glm::dvec3& p : posedPositions(scene, pose, instance)) {
-        if (std::isnan(p.x)) continue;
-        min = glm::min(min, p);
-        max = glm::max(max, p);
-    }
-    if (!(min.x <= max.x)) return {};
-    const glm::dvec3 origin = (min + max) / 2.0;
-    return {origin, min - origin, max - origin};
+    const Primitive& primitive = primitiveOf(scene, instance);
+    const Deformation deformation{
+        .world_from_object = instance.world_from_object,
+        .world_from_mesh = instance.skin < 0 ? nullptr : &pose.skins[static_cast<std::size_t>(instance.skin)],
+        .weights =
+            instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)]};
+    const WorldBox box = primitive.deformation_bounds.empty()
+                             ? boundsOf(deformationBounds(primitive), deformation)
+                             : boundsOf(primitive.deformation_bounds, deformation);
+    const glm::dvec3 origin = (box.min + box.max) / 2.0;
+    return {origin, box.min - origin, box.max - origin};
 }
 
 }  // namespace
