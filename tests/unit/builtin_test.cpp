@@ -36,8 +36,8 @@ std::size_t triangles(const Scene& scene) {
 }
 
 // Checks what scene.h promises of every primitive, and that normals, winding, texture coordinates and
-// tangents are consistent with each other.
-void expectWhole(const Primitive& p, const std::string& what) {
+// tangents, as the normal map reads them, are consistent with each other.
+void expectWhole(const Primitive& p, const TextureSlot& map, const std::string& what) {
     ASSERT_EQ(p.normals.size(), p.positions.size()) << what;
     ASSERT_EQ(p.tangents.size(), p.positions.size()) << what;
     ASSERT_TRUE(p.colors.empty() || p.colors.size() == p.positions.size()) << what;
@@ -55,8 +55,12 @@ void expectWhole(const Primitive& p, const std::string& what) {
         const auto at = [&](int c) { return glm::dvec3(p.positions[i[c]]); };
         const glm::dvec3 edge1 = at(1) - at(0), edge2 = at(2) - at(0), normal = glm::cross(edge1, edge2);
         ASSERT_GT(glm::length(normal), 0) << what << ": triangle " << k / 3 << " has no area";
-        if (p.texcoords[0].empty()) continue;
-        const auto uv = [&](int c) { return glm::dvec2(p.texcoords[0][i[c]]); };
+        const std::vector<glm::vec2>& set = p.texcoords[map.texcoord];
+        if (set.empty()) continue;
+        const auto uv = [&](int c) {
+            const glm::dvec3 read(set[i[c]], 1);
+            return glm::dvec2(glm::dot(map.u, read), glm::dot(map.v, read));
+        };
         const glm::dvec2 d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
         const double area = d1.x * d2.y - d2.x * d1.y;
         ASSERT_NE(area, 0) << what << ": triangle " << k / 3 << " has no texture area";
@@ -89,9 +93,10 @@ TEST(Builtin, EveryPartOfEverySceneIsWhole) {
         EXPECT_FALSE(builtin.shows.empty());
         for (const Mesh& mesh : scene.meshes)
             for (const Primitive& primitive : mesh.primitives) {
-                expectWhole(primitive, what + ": " + mesh.name);
                 ASSERT_GE(primitive.material, 0) << what;
                 ASSERT_LT(primitive.material, static_cast<int>(scene.materials.size())) << what;
+                const Material& m = scene.materials[static_cast<std::size_t>(primitive.material)];
+                expectWhole(primitive, m.normal_texture, what + ": " + mesh.name);
             }
         for (const Node& node : scene.nodes) {
             ASSERT_LT(node.mesh, static_cast<int>(scene.meshes.size())) << what;
@@ -278,13 +283,13 @@ TEST(Shapes, AreWholeAndAsLargeAsTheySay) {
     for (const auto& shape : {box({1, 2, 3}, 0.1), box({1, 1, 1}), sphere(1, 7, 5), torus(1, 0.2),
                               torusKnot(2, 3, 1, 0.4, 0.2), lathe({{0, 0}, {1, 0}, {0.8, 1}, {0, 1.2}}),
                               gem(1), archway(3, 3, 1, 2, 1.5), quad({0, 0, 0}, {1, 0, 1}, {0, 2, 0}, 3, 2)})
-        expectWhole(shape, "shape");
+        expectWhole(shape, {}, "shape");
 }
 
 TEST(Shapes, AppendedMirrorImagesStayWhole) {
     Primitive whole;
     append(whole, sphere(1, 8, 6), glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 2, 0.5)));
-    expectWhole(whole, "mirrored sphere");
+    expectWhole(whole, {}, "mirrored sphere");
     EXPECT_EQ(whole.tangents[0].w, -1);
 }
 

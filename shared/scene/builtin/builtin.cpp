@@ -78,6 +78,8 @@ constexpr std::array ROWS{
     Row{"spots", "spot lights alone, cones of 0 to 90 degrees", TEST, builtin::spots},
     Row{"areas", "rectangles, discs and tubes alone, in each other's way and the floor's", TEST,
         builtin::areas},
+    Row{"tangents", "normal maps read turned, mirrored and from the second UV set, on planes and columns",
+        TEST, builtin::tangents},
     Row{"motion", "joints, morph targets, nodes and a lamp that move from 0 s to 2 s", TEST, builtin::motion},
     Row{"unlit", "no lights and nothing that emits, with a camera", TEST, builtin::unlit},
 };

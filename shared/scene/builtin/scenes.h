@@ -38,6 +38,9 @@ Scene triangle();
 Scene empty();
 Scene background();
 
+// turned_maps.cpp: normal maps under KHR_texture_transform
+Scene tangents();
+
 // motion.cpp: what moves
 Scene motion();
 
