@@ -250,6 +250,24 @@ TEST(MorphedTangents, WhatPartsHasTangentsOfItsOwn) {
     }
 }
 
+// Two triangles that share one vertex and no edge: at rest it has one tangent, in the pose one of each.
+TEST(MorphedTangents, AVertexOfTwoGroupsIsSplit) {
+    Primitive p;
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+    p.normals.assign(5, {0, 0, 1});
+    for (const glm::vec3& at : p.positions) p.texcoords[0].emplace_back(at.x, 1 - at.y);
+    p.indices = {0, 1, 2, 0, 3, 4};
+    p.targets.resize(1);
+    p.targets[0].positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, -1, 0}, {0, -1, 0}};
+    makeTangents(p, plain);
+    EXPECT_EQ(p.positions.size(), 6u);
+    const PosedVertices v = posedOf(morphScene(p, plain, {1}));
+    for (std::size_t i = 0; i < 6; ++i) {
+        const glm::dvec3 expected = glm::normalize(glm::dvec3(1, i < 3 ? 0 : 1, 0));
+        EXPECT_LT(glm::length(v.tangents[p.indices[i]] - expected), 1e-7) << i;
+    }
+}
+
 TEST(MorphedTangents, EveryVertexHasItsGroupAndEveryCornerIsInOne) {
     Primitive p = globe();
     addTarget(p, positions, 0);
