@@ -42,9 +42,9 @@ struct PoseMaker {
                 glm::dmat4& m = scene.nodes[static_cast<std::size_t>(skin.joints[j])].parent_from_node;
                 m *= glm::mat4_cast(glm::angleAxis(uniform(0, glm::radians(90.0)), glm::normalize(vector())));
                 if (j != std::min(stretched, skin.joints.size() - 1)) continue;
-                glm::dvec3 scale(0.5);
-                scale[static_cast<int>(uniform(0, 2.999))] = 2;
-                m = glm::scale(m, scale);
+                glm::dvec3 stretch(0.5);
+                stretch[static_cast<int>(uniform(0, 2.999))] = 2;
+                m = glm::scale(m, stretch);
             }
         }
         scene.weights.clear();
