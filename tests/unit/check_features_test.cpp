@@ -171,7 +171,9 @@ TEST(CheckFeatures, WhatIsDrawnOtherwise) {
     scene.nodes[0].skin = 0;
     scene.skins.push_back({"skin", {0}, {glm::mat4(1)}});
     EXPECT_EQ(what(scene, "skins"), "") << "nothing of the mesh moves with it";
-    scene.meshes[0].primitives[0].joint_sets.resize(1);
+    const std::size_t count = scene.meshes[0].primitives[0].positions.size();
+    scene.meshes[0].primitives[0].joint_sets = {
+        {std::vector<glm::u16vec4>(count, glm::u16vec4(0)), std::vector<glm::vec4>(count, {1, 0, 0, 0})}};
     EXPECT_NE(what(scene, "skins").find("bind pose"), std::string::npos);
 }
 
