@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vertices of skinned and morphed instances: morph targets first, then joints (glTF 2.0, 3.7.2.2 and 3.7.3.3).
-// A kernel and the vertex shader call the same functions, so that both have the same bits.
+// Vertices of skinned and morphed instances: morph targets first, then joints (glTF 2.0, 3.7.2.2 and
+// 3.7.3.3). A kernel and the vertex shader call the same functions, so that both have the same bits.
 #ifndef POSING_GLSL
 #define POSING_GLSL
 
@@ -122,6 +122,17 @@ vec3 flatNormal(PosedInstance i, uint vertex) {
     return i.handedness * unitVector(crossProduct(u * scale, v * scale));
 }
 
+// Object, any length: as tangents are made of it. Of a flat triangle the morphed one's own.
+vec3 morphedSurfaceNormal(PosedInstance i, uint vertex) {
+    if (i.flat_normals == 0) return morphedNormal(i, vertex);
+    uint first = vertex / 3 * 3;
+    vec3 a = morphedPosition(i, first);
+    vec3 u = morphedPosition(i, first + 1) - a, v = morphedPosition(i, first + 2) - a;
+    float longest = max(largestOf(u), largestOf(v));
+    float scale = longest > 0.0 ? 1.0 / longest : 0.0;
+    return crossProduct(u * scale, v * scale);
+}
+
 // Unit, at right angles to the normal; where nothing says which way it points.
 vec3 anyTangent(vec3 normal) {
     return unitVector(crossProduct(abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), normal));
@@ -134,7 +145,7 @@ vec3 morphedTangent(PosedInstance i, uint vertex) {
         uint group = UintArray(i.group_of_vertex).at[vertex];
         vec3 made = Vec3Array(i.group_tangents).at[min(group, i.groups - 1)];
         bool any = group >= i.groups || !(largestOf(made) > 0.0);
-        return any ? anyTangent(unitVector(morphedNormal(i, vertex))) : made;
+        return any ? anyTangent(unitVector(morphedSurfaceNormal(i, vertex))) : made;
     }
     return rest + morphed3(i, i.normals_end, i.tangents_end, vertex);
 }

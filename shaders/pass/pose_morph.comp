@@ -2,7 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// What tangents are made of, of an instance whose tangents follow from its morphed vertices; a thread a vertex.
+// What tangents are made of, of an instance whose tangents follow from its morphed vertices; a thread a
+// vertex.
 #include "shaders/lib/posing_thread.glsl"
 
 void main() {
@@ -12,7 +13,7 @@ void main() {
     vec2 uv = i.map_second != 0 ? morphedTexcoord1(i, vertex) : morphedTexcoord0(i, vertex);
     MorphedVertex morphed;
     morphed.position = morphedPosition(i, vertex);
-    morphed.normal = morphedNormal(i, vertex);
+    morphed.normal = morphedSurfaceNormal(i, vertex);
     // t grows towards the top of the picture, v towards its bottom.
     morphed.texcoord = vec2(dot(i.map_u, vec3(uv, 1.0)), 1.0 - dot(i.map_v, vec3(uv, 1.0)));
     MorphedArray(i.morphed).at[vertex] = morphed;

@@ -2,9 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The tangents of a morphed surface as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled Surfaces
-// Revisited", 2008, section 3): the angle-weighted mean over a group's corners of their triangles' derivatives of
-// position by s, in the plane of the vertex normal. The groups are those of the surface at rest. A thread each.
+// The tangents of a morphed surface as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled
+// Surfaces Revisited", 2008, section 3): the angle-weighted mean over a group's corners of their triangles'
+// derivatives of position by s, in the plane of the vertex normal. The groups are those of the surface at
+// rest; a thread each.
 #include "shaders/lib/angles.glsl"
 #include "shaders/lib/posing_thread.glsl"
 

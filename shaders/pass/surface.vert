@@ -67,7 +67,8 @@ vec2 slotTexcoord(uint slot, vec4 texcoords) {
 void main() {
     Vertex v = vertexAt();
     gl_Position = clipFrom(v.position);
-    // A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's normal.
+    // A node's scale of zero flattens vectors to nothing; the fragment shader then takes the triangle's
+    // normal.
     v_normal = unitVector(normal_from_object_x * v.normal.x + normal_from_object_y * v.normal.y +
                           normal_from_object_z.xyz * v.normal.z);
 #if INPUTS >= 1
@@ -75,7 +76,8 @@ void main() {
 #endif
 #if INPUTS >= 2
     vec3 world = world_from_object * vec4(v.position, 1.0);
-    v_tangent = vec4(unitVector(mat3(world_from_object) * v.tangent.xyz), v.tangent.w * normal_from_object_z.w);
+    v_tangent =
+        vec4(unitVector(mat3(world_from_object) * v.tangent.xyz), v.tangent.w * normal_from_object_z.w);
     v_world = world;
 #endif
 #if INPUTS >= 3

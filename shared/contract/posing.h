@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What moves the vertices of a skinned or morphed instance. Shaders reach its arrays by address, so a scene may
-// have any number of them and no other draw has a binding for it.
+// What moves the vertices of a skinned or morphed instance. Shaders reach its arrays by address, so a scene
+// may have any number of them and no other draw has a binding for it.
 #ifndef DIPTYCH_CONTRACT_POSING_H
 #define DIPTYCH_CONTRACT_POSING_H
 
@@ -20,7 +20,7 @@ struct PosedInstance {
     uvec2 attributes;        // VertexAttributes[vertices]
     uvec2 joints;            // uvec2[joint_sets * vertices], set by set: four numbers of 16 bits
     uvec2 joint_weights;     // vec4[joint_sets * vertices]; a vertex's add up to 1
-    uvec2 matrices;          // mat4x3[]: from the object, about `pivot`, to world axes from the box's origin, m
+    uvec2 matrices;          // mat4x3[]: from the object, about `pivot`, to world axes from the box's origin
     uvec2 deltas;            // PosedDelta[colors_end], attribute by attribute
     uvec2 posed_positions;   // vec3[vertices]: of PosedBox::origin, m
     uvec2 posed_attributes;  // VertexAttributes[vertices], normals and tangents along world axes
@@ -40,15 +40,15 @@ struct PosedInstance {
     // Tangents that are made of the morphed vertices: struct TangentGroups. No groups: tangents move as the
     // surface does.
     uint groups;
-    uint map_second;       // 1: the normal map is read with the second texture coordinates
-    vec3 map_u;            // struct TextureTransform of the normal map
+    uint map_second;  // 1: the normal map is read with the second texture coordinates
+    vec3 map_u;       // struct TextureTransform of the normal map
     vec3 map_v;
-    uvec2 morphed;         // MorphedVertex[vertices]
-    uvec2 indices;         // uint[]: three a triangle
-    uvec2 group_of_vertex; // uint[vertices]; `groups`: none
-    uvec2 group_first;     // uint[groups + 1]: into group_corners
-    uvec2 group_corners;   // uint[]: into indices
-    uvec2 group_tangents;  // vec3[groups], object; 0: has no direction
+    uvec2 morphed;          // MorphedVertex[vertices]
+    uvec2 indices;          // uint[]: three a triangle
+    uvec2 group_of_vertex;  // uint[vertices]; `groups`: none
+    uvec2 group_first;      // uint[groups + 1]: into group_corners
+    uvec2 group_corners;    // uint[]: into indices
+    uvec2 group_tangents;   // vec3[groups], object; 0: has no direction
 };
 
 // A vertex as tangents are made of it.

@@ -2,6 +2,7 @@
 #include "tests/fuzz/sound_scene.h"
 
 #include "shared/scene/model/animated.h"
+#include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/sound_light.h"

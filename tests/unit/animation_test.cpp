@@ -242,7 +242,7 @@ TEST(Animation, OneIsChosenByIndexOrName) {
     EXPECT_EQ(error(scene, "walk"),
               "--animation \"walk\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
     EXPECT_EQ(error(scene, "3"), "--animation \"3\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
-    EXPECT_EQ(error(triangle().load(), "0"), "--animation \"0\": nothing of the scene is animated");
+    EXPECT_EQ(error(GltfFile::triangle().load(), "0"), "--animation \"0\": nothing of the scene is animated");
 }
 
 // A camera that stands around the scene is placed by what plays, at 0 s.
