@@ -46,10 +46,10 @@ public:
         PixelBox box;
         Bounds reach;
     };
-    Place placeOf(const Instance& instance, const Bounds& bounds) const {
+    Place placeOf(const glm::dmat4& worldFromObject, const Bounds& bounds) const {
         Place place;
         if (bounds.empty()) return place;
-        glm::dmat4 viewedFromObject = instance.world_from_object;
+        glm::dmat4 viewedFromObject = worldFromObject;
         viewedFromObject[3] -= glm::dvec4(eye_, 0);
         std::array<glm::dvec4, 8> corners;
         for (unsigned i = 0; i < 8; ++i) {
@@ -221,11 +221,21 @@ private:
             known = {true, featuresOf(scene_, materialsOf(scene_, pose_), primitive), boundsOf(primitive)};
         const CheckFeatures features = featuresOf(scene_, instance, known.features);
         if (features == 0) return;
-        const Projection::Place place = projection_.placeOf(instance, known.bounds);
+        const Projection::Place place = placeOf(instance, known.bounds);
         Candidate candidate{0, index, place.box};
         if (place.box.empty() || !isSeen(primitive.material, place, candidate)) return;
         for (std::size_t f = 0; f < checkFeatureCount; ++f)
             if (features & bitOf(static_cast<CheckFeature>(f))) chosen_[f].add(candidate);
+    }
+
+    // `rest`: the bounds of its primitive, object.
+    Projection::Place placeOf(const Instance& instance, const Bounds& rest) const {
+        if (instance.box < 0) return projection_.placeOf(instance.world_from_object, rest);
+        const PosedBox& box = pose_.boxes[static_cast<std::size_t>(instance.box)];
+        Bounds posed;
+        posed.min = box.origin + box.min;
+        posed.max = box.origin + box.max;
+        return projection_.placeOf(glm::dmat4(1), posed);
     }
 
     bool isSeen(int material, const Projection::Place& place, Candidate& candidate) const {

@@ -3,6 +3,7 @@
 
 #include "shared/contract/constants.h"
 #include "shared/scene/model/luminance.h"
+#include "shared/scene/motion/posed.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -56,9 +57,11 @@ std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Pose& pose, st
     std::vector<double> areas;  // running sum
     double area = 0;
     for (const Instance& instance : pose.instances) {
-        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
-                                         .primitives[static_cast<std::size_t>(instance.primitive)];
+        const Primitive& primitive = primitiveOf(scene, instance);
+        const std::vector<glm::dvec3> posed =
+            instance.deformed() ? posedPositions(scene, pose, instance) : std::vector<glm::dvec3>();
         const auto world = [&](std::size_t i) {
+            if (!posed.empty()) return posed[primitive.indices[i]];
             return glm::dvec3(instance.world_from_object *
                               glm::dvec4(primitive.positions[primitive.indices[i]], 1.0));
         };

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+// What moves: both paths draw the live pose, the same bits wherever it is posed and whatever was drawn
+// before, with every assignment of lights, shadows and haze; and it is where the reference has it.
+#include "compare/render/prepared_view.h"
+#include "shared/scene/motion/animation.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int materialId = static_cast<int>(gpu::DEBUG_material_id),
+              depthMode = static_cast<int>(gpu::DEBUG_depth);
+
+// Of everything that what moves may reach: lights in lists, a shadowed sun, haze.
+Settings movingPicture(double time, const std::string& animation = {}) {
+    Settings settings;
+    settings.gbuffer = GBufferEncoding::full;
+    settings.size = {128, 72};
+    settings.lights = "point:12,spot:4";
+    settings.shadow_size = 512;
+    settings.shadow_cascades = 2;
+    settings.shadow_lights = 1;
+    settings.haze = true;
+    settings.time = time;
+    settings.animation = animation;
+    return settings;
+}
+
+Frame drawnOnce(Renderer& renderer, Settings settings, Path path, const std::vector<int>& channels) {
+    RenderOptions options;
+    options.channels = channels;
+    options.runs = 0;
+    settings.path = path;
+    return renderer.draw(settings, options);
+}
+
+void expectSame(const Frame& a, const Frame& b, const std::string& what) {
+    ASSERT_EQ(a.channels.size(), b.channels.size()) << what;
+    for (const auto& [mode, image] : a.channels)
+        EXPECT_EQ(differingPixels(image, b.channels.at(mode)), 0u)
+            << what << ", channel " << debugMode(mode).name;
+}
+
+double lengthOf(const Animation& animation) {
+    float last = 0;
+    for (const Keyframes& keys : animation.keyframes) last = std::max(last, keys.times.back());
+    return double{last};
+}
+
+// ---- parity ------------------------------------------------------------------------------------------
+
+const std::vector<std::string> movingScenes{"builtin:motion", "cesium_man/CesiumMan.gltf",
+                                            "morph_stress_test/morph_stress_test.glb",
+                                            "features/interpolation_test/InterpolationTest.gltf"};
+
+class MovingParity : public testing::TestWithParam<std::string> {
+protected:
+    // Null and skipped where the file is not there.
+    UploadedScene* scene() {
+        if (GetParam().starts_with("builtin:")) return &uploaded(GetParam());
+        const std::filesystem::path file = assets() / GetParam();
+        return std::filesystem::exists(file) ? &uploaded(file.string()) : nullptr;
+    }
+};
+
+// At the beginning, between keys and at the end of each animation by itself, each time with another
+// assignment beside `every`, so that all of them meet each animation.
+TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
+    UploadedScene* const moving = scene();
+    if (moving == nullptr)
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
+    constexpr std::array others{Assignment::clustered, Assignment::tiled, Assignment::per_object};
+    const std::vector<int> channels{lit, materialId, depthMode,
+                                    static_cast<int>(gpu::DEBUG_shadow_visibility)};
+    std::size_t drawn = 0;
+    for (std::size_t a = 0; a < moving->scene.animations.size(); ++a)
+        for (std::size_t t = 0; t < others.size(); ++t) {
+            const double time = lengthOf(moving->scene.animations[a]) * static_cast<double>(t) * 0.45;
+            Settings settings = movingPicture(time, std::to_string(a));
+            settings.assign = Assignment::every;
+            const Frame every = drawnOnce(moving->renderer, settings, Path::forward_plus, channels);
+            settings.assign = others[t];
+            // More lights than one is per pixel are summed over vertices, which `every` does not do.
+            settings.pixel_lights = 64;
+            const std::string what =
+                fmt::format("animation {} at {} s, {}", a, time, settings.valueOf("assign"));
+            const Frame forward = drawnOnce(moving->renderer, settings, Path::forward_plus, channels);
+            expectSame(every, forward, what + " against every");
+            // A G-buffer does not say which object a pixel is of.
+            if (settings.assign == Assignment::per_object) settings.assign = Assignment::clustered;
+            expectSame(drawnOnce(moving->renderer, settings, Path::deferred, channels), forward,
+                       what + ", deferred");
+            drawn += coveredPixels(forward);
+        }
+    EXPECT_GT(drawn, 100u);
+}
+
+TEST_P(MovingParity, KernelsAndVertexShadersPoseTheSameBits) {
+    UploadedScene* const moving = scene();
+    if (moving == nullptr)
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
+    Settings settings = movingPicture(0.7);
+    // All that a vertex has reaches one of them.
+    const std::vector<int> channels{lit,
+                                    static_cast<int>(gpu::DEBUG_albedo),
+                                    static_cast<int>(gpu::DEBUG_normals),
+                                    materialId,
+                                    static_cast<int>(gpu::DEBUG_texcoords),
+                                    depthMode,
+                                    static_cast<int>(gpu::DEBUG_geometric_normal),
+                                    static_cast<int>(gpu::DEBUG_tangent),
+                                    static_cast<int>(gpu::DEBUG_handedness)};
+    const Frame forward = drawnOnce(moving->renderer, settings, Path::forward_plus, channels),
+                deferred =
+                    drawnOnce(moving->renderer, settings, Path::deferred, {lit, materialId, depthMode});
+    expectSameChannels(deferred, forward, 3);
+    settings.skinning = Skinning::vertex;
+    expectSameChannels(
+        deferred, drawnOnce(moving->renderer, settings, Path::deferred, {lit, materialId, depthMode}), 3);
+    // Depth of a pre-pass is that of the draws that shade.
+    for (const Switch prepass : {Switch::on, Switch::off}) {
+        settings.prepass = prepass;
+        expectSameChannels(forward, drawnOnce(moving->renderer, settings, Path::forward_plus, channels),
+                           channels.size());
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, MovingParity, testing::ValuesIn(movingScenes), [](const auto& scene) {
+    return testName(std::filesystem::path(scene.param).stem().string());
+});
+
+// ---- time --------------------------------------------------------------------------------------------
+
+// Prepared frames of several times in any order: none shows what another has posed or cast.
+TEST(Moving, FramesOfSeveralTimesStayApart) {
+    const Scene scene = loadScene("builtin:motion");
+    using enum Shadows;
+    for (const auto& [shadows, skinning] :
+         {std::pair(pcf, Skinning::compute), {clipmap, Skinning::compute}, {pcf, Skinning::vertex}}) {
+        std::vector<Settings> times;
+        for (const double time : {0.0, 0.6, 1.7}) {
+            times.push_back(movingPicture(time));
+            times.back().size = {96, 54};
+            times.back().shadows = shadows;
+            times.back().skinning = skinning;
+        }
+        std::vector<Image> alone;
+        for (const Settings& settings : times) {
+            Renderer renderer(device(), scene, pipelines());
+            alone.push_back(drawnOnce(renderer, settings, Path::forward_plus, {lit}).channels.at(lit));
+        }
+        EXPECT_GT(differingPixels(alone[0], alone[1]), 100u);
+        EXPECT_GT(differingPixels(alone[1], alone[2]), 100u);
+        Renderer renderer(device(), scene, pipelines());
+        for (Settings& settings : times) settings.path = Path::forward_plus;
+        PreparedFrames frames = renderer.prepare(times);
+        for (const std::size_t i : {0u, 2u, 1u, 2u, 0u}) {
+            frames.draw(i);
+            EXPECT_EQ(differingPixels(frames.lit(i), alone[i]), 0u)
+                << times[i].time << " s, " << times[i].valueOf("shadows") << ", "
+                << times[i].valueOf("skinning");
+        }
+    }
+}
+
+// The clipmap's pages are kept from one picture to the next; those that a moving caster reaches are not.
+TEST(Moving, ShadowsThatAreKeptFollowTheirCaster) {
+    const Scene scene = loadScene("builtin:motion");
+    const int seen = static_cast<int>(gpu::DEBUG_shadow_visibility);
+    Settings before = movingPicture(0.2);
+    before.shadows = Shadows::clipmap;
+    before.clipmap_page_size = 32;
+    Settings after = before;
+    after.time = 0.9;
+    Renderer kept(device(), scene, pipelines()), fresh(device(), scene, pipelines());
+    const Frame first = drawnOnce(kept, before, Path::deferred, {lit, seen}),
+                second = drawnOnce(kept, after, Path::deferred, {lit, seen});
+    expectSame(second, drawnOnce(fresh, after, Path::deferred, {lit, seen}), "pages that were kept");
+    EXPECT_GT(differingPixels(first.channels.at(seen), second.channels.at(seen)), 10u);
+    EXPECT_LT(second.counters.shadow_pages.drawn, second.counters.shadow_pages.resident);
+}
+
+// Another time of the same scene uploads a pose alone, and compiles nothing.
+TEST(Moving, ASecondTimeCompilesNothing) {
+    const Scene scene = loadScene("builtin:motion");
+    Renderer renderer(device(), scene);
+    drawnOnce(renderer, movingPicture(0.7), Path::deferred, {});
+    const std::size_t compiled = renderer.pipelines();
+    drawnOnce(renderer, movingPicture(1.3), Path::deferred, {});
+    EXPECT_EQ(renderer.pipelines(), compiled);
+}
+
+// A pass poses where something is deformed at the picture's time, and nowhere else.
+TEST(Moving, NothingIsPosedWhereNothingDeforms) {
+    const auto passesOf = [](const std::string& name, Skinning skinning) {
+        const Scene scene = loadScene(name);
+        SharedResources shared(device(), scene, pipelines());
+        SceneViews views(scene);
+        Settings settings = movingPicture(0.7);
+        settings.skinning = skinning;
+        const PreparedFrame frame(device(), shared, views.at(viewRequest(settings)), settings);
+        return frame.passes.names();
+    };
+    const auto poses = [](const std::vector<std::string>& names) {
+        return std::ranges::count(names, "pose");
+    };
+    EXPECT_EQ(poses(passesOf("builtin:triangle", Skinning::compute)), 0);
+    EXPECT_EQ(poses(passesOf("builtin:motion", Skinning::compute)), 1);
+    // Fresh tangents depend on neighbours, and are made by kernels all the same.
+    EXPECT_EQ(poses(passesOf("builtin:motion", Skinning::vertex)), 1);
+}
+
+// ---- order and culling -------------------------------------------------------------------------------
+
+// Two blended squares, each on a joint of its own; the second one's moves from behind the first to before it,
+// and then out of the picture.
+Scene blendedSquares() {
+    Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].base_color.a = 0.5f;
+    scene.materials[0].double_sided = true;
+    scene.meshes.resize(1);
+    Primitive& square = scene.meshes[0].primitives.emplace_back();
+    square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    square.normals.assign(4, {0, 0, 1});
+    square.tangents.assign(4, {1, 0, 0, 1});
+    square.indices = {0, 1, 2, 0, 2, 3};
+    square.joint_sets = {
+        {std::vector<glm::u16vec4>(4, {0, 0, 0, 0}), std::vector<glm::vec4>(4, {1, 0, 0, 0})}};
+    scene.nodes.resize(4);
+    for (std::size_t i = 0; i < 2; ++i) {
+        scene.nodes[i].mesh = 0;
+        scene.nodes[i].skin = static_cast<int>(i);
+        scene.nodes[2 + i].transform = static_cast<int>(i);
+        scene.transforms.emplace_back();
+        scene.skins.push_back({"", {static_cast<int>(2 + i)}, {glm::mat4(1)}, -1});
+    }
+    Animation& animation = scene.animations.emplace_back();
+    animation.keyframes = {{Interpolation::linear, {0, 1, 2}, {0, 0, -1, 0, 0, 1, 90, 0, 1}, 3}};
+    animation.channels.resize(1);
+    animation.channels[0].node = 3;
+    animation.channels[0].keyframes = 0;
+    animation.channels[0].part = AnimatedPart::translation;
+    scene.cameras.resize(1);
+    scene.cameras[0].world_from_camera[3] = {0, 0, 8, 1};
+    return scene;
+}
+
+TEST(Moving, BlendedDrawsAreSortedAndCulledByTheLivePose) {
+    const Scene scene = blendedSquares();
+    SharedResources shared(device(), scene, pipelines());
+    SceneViews views(scene);
+    const auto drawnAt = [&](double time) {
+        Settings settings = movingPicture(time);
+        settings.lights = "";
+        const SceneView& view = views.at(viewRequest(settings));
+        const DrawList draws = makeDrawList(view.pose, shared.geometry, shared.materials, view.view);
+        std::vector<std::uint32_t> order;
+        for (const DrawItem& item : draws.blended())
+            if (order.empty() || order.back() != item.instance) order.push_back(item.instance);
+        return order;
+    };
+    EXPECT_EQ(drawnAt(0), (std::vector<std::uint32_t>{1, 0}));
+    EXPECT_EQ(drawnAt(1), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(drawnAt(2), (std::vector<std::uint32_t>{0}));
+}
+
+// Triangle by triangle the order on the host is that of the fragments on the device.
+TEST(Moving, TrianglesOfTheLivePoseAreBlendedInTheirOrder) {
+    UploadedScene& moving = uploaded("builtin:motion");
+    Settings settings = movingPicture(0.7);
+    settings.transparency = Transparency::triangles;
+    const Frame triangles = drawnOnce(moving.renderer, settings, Path::forward_plus, {lit});
+    settings.transparency = Transparency::list;
+    const Frame fragments = drawnOnce(moving.renderer, settings, Path::forward_plus, {lit});
+    settings.transparency = Transparency::off;
+    const Frame without = drawnOnce(moving.renderer, settings, Path::forward_plus, {lit});
+    const Image &a = triangles.channels.at(lit), &b = fragments.channels.at(lit);
+    EXPECT_GT(differingPixels(a, without.channels.at(lit)), 50u);
+    // Both blend float32 one over the other; a fragment's part is rounded once more in a list.
+    for (std::size_t i = 0; i < a.data.size(); ++i)
+        ASSERT_NEAR(a.data[i], b.data[i], 1e-5f * std::max(1.0f, std::abs(b.data[i]))) << i;
+}
+
+// ---- where the reference has it ----------------------------------------------------------------------
+
+// The two silhouettes are of float32 and of double: they part where an edge passes a pixel's centre.
+TEST_P(MovingParity, SilhouettesAreTheReferences) {
+    UploadedScene* const moving = scene();
+    if (moving == nullptr)
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
+    for (const double time : {0.3, 0.7}) {
+        Settings settings = movingPicture(time);
+        settings.haze = false;
+        settings.lights = "";
+        settings.shadow_lights = 0;
+        const Frame drawn =
+            drawnOnce(moving->renderer, settings, Path::forward_plus, {lit, materialId, depthMode});
+        Settings asked = settings;
+        asked.reference_mode = ReferenceMode::scene;
+        const Frame truth = drawnOnce(moving->renderer, asked, Path::reference, {lit, materialId, depthMode});
+        EXPECT_LE(differingPixels(drawn.channels.at(materialId), truth.channels.at(materialId), true), 3u)
+            << time;
+        EXPECT_GT(coveredPixels(drawn), 100u);
+        const Image &a = drawn.channels.at(depthMode), &b = truth.channels.at(depthMode);
+        std::size_t apart = 0;
+        for (std::size_t i = 0; i < a.data.size(); ++i)
+            apart += std::abs(a.data[i] - b.data[i]) > 1e-4f * std::abs(b.data[i]);
+        EXPECT_LE(apart, 3u) << time;
+        // A stale pose is far from it.
+        settings.time = 0;
+        const Frame stale = drawnOnce(moving->renderer, settings, Path::forward_plus, {depthMode});
+        EXPECT_GT(differingPixels(stale.channels.at(depthMode), a), 20u) << time;
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
