@@ -62,8 +62,8 @@ Settings settingsOf(Path path, Assignment assign, LightKernel kernel, Switch pre
 
 class WholeFrame {
 public:
-    explicit WholeFrame(const Settings& settings)
-        : scene_(loadScene("builtin:triangle")), shared_(device(), scene_, pipelines()) {
+    explicit WholeFrame(const Settings& settings, const std::string& scene = "builtin:triangle")
+        : scene_(loadScene(scene)), shared_(device(), scene_, pipelines()) {
         seen_.emplace(makeSceneView(scene_, viewRequest(settings)));
         frame_ = std::make_unique<PreparedFrame>(device(), shared_, *seen_, settings);
         frame_->passes.allocate();
@@ -126,6 +126,37 @@ TEST(RecordedBarriers, OfEveryKindOfFrameAreEnough) {
             << nameOf(settings.path) << ", " << nameOf(settings.assign) << ", "
             << nameOf(settings.light_kernel);
     }
+}
+
+// What kernels pose is waited for by every pass that draws it, and read no more when the next frame poses.
+TEST(RecordedBarriers, OfFramesThatPoseAreEnough) {
+    for (const Path path : {Path::forward_plus, Path::deferred})
+        for (const Skinning skinning : {Skinning::compute, Skinning::vertex})
+            for (const Shadows shadows : {Shadows::pcf, Shadows::clipmap})
+                for (const Transparency transparency :
+                     {Transparency::sorted, Transparency::moments, Transparency::list}) {
+                    Settings settings =
+                        settingsOf(path, Assignment::tiled, LightKernel::automatic, Switch::on);
+                    settings.time = 0.7;
+                    settings.skinning = skinning;
+                    settings.shadows = shadows;
+                    settings.shadow_lights = 1;
+                    settings.shadow_size = 256;
+                    settings.clipmap_page_size = 32;
+                    settings.transparency = transparency;
+                    WholeFrame frame(settings, "builtin:motion");
+                    const Barriers planned = plannedOf(frame.passes());
+                    const std::vector<DeclaredUse> uses = frame.passes().declarations();
+                    EXPECT_EQ(hazardsOf(uses, planned.first, planned.again), std::vector<std::string>{})
+                        << settings.valueOf("path") << ", " << settings.valueOf("skinning");
+                    // Negative control: without the barriers of what is posed something is amiss.
+                    const std::string posed =
+                        skinning == Skinning::compute ? "posed positions" : "tangents of groups";
+                    std::vector<RecordedBarrier> lacking = planned.again;
+                    std::erase_if(lacking, [&](const RecordedBarrier& b) { return b.resource == posed; });
+                    EXPECT_LT(lacking.size(), planned.again.size());
+                    EXPECT_FALSE(hazardsOf(uses, planned.first, lacking).empty());
+                }
 }
 
 // Negative control: a barrier that is left out, or lacks its source stages, source accesses or destination,
