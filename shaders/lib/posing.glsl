@@ -27,48 +27,47 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pos
     PosedInstance instance;
 };
 
-// Morph targets' sums of one attribute, deltas [first, end).
-vec2 morphed2(PosedInstance i, uint first, uint end, uint vertex) {
-    vec2 sum = vec2(0.0);
-    for (uint d = first; d < end; ++d) {
-        PosedDelta delta = DeltaArray(i.deltas).at[d];
-        sum += delta.weight * Vec2Array(delta.deltas).at[vertex];
+// Morph targets' sums of one attribute, deltas [first, end), and `rest`. What each addition rounds away is
+// added to the next term (W. Kahan, "Further Remarks on Reducing Truncation Errors", 1965), so that any
+// number of targets are as exact as one.
+#define MORPHED(Name, type, Array)                                               \
+    type Name(PosedInstance i, type rest, uint first, uint end, uint vertex) {   \
+        type sum = rest, rounded = type(0.0);                                    \
+        for (uint d = first; d < end; ++d) {                                     \
+            PosedDelta delta = DeltaArray(i.deltas).at[d];                       \
+            type term = delta.weight * Array(delta.deltas).at[vertex] - rounded; \
+            type next = sum + term;                                              \
+            rounded = (next - sum) - term;                                       \
+            sum = next;                                                          \
+        }                                                                        \
+        return sum;                                                              \
     }
-    return sum;
-}
-vec3 morphed3(PosedInstance i, uint first, uint end, uint vertex) {
-    vec3 sum = vec3(0.0);
-    for (uint d = first; d < end; ++d) {
-        PosedDelta delta = DeltaArray(i.deltas).at[d];
-        sum += delta.weight * Vec3Array(delta.deltas).at[vertex];
-    }
-    return sum;
-}
+MORPHED(morphed2, vec2, Vec2Array)
+MORPHED(morphed3, vec3, Vec3Array)
+MORPHED(morphed4, vec4, Vec4Array)
+#undef MORPHED
 
 // Object, from the pivot, m.
 vec3 morphedPosition(PosedInstance i, uint vertex) {
     vec3 rest = Vec3Array(i.positions).at[vertex];
-    return (rest - i.pivot) + morphed3(i, 0, i.positions_end, vertex);
+    return morphed3(i, rest - i.pivot, 0, i.positions_end, vertex);
 }
 // Object, any length.
 vec3 morphedNormal(PosedInstance i, uint vertex) {
     vec3 rest = AttributesArray(i.attributes).at[vertex].normal;
-    return rest + morphed3(i, i.positions_end, i.normals_end, vertex);
+    return morphed3(i, rest, i.positions_end, i.normals_end, vertex);
 }
 vec2 morphedTexcoord0(PosedInstance i, uint vertex) {
     vec2 rest = AttributesArray(i.attributes).at[vertex].texcoord0;
-    return rest + morphed2(i, i.tangents_end, i.texcoords0_end, vertex);
+    return morphed2(i, rest, i.tangents_end, i.texcoords0_end, vertex);
 }
 vec2 morphedTexcoord1(PosedInstance i, uint vertex) {
     vec2 rest = AttributesArray(i.attributes).at[vertex].texcoord1;
-    return rest + morphed2(i, i.texcoords0_end, i.texcoords1_end, vertex);
+    return morphed2(i, rest, i.texcoords0_end, i.texcoords1_end, vertex);
 }
 vec4 morphedColor(PosedInstance i, uint vertex) {
-    vec4 sum = AttributesArray(i.attributes).at[vertex].color;
-    for (uint d = i.texcoords1_end; d < i.colors_end; ++d) {
-        PosedDelta delta = DeltaArray(i.deltas).at[d];
-        sum += delta.weight * Vec4Array(delta.deltas).at[vertex];
-    }
+    vec4 rest = AttributesArray(i.attributes).at[vertex].color;
+    vec4 sum = morphed4(i, rest, i.texcoords1_end, i.colors_end, vertex);
     return i.colors_end > i.texcoords1_end ? clamp(sum, vec4(0.0), vec4(1.0)) : sum;
 }
 
@@ -147,7 +146,7 @@ vec3 morphedTangent(PosedInstance i, uint vertex) {
         bool any = group >= i.groups || !(largestOf(made) > 0.0);
         return any ? anyTangent(unitVector(morphedSurfaceNormal(i, vertex))) : made;
     }
-    return rest + morphed3(i, i.normals_end, i.tangents_end, vertex);
+    return morphed3(i, rest, i.normals_end, i.tangents_end, vertex);
 }
 
 struct PosedVertex {

@@ -18,9 +18,9 @@ namespace {
 
 static_assert(double{gpu::MAX_POSED_COORDINATE} == double{static_cast<float>(maxCoordinate)});
 
-// lavapipe ends all loops of a shader's invocation after 65,535 rounds; a flat triangle's corners are posed
-// by each of its three vertices and once more.
-constexpr std::size_t mostDeltas = 16000;
+// lavapipe ends all loops of a shader's invocation after 65,535 rounds together, and runs one more of each;
+// those over sets of joints have what is left.
+constexpr std::size_t mostRounds = 65000;
 
 // The matrices that move an instance's vertices, about the pivot, to its box's origin.
 std::vector<glm::mat4x3> matricesOf(const Pose& pose, const Instance& instance, const glm::vec3& pivot) {
@@ -50,15 +50,19 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
         end = static_cast<gpu::uint>(deltas.size());
     };
     add(&Target::positions, i.positions_end);
-    if (deltas.size() > mostDeltas)
-        throw std::runtime_error(
-            fmt::format("{} morph targets of a mesh have a weight at once: a shader adds up to {}",
-                        deltas.size(), mostDeltas));
     add(&Target::normals, i.normals_end);
     add(&Target::tangents, i.tangents_end);
     add(&Target::texcoords0, i.texcoords0_end);
     add(&Target::texcoords1, i.texcoords1_end);
     add(&Target::colors, i.colors_end);
+    // A flat triangle's corners are posed by each of its vertices: once more, and again for its tangents.
+    const std::size_t corners = i.flat_normals == 0 ? 0 : i.groups > 0 ? 6 : 3;
+    const std::size_t rounds = deltas.size() + corners * i.positions_end;
+    if (rounds > mostRounds)
+        throw std::runtime_error(fmt::format(
+            "morph targets have a weight in {} attributes of a vertex at once, which takes {} additions: a "
+            "shader makes up to {}",
+            deltas.size(), rounds, mostRounds));
     return deltas;
 }
 
@@ -107,9 +111,11 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
             instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)];
         const std::vector<gpu::PosedDelta> deltas = deltasOf(of, weights, i);
         // Tangents are made anew where what they are made of has moved.
-        if (weights == nullptr || deltas.empty()) i.groups = 0;
+        const TextureSlot& map = normalMapOf(geometry.scene(), pose, instance);
+        const bool moves_texcoords =
+            map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
+        if (i.normals_end == 0 && !moves_texcoords) i.groups = 0;
         if (i.groups > 0) {
-            const TextureSlot& map = normalMapOf(geometry.scene(), pose, instance);
             i.map_second = map.texcoord == 1 ? 1 : 0;
             i.map_u = glm::vec3(map.u);
             i.map_v = glm::vec3(map.v);
