@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// What the kernels of posing make of skinned and morphed vertices, against the pose in double.
+#include "shared/draw/posing.h"
+
+#include "shared/scene/builtin/builtin.h"
+#include "shared/scene/load.h"
+#include "shared/vulkan/device.h"
+#include "tests/probe/posing_compare.h"
+#include "tests/probe/posing_maker.h"
+#include "tests/probe/probe.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+glm::dmat4 placed(const glm::dvec3& at, const glm::dvec3& scale = glm::dvec3(1)) {
+    return glm::scale(glm::translate(glm::dmat4(1), at), scale);
+}
+
+PosingErrors compared(const Scene& scene, const std::string& what) {
+    PosingErrors errors;
+    comparePosing(scene, poseAt(scene, 0), what, errors);
+    return errors;
+}
+
+TEST(Posing, OfTheSceneOfWhatMoves) {
+    const Scene scene = loadScene("builtin:motion");
+    PosingErrors errors;
+    for (const double seconds : {0.0, 0.35, 1.0, 1.7, 3.1})
+        comparePosing(scene, poseAt(scene, seconds), fmt::format("at {} s", seconds), errors);
+    printErrors("builtin:motion", errors);
+}
+
+TEST(Posing, OfFilesAtThreeTimes) {
+    const std::filesystem::path folder =
+        std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets/scenes";
+    bool any = false;
+    for (const std::string file : {"cesium_man/CesiumMan.gltf", "morph_stress_test/morph_stress_test.glb"}) {
+        if (!std::filesystem::exists(folder / file)) continue;
+        any = true;
+        const Scene scene = loadScene(folder / file);
+        PosingErrors errors;
+        for (const double seconds : {0.3, 0.6, 1.3})
+            comparePosing(scene, poseAt(scene, seconds), fmt::format("{} at {} s", file, seconds), errors);
+        printErrors(file, errors);
+    }
+    if (!any) GTEST_SKIP() << "there are no scenes in " << folder;
+}
+
+// Every combination of joint sets, flat and smooth surfaces, with and without targets, mirrored and not.
+TEST(Posing, OfRandomMeshesInRandomPoses) {
+    PosingErrors errors;
+    for (int n = 0; n < 32; ++n) {
+        PosingMaker maker(static_cast<unsigned>(n));
+        PosingChoice c;
+        c.joint_sets = n % 4;
+        c.targets = n / 4 % 2 == 0 && c.joint_sets > 0 ? 0 : 1 + maker.below(5);
+        c.flat = n / 8 % 2 == 1;
+        c.root = placed(10.0 * maker.vector(), glm::dvec3(n / 16 % 2 == 1 ? -1.5 : 1.5, 1.5, 1.5));
+        c.inverse_binds = n % 8 != 3;
+        Scene scene = maker.scene(c);
+        if (c.joint_sets > 0) maker.addSkin(scene, c);  // the mesh is drawn with two skins
+        const Pose pose = poseAt(scene, 0);
+        ASSERT_EQ(pose.boxes.size(), c.joint_sets > 0 ? 2u : 1u);
+        comparePosing(scene, pose, fmt::format("mesh {}", n), errors);
+    }
+    printErrors("random meshes", errors);
+    EXPECT_EQ(errors.missing, 0u);
+    EXPECT_GT(errors.normal, 0);  // some have been judged
+    EXPECT_GT(errors.tangent_bound, 0);
+}
+
+// Smooth and flat, of either set of texture coordinates under a transform, before joints and without.
+TEST(Posing, TangentsAreMadeOfTheMorphedSurface) {
+    PosingErrors errors;
+    for (int n = 0; n < 16; ++n) {
+        PosingMaker maker(static_cast<unsigned>(100 + n));
+        PosingChoice c;
+        c.fresh_tangents = true;
+        c.targets = 3;
+        c.flat = n % 2 == 1;
+        c.map_texcoord = n / 2 % 2;
+        c.joint_sets = n / 4 % 2;
+        c.joints = 1;
+        c.root = placed(maker.vector(), glm::dvec3(n / 8 % 2 == 1 ? -1 : 1, 1, 1));
+        comparePosing(maker.scene(c), poseAt(maker.scene(c), 0), fmt::format("mesh {}", n), errors);
+    }
+    printErrors("tangents made anew", errors);
+    EXPECT_GT(errors.fresh_tangent, 0);
+}
+
+TEST(Posing, FarFromTheMeshsOrTheWorldsOriginAndAtAnyScale) {
+    for (const auto& [what, offset, root, scale] :
+         {std::tuple{"10,000 times its size from its own origin", glm::dvec3(6e3, -8e3, 0), placed({0, 0, 0}),
+                     1.0},
+          {"1,000 km from the world's origin", glm::dvec3(0), placed({6e5, 2e4, -8e5}), 1.0},
+          {"joints scaled by 1e-6", glm::dvec3(0), placed({1, 2, 3}), 1e-6},
+          {"joints scaled by 1e6", glm::dvec3(0), placed({1, 2, 3}), 1e6}})
+        for (const bool flat : {false, true}) {
+            PosingMaker maker(7);
+            PosingChoice c;
+            c.joint_sets = 2;
+            c.targets = 2;
+            c.flat = flat;
+            c.offset = offset;
+            c.root = root;
+            c.joint_scale = scale;
+            printErrors(what, compared(maker.scene(c), what));
+        }
+}
+
+TEST(Posing, OfAThousandTargets) {
+    PosingMaker maker(8);
+    PosingChoice c;
+    c.targets = 1000;
+    c.cells = 4;
+    printErrors("1,000 targets", compared(maker.scene(c), "a thousand targets"));
+}
+
+TEST(Posing, OfAsManyJointsAsNumbersOf16BitsName) {
+    PosingMaker maker(9);
+    PosingChoice c;
+    c.joint_sets = 1;
+    c.joints = 65535;
+    c.cells = 30;
+    Scene scene = maker.scene(c);
+    JointSet& set = scene.meshes[0].primitives[0].joint_sets[0];
+    set.joints[0] = {65534, 0, 0, 0};
+    set.weights[0] = {1, 0, 0, 0};
+    printErrors("65,535 joints", compared(scene, "65,535 joints"));
+}
+
+// A joint of scale 0 gathers its vertices in a point, where nothing has a direction.
+TEST(Posing, ACollapsedJointHasNoDirections) {
+    PosingMaker maker(10);
+    PosingChoice c;
+    c.joint_sets = 1;
+    Scene scene = maker.scene(c);
+    glm::dmat4& joint = scene.nodes[2].parent_from_node;
+    joint = glm::scale(joint, glm::dvec3(0));
+    JointSet& set = scene.meshes[0].primitives[0].joint_sets[0];
+    const std::size_t half = set.joints.size() / 2;
+    for (std::size_t v = 0; v < half; ++v) {
+        set.joints[v] = {};
+        set.weights[v] = {1, 0, 0, 0};
+    }
+    const Pose pose = poseAt(scene, 0);
+    const PosedVertices exact = posedVertices(scene, pose, pose.instances.at(0));
+    for (std::size_t v = 0; v < half; ++v) ASSERT_EQ(exact.normals[v], glm::dvec3(0));
+    PosingErrors errors;
+    comparePosing(scene, pose, "collapsed", errors);
+    printErrors("a collapsed joint", errors);
+}
+
+// In float32 as in double: the triangles are not drawn.
+TEST(Posing, BeyondWhatCoordinatesMayBeIsNaN) {
+    for (const bool skinned : {false, true}) {
+        PosingMaker maker(11);
+        PosingChoice c;
+        c.joint_sets = skinned ? 1 : 0;
+        c.targets = 2;
+        Scene scene = maker.scene(c);
+        MorphTarget& target = scene.meshes[0].primitives[0].targets[0];
+        scene.meshes[0].weights[0] = 2;
+        for (std::size_t v = 0; v < target.positions.size(); v += 3) target.positions[v].y += 2e18f;
+        PosingErrors errors;
+        const Pose pose = poseAt(scene, 0);
+        ASSERT_EQ(pose.boxes.size(), 1u);
+        comparePosing(scene, pose, "beyond", errors);
+        EXPECT_EQ(errors.missing, (target.positions.size() + 2) / 3);
+        EXPECT_GT(errors.vertices, errors.missing);
+    }
+}
+
+// All loops of a shader share a number of rounds on some devices; what is beyond would be left out silently.
+TEST(Posing, MoreTargetsAtOnceThanAShaderAddsUpAreAnError) {
+    const auto posed = [](bool flat, std::size_t targets, bool positions_alone, const std::string& what) {
+        PosingMaker maker(12);
+        PosingChoice c;
+        c.targets = 1;
+        c.cells = 1;
+        c.flat = flat;
+        Scene scene = maker.scene(c);
+        Mesh& mesh = scene.meshes[0];
+        MorphTarget& target = mesh.primitives[0].targets[0];
+        if (positions_alone) target = {target.positions, {}, {}};
+        mesh.primitives[0].targets.resize(targets, MorphTarget(target));
+        mesh.weights.assign(targets, 1e-4f);
+        mesh.weights.back() = 0;  // counts nothing
+        printErrors(what, compared(scene, what));
+    };
+    posed(false, 10001, false, "10,000 targets of every attribute");
+    posed(false, 65001, true, "65,000 targets of positions");
+    posed(true, 16251, true, "16,250 targets of flat triangles");
+    for (const auto& [flat, targets, positions_alone, deltas, rounds] :
+         {std::tuple{false, 10835, false, 65004, 65004},
+          {false, 65002, true, 65001, 65001},
+          {true, 16252, true, 16251, 65004}}) {
+        try {
+            posed(flat, static_cast<std::size_t>(targets), positions_alone, "too many");
+            ADD_FAILURE() << "they were posed";
+        } catch (const std::runtime_error& e) {
+            EXPECT_EQ(std::string(e.what()),
+                      fmt::format("morph targets have a weight in {} attributes of a vertex at once, which "
+                                  "takes {} additions: a shader makes up to 65000",
+                                  deltas, rounds));
+        }
+    }
+}
+
+// One pose for all views of a moment; another one where anything that it follows from is another.
+TEST(Posing, ViewsOfOneMomentShareAPose) {
+    PosingMaker maker(13);
+    PosingChoice c;
+    c.joint_sets = 1;
+    c.targets = 2;
+    Scene scene = maker.scene(c);
+    Device& device = probeDevice();
+    Uploader uploader(device);
+    const Geometry geometry(device, uploader, scene);
+    Posings posings(device, uploader, scene, geometry);
+    uploader.flush();
+    const OwnedPipelineLayout layout = makePosingLayout(device);
+    Pipelines pipelines(device, layout);
+    const Pose rest = poseAt(scene, 0);
+    auto first = posings.at(rest, Skinning::compute, pipelines);
+    EXPECT_EQ(posings.at(rest, Skinning::compute, pipelines), first);
+    EXPECT_EQ(posings.made(), 1u);
+    EXPECT_NE(posings.at(rest, Skinning::vertex, pipelines), first);
+    std::size_t made = posings.made();
+    for (const auto& change : std::vector<void (*)(Pose&)>{[](Pose& p) { p.skins[0][0][3].x += 1e-9; },
+                                                           [](Pose& p) { p.weights[0][0] += 1e-9; },
+                                                           [](Pose& p) { p.boxes[0].origin.x += 1; }}) {
+        Pose other = rest;
+        change(other);
+        EXPECT_NE(posings.at(other, Skinning::compute, pipelines), first);
+        EXPECT_EQ(posings.made(), ++made);
+    }
+    Pose lit = rest;
+    lit.lights.emplace_back();
+    EXPECT_EQ(posings.at(lit, Skinning::compute, pipelines), first);
+    first.reset();
+    posings.at(rest, Skinning::compute, pipelines);
+    EXPECT_EQ(posings.made(), made + 1);  // nobody had kept it
+}
+
+}  // namespace
+}  // namespace diptych
