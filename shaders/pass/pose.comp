@@ -3,10 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Poses the vertices of an instance into the buffers that draws read; a thread each.
+// WIDE: 0 to 1
 #include "shaders/lib/posing_thread.glsl"
 
 void main() {
-    PosedInstance i = PosedInstanceBlock(constants.instance).instance;
+    PosedInstance i = instanceOfDispatch();
     uint vertex = posingThread();
     if (vertex >= i.vertices) return;
     PosedVertex posed = posedVertex(i, vertex);
@@ -15,7 +16,7 @@ void main() {
     attributes.at[vertex].normal = posed.normal;
     attributes.at[vertex].tangent.xyz = posed.tangent;
     // What no target moves is there already.
-    if (i.texcoords0_end > i.tangents_end) attributes.at[vertex].texcoord0 = morphedTexcoord0(i, vertex);
-    if (i.texcoords1_end > i.texcoords0_end) attributes.at[vertex].texcoord1 = morphedTexcoord1(i, vertex);
-    if (i.colors_end > i.texcoords1_end) attributes.at[vertex].color = morphedColor(i, vertex);
+    if (has(POSED_TEXCOORDS0)) attributes.at[vertex].texcoord0 = morphedTexcoord0(i, vertex);
+    if (has(POSED_TEXCOORDS1)) attributes.at[vertex].texcoord1 = morphedTexcoord1(i, vertex);
+    if (has(POSED_COLORS)) attributes.at[vertex].color = morphedColor(i, vertex);
 }

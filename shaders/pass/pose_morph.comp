@@ -7,7 +7,7 @@
 #include "shaders/lib/posing_thread.glsl"
 
 void main() {
-    PosedInstance i = PosedInstanceBlock(constants.instance).instance;
+    PosedInstance i = instanceOfDispatch();
     uint vertex = posingThread();
     if (vertex >= i.vertices) return;
     vec2 uv = i.map_second != 0 ? morphedTexcoord1(i, vertex) : morphedTexcoord0(i, vertex);

@@ -30,7 +30,7 @@ vec3 tangentAt(PosedInstance i, uint corner) {
 }
 
 void main() {
-    PosedInstance i = PosedInstanceBlock(constants.instance).instance;
+    PosedInstance i = instanceOfDispatch();
     uint group = posingThread();
     if (group >= i.groups) return;
     uint end = UintArray(i.group_first).at[group + 1];

@@ -95,7 +95,10 @@
     /* TRANSMISSION_* of material.h */                                                                      \
     X(53, transmission,               item,    0, PASSES_SHADE)                                             \
     /* the vertex shader poses: posing.h */                                                                 \
-    X(54, vertex_posing,              item,    0, PASSES_DRAW)
+    X(54, vertex_posing,              item,    0, PASSES_DRAW)                                              \
+    /* of the instance that a kernel poses: how many sets of joints it has, a sum of POSED_* of posing.h */ \
+    X(55, posed_joint_sets,           pass,    0, PASS_POSING)                                              \
+    X(56, posed_parts,                pass,    0, PASS_POSING)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -114,6 +117,7 @@ CONTRACT_CONST(uint, PASS_LIGHTING, 8);        // deferred lighting and its capt
 CONTRACT_CONST(uint, PASS_LISTS, 16);          // light_*.comp
 CONTRACT_CONST(uint, PASS_SHADOWS, 32);        // moments of shadow maps: shadow_*.comp
 CONTRACT_CONST(uint, PASS_BACKGROUND, 64);     // background.frag
+CONTRACT_CONST(uint, PASS_POSING, 128);        // pose.comp, pose_*.comp
 CONTRACT_CONST(uint, PASSES_DRAW, 1 | 2 | 4);  // those that draw the scene's triangles
 CONTRACT_CONST(uint, PASSES_SURFACE, 2 | 4);   // those that make a Surface from a material
 CONTRACT_CONST(uint, PASSES_SHADE, 2 | 8);     // those that evaluate lights

@@ -58,10 +58,38 @@ struct MorphedVertex {
     vec2 texcoord;  // of the normal map, transformed
 };
 
-// Push constants of the kernels.
+// Push constants of the kernels: where the instance is, and those of its members that every vertex needs, which
+// are in registers this way.
 struct PosingConstants {
     uvec2 instance;  // address of a PosedInstance
+    uvec2 positions;
+    uvec2 attributes;
+    uvec2 joints;
+    uvec2 joint_weights;
+    uvec2 matrices;
+    uvec2 deltas;
+    uvec2 posed_positions;
+    uvec2 posed_attributes;
+    vec3 pivot;
+    float handedness;
+    uint vertices;
+    uint positions_end;
+    uint normals_end;
+    uint tangents_end;
+    uint texcoords0_end;
+    uint texcoords1_end;
+    uint colors_end;
 };
+
+// What an instance has, as feature_posed_parts tells the kernels: deltas of these attributes,
+CONTRACT_CONST(uint, POSED_POSITIONS, 1);
+CONTRACT_CONST(uint, POSED_NORMALS, 2);
+CONTRACT_CONST(uint, POSED_TANGENTS, 4);
+CONTRACT_CONST(uint, POSED_TEXCOORDS0, 8);
+CONTRACT_CONST(uint, POSED_TEXCOORDS1, 16);
+CONTRACT_CONST(uint, POSED_COLORS, 32);
+CONTRACT_CONST(uint, POSED_FLAT, 64);     // flat_normals
+CONTRACT_CONST(uint, POSED_GROUPS, 128);  // tangents that are made of the morphed vertices
 
 // Positions beyond it are NaN, and their triangles are not drawn; m. maxCoordinate of scene.h.
 CONTRACT_CONST(float, MAX_POSED_COORDINATE, 1e18f);

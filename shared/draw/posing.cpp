@@ -66,6 +66,30 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
     return deltas;
 }
 
+Variant variantOf(const gpu::PosedInstance& i) {
+    gpu::uint parts = 0, first = 0;
+    for (const auto& [part, end] : {std::pair{gpu::POSED_POSITIONS, i.positions_end},
+                                    {gpu::POSED_NORMALS, i.normals_end},
+                                    {gpu::POSED_TANGENTS, i.tangents_end},
+                                    {gpu::POSED_TEXCOORDS0, i.texcoords0_end},
+                                    {gpu::POSED_TEXCOORDS1, i.texcoords1_end},
+                                    {gpu::POSED_COLORS, i.colors_end}}) {
+        if (end > first) parts |= part;
+        first = end;
+    }
+    if (i.flat_normals != 0) parts |= gpu::POSED_FLAT;
+    if (i.groups > 0) parts |= gpu::POSED_GROUPS;
+    return Variant().set(gpu::FEATURE_posed_joint_sets, i.joint_sets).set(gpu::FEATURE_posed_parts, parts);
+}
+
+gpu::PosingConstants constantsOf(const gpu::PosedInstance& i, VkDeviceAddress address) {
+    return {addressWords(address), i.positions,   i.attributes,   i.joints,
+            i.joint_weights,       i.matrices,    i.deltas,       i.posed_positions,
+            i.posed_attributes,    i.pivot,       i.handedness,   i.vertices,
+            i.positions_end,       i.normals_end, i.tangents_end, i.texcoords0_end,
+            i.texcoords1_end,      i.colors_end};
+}
+
 const TextureSlot& normalMapOf(const Scene& scene, const Pose& pose, const Instance& instance) {
     const Primitive& primitive = primitiveOf(scene, instance);
     return materialsOf(scene, pose)[static_cast<std::size_t>(primitive.material)].normal_texture;
@@ -85,7 +109,7 @@ OwnedPipelineLayout makePosingLayout(Device& device) {
 
 Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
                const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning)
-    : layout_(layout), skinning_(skinning) {
+    : layout_(layout), skinning_(skinning), wide_(device.hasInt64()) {
     // Arrays first with their offsets in place of addresses.
     struct Arrays {
         gpu::PosedInstance instance;
@@ -123,7 +147,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         arrays.push_back({i, arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
                           arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,
                           morphed});
-        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_});
+        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(i)});
         vertices_ += i.vertices;
         groups += i.groups;
         if (i.groups > 0) morphed += i.vertices;
@@ -167,7 +191,12 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         first += i.vertices;
         arena.put(a.record, i);
     }
-    for (Posed& p : instances_) p.address = p.vertices > 0 ? pose_.address() + p.address : 0;
+    auto placed = arrays.begin();
+    for (Posed& p : instances_)
+        if (p.vertices > 0) {
+            p.address = pose_.address() + p.address;
+            p.constants = constantsOf(placed++->instance, p.address);
+        }
     arena.upload(uploader, pose_);
     uploader.flush();
     device.submit([&](VkCommandBuffer commands) {
@@ -190,14 +219,23 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
 
 void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
     const auto kernel = [&](Shader shader, std::uint32_t Posed::*threads, bool of_groups) {
-        return [this, threads, of_groups,
-                pipeline = pipelines.compute(shader, {}, layout_)](VkCommandBuffer commands) {
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-            for (const Posed& instance : instances_) {
-                if (instance.*threads == 0 || (of_groups && instance.groups == 0)) continue;
-                const gpu::PosingConstants constants{addressWords(instance.address)};
-                vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
-                                   &constants);
+        struct Dispatch {
+            const Posed* instance;
+            VkPipeline pipeline;
+        };
+        std::vector<Dispatch> dispatches;
+        for (const Posed& instance : instances_)
+            if (instance.*threads > 0 && (!of_groups || instance.groups > 0))
+                dispatches.push_back(
+                    {&instance, pipelines.compute(shader, instance.variant, layout_, wide_ ? 1 : 0)});
+        return [layout = layout_, threads, dispatches = std::move(dispatches)](VkCommandBuffer commands) {
+            VkPipeline bound = VK_NULL_HANDLE;
+            for (const auto& [of, pipeline] : dispatches) {
+                const Posed& instance = *of;
+                if (pipeline != bound) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+                bound = pipeline;
+                vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                   sizeof instance.constants, &instance.constants);
                 const glm::uvec2 size = groupsFor(instance.*threads);
                 vkCmdDispatch(commands, size.x, size.y, 1);
             }

@@ -54,9 +54,12 @@ private:
         VkDeviceAddress address = 0;  // of its gpu::PosedInstance
         std::uint32_t vertices = 0, groups = 0;
         std::uint64_t first_vertex = 0;
+        gpu::PosingConstants constants{};  // of the kernels
+        Variant variant{};                 // likewise
     };
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     Skinning skinning_ = Skinning::compute;
+    bool wide_ = false;             // kernels load 64 bits at once
     std::vector<Posed> instances_;  // by box
     std::uint64_t vertices_ = 0;
     bool makes_tangents_ = false;

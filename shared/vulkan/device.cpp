@@ -228,6 +228,10 @@ bool Device::countsFragments() const {
     vkGetPhysicalDeviceFeatures(state_->physical, &features);
     return features.occlusionQueryPrecise == VK_TRUE;
 }
+bool Device::hasInt64() const {
+    return diptych::hasInt64(state_->physical);
+}
+
 bool Device::sortsFragments() const {
     return diptych::sortsFragments(state_->physical);
 }

@@ -54,6 +54,8 @@ public:
     bool countsFragments() const;           // occlusion queries are exact
     // Fragment shaders have 64-bit atomics on buffers and the number of their triangle.
     bool sortsFragments() const;
+    // Whether shaders may have integers of 64 bits.
+    bool hasInt64() const;
     const DeviceProfile& profile() const;
     std::uint64_t ticksBetween(std::uint64_t from, std::uint64_t to) const;
 

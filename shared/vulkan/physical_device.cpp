@@ -264,6 +264,12 @@ bool sortsFragments(VkPhysicalDevice device) {
            core.geometryShader == VK_TRUE && f.v12.shaderBufferInt64Atomics == VK_TRUE;
 }
 
+bool hasInt64(VkPhysicalDevice device) {
+    VkPhysicalDeviceFeatures there{};
+    vkGetPhysicalDeviceFeatures(device, &there);
+    return there.shaderInt64 == VK_TRUE;
+}
+
 VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     Features wanted;
     wanted.v13.dynamicRendering = VK_TRUE;
@@ -280,8 +286,8 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v10.features.independentBlend = there.independentBlend;
     wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;
     wanted.v10.features.fragmentStoresAndAtomics = there.fragmentStoresAndAtomics;
+    wanted.v10.features.shaderInt64 = there.shaderInt64;
     if (sortsFragments(physical)) {
-        wanted.v10.features.shaderInt64 = VK_TRUE;
         wanted.v10.features.geometryShader = VK_TRUE;  // gl_PrimitiveID in fragment shaders
         wanted.v12.shaderBufferInt64Atomics = VK_TRUE;
     }

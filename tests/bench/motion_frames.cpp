@@ -2,6 +2,7 @@
 // What motion adds to a frame:  bench_motion_frames [-n RUNS] [SCENE [SECONDS]]
 // Frames of both paths, in turn: whole, the same without posing (of the pose that is there: a frame at rest),
 // and posing alone; medians and spread. What is left of the whole after posing should be the frame at rest.
+#include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
 
