@@ -54,7 +54,7 @@ protected:
     void add(const glm::dvec3& at, const glm::dvec3& scale, int primitive = 0, double pitch = 0) {
         const glm::dmat4 placed = glm::translate(glm::dmat4(1), view.eye() + at);
         pose.instances.push_back(
-            {0, primitive, 0, glm::scale(glm::rotate(placed, pitch, glm::dvec3(1, 0, 0)), scale)});
+            {0, primitive, 0, 0, glm::scale(glm::rotate(placed, pitch, glm::dvec3(1, 0, 0)), scale)});
         draws = makeDrawList(pose, geometry, materials, view, Transparency::sorted);
     }
     BlendedReceivers receivers() const { return {draws, pose, geometry, view}; }

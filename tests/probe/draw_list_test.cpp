@@ -67,7 +67,7 @@ DrawList listOf(const std::vector<glm::dmat4>& transforms, const View& view,
     uploader.flush();
     Pose pose;
     for (std::size_t i = 0; i < transforms.size(); ++i)
-        pose.instances.push_back({0, primitives.empty() ? 0 : primitives[i], 0, transforms[i]});
+        pose.instances.push_back({0, primitives.empty() ? 0 : primitives[i], 0, 0, transforms[i]});
     return makeDrawList(pose, geometry, materials, view);
 }
 
@@ -183,7 +183,7 @@ struct BlendedSquares {
                     Transparency transparency = Transparency::triangles) const {
         Pose pose;
         for (const auto& [primitive, transform] : instances)
-            pose.instances.push_back({0, primitive, 0, transform});
+            pose.instances.push_back({0, primitive, 0, 0, transform});
         return makeDrawList(pose, *geometry, *materials, view, transparency);
     }
 };
