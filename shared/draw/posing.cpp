@@ -66,19 +66,18 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
     return deltas;
 }
 
-Variant variantOf(const gpu::PosedInstance& i) {
-    gpu::uint parts = 0, first = 0;
-    for (const auto& [part, end] : {std::pair{gpu::POSED_POSITIONS, i.positions_end},
-                                    {gpu::POSED_NORMALS, i.normals_end},
-                                    {gpu::POSED_TANGENTS, i.tangents_end},
-                                    {gpu::POSED_TEXCOORDS0, i.texcoords0_end},
-                                    {gpu::POSED_TEXCOORDS1, i.texcoords1_end},
-                                    {gpu::POSED_COLORS, i.colors_end}}) {
-        if (end > first) parts |= part;
-        first = end;
-    }
-    if (i.flat_normals != 0) parts |= gpu::POSED_FLAT;
-    if (i.groups > 0) parts |= gpu::POSED_GROUPS;
+// By what the primitive has, whatever has a weight now: no other time needs another kernel.
+Variant variantOf(const Deformations::Rest& rest, const gpu::PosedInstance& i) {
+    gpu::uint parts =
+        (i.flat_normals != 0 ? gpu::POSED_FLAT : 0) | (rest.instance.groups > 0 ? gpu::POSED_GROUPS : 0);
+    for (const Deformations::Target& t : rest.targets)
+        for (const auto& [part, deltas] : {std::pair{gpu::POSED_POSITIONS, t.positions},
+                                           {gpu::POSED_NORMALS, t.normals},
+                                           {gpu::POSED_TANGENTS, t.tangents},
+                                           {gpu::POSED_TEXCOORDS0, t.texcoords0},
+                                           {gpu::POSED_TEXCOORDS1, t.texcoords1},
+                                           {gpu::POSED_COLORS, t.colors}})
+            if (deltas != 0) parts |= part;
     return Variant().set(gpu::FEATURE_posed_joint_sets, i.joint_sets).set(gpu::FEATURE_posed_parts, parts);
 }
 
@@ -147,7 +146,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         arrays.push_back({i, arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
                           arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,
                           morphed});
-        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(i)});
+        instances_.push_back({arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i)});
         vertices_ += i.vertices;
         groups += i.groups;
         if (i.groups > 0) morphed += i.vertices;
@@ -252,6 +251,11 @@ void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
             .uses(tangents, access::storageWrite(inCompute))
             .record(kernel(Shader::pose_tangents_comp, &Posed::groups, true));
     }
+    // Made before the first time that needs them.
+    for (const Posed& instance : instances_)
+        if (!makes_tangents_ && (instance.variant.get(gpu::FEATURE_posed_parts) & gpu::POSED_GROUPS) != 0)
+            for (const Shader shader : {Shader::pose_morph_comp, Shader::pose_tangents_comp})
+                pipelines.compute(shader, instance.variant, layout_, wide_ ? 1 : 0);
     if (!any() || skinning_ == Skinning::vertex) return;
     Pass& pass = passes.compute("pose");
     if (makes_tangents_)
