@@ -65,6 +65,8 @@ constexpr ModuleKind moduleKinds[] = {
     {"deferred_", gpu::PASS_LIGHTING},
     {"light_", gpu::PASS_LISTS},
     {"shadow_", gpu::PASS_SHADOWS},
+    {"pose.comp", gpu::PASS_POSING},
+    {"pose_", gpu::PASS_POSING},
     {"clipmap_", 0},
     {"full_screen.vert", 0},
     {"layout.comp", 0},
@@ -108,7 +110,8 @@ struct PassName {
 };
 constexpr PassName passNames[] = {{gpu::PASS_DEPTH, "depth"},       {gpu::PASS_FORWARD, "forward"},
                                   {gpu::PASS_GBUFFER, "G-buffer"},  {gpu::PASS_LIGHTING, "deferred lighting"},
-                                  {gpu::PASS_LISTS, "light lists"}, {gpu::PASS_SHADOWS, "shadow maps"}};
+                                  {gpu::PASS_LISTS, "light lists"}, {gpu::PASS_SHADOWS, "shadow maps"},
+                                  {gpu::PASS_POSING, "posing"}};
 
 // The depth pass of alpha-masked materials shares surface.vert with shading passes. Outputs of it that
 // depend on features of shading do not matter there, since depth_mask.frag does not read them.
@@ -151,6 +154,7 @@ TEST(ShaderContract, AForgottenReaderOfAFeatureIsFound) {
                                         std::pair(gpu::FEATURE_ambient, gpu::PASS_FORWARD),
                                         std::pair(gpu::FEATURE_lightmap, gpu::PASS_GBUFFER),
                                         std::pair(gpu::FEATURE_spot_lights, gpu::PASS_LISTS),
+                                        std::pair(gpu::FEATURE_posed_parts, gpu::PASS_POSING),
                                         std::pair(gpu::FEATURE_capture_7, gpu::PASS_LIGHTING)}) {
         // Removing a feature's readers, and adding a reader to another feature, are one fault each.
         const auto without = [&](const FeatureRow& row) {
