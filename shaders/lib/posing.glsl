@@ -41,8 +41,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pos
 
 // Morph targets' sums of one attribute, deltas [first, end), and `rest`. What each addition rounds away is
 // added to the next term (W. Kahan, "Further Remarks on Reducing Truncation Errors", 1965), so that any
-// number of targets are as exact as one. lavapipe runs one round more of a loop that tests first; all threads of
-// an instance have the same number.
+// number of targets are as exact as one. lavapipe runs one round more of a loop that tests first; all
+// threads of an instance have the same number.
 #define MORPHED(Name, type, Array)                                               \
     type Name(PosedInstance i, type rest, uint first, uint end, uint vertex) {   \
         type sum = rest, rounded = type(0.0);                                    \
@@ -102,9 +102,9 @@ vec4 jointWeightsAt(PosedInstance i, uint at) {
 }
 mat4x3 matrixAt(PosedInstance i, uint at) {
 #if WIDE
-    vec2 a = pairAt(i.matrices, 6 * at), b = pairAt(i.matrices, 6 * at + 1), c = pairAt(i.matrices, 6 * at + 2),
-         d = pairAt(i.matrices, 6 * at + 3), e = pairAt(i.matrices, 6 * at + 4),
-         f = pairAt(i.matrices, 6 * at + 5);
+    vec2 a = pairAt(i.matrices, 6 * at), b = pairAt(i.matrices, 6 * at + 1);
+    vec2 c = pairAt(i.matrices, 6 * at + 2), d = pairAt(i.matrices, 6 * at + 3);
+    vec2 e = pairAt(i.matrices, 6 * at + 4), f = pairAt(i.matrices, 6 * at + 5);
     return mat4x3(vec3(a, b.x), vec3(b.y, c), vec3(d, e.x), vec3(e.y, f));
 #else
     return MatrixArray(i.matrices).at[at];

@@ -10,8 +10,8 @@ layout(push_constant, scalar) uniform PosingBlock { PosingConstants constants; }
 
 bool has(uint part) { return (feature_posed_parts & part) != 0; }
 
-// What it has not is known when the kernel is compiled: on lavapipe a loop without rounds costs as much as one
-// with one, and a branch that is not taken as much as one that is.
+// What it has not is known when the kernel is compiled: on lavapipe a loop without rounds costs as much as
+// one with one, and a branch that is not taken as much as one that is.
 PosedInstance instanceOfDispatch() {
     PosedInstance i = PosedInstanceBlock(constants.instance).instance;
     i.positions = constants.positions;

@@ -58,8 +58,8 @@ struct MorphedVertex {
     vec2 texcoord;  // of the normal map, transformed
 };
 
-// Push constants of the kernels: where the instance is, and those of its members that every vertex needs, which
-// are in registers this way.
+// Push constants of the kernels: where the instance is, and those of its members that every vertex needs. At
+// most 128 bytes, which every device has.
 struct PosingConstants {
     uvec2 instance;  // address of a PosedInstance
     uvec2 positions;
