@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/deformations.h"
 
+#include "shared/contract/geometry.h"
 #include "shared/draw/arena.h"
 
 #include <fmt/format.h>

@@ -137,6 +137,17 @@ TEST(Posing, OfAsManyJointsAsNumbersOf16BitsName) {
     printErrors("65,535 joints", compared(scene, "65,535 joints"));
 }
 
+TEST(Posing, AMeshWithJointsMovesAsAWholeWithoutASkin) {
+    PosingMaker maker(14);
+    PosingChoice c;
+    c.joint_sets = 2;
+    c.targets = 2;
+    c.root = placed({3, 4, 5}, glm::dvec3(1, 2, 1));
+    Scene scene = maker.scene(c);
+    scene.nodes[0].skin = -1;
+    compared(scene, "without a skin");
+}
+
 // A joint of scale 0 gathers its vertices in a point, where nothing has a direction.
 TEST(Posing, ACollapsedJointHasNoDirections) {
     PosingMaker maker(10);
