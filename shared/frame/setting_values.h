@@ -84,8 +84,8 @@ inline constexpr auto enum_names<Transparency> =
                                            {Transparency::list, "list"},
                                            {Transparency::off, "off"}});
 
-// Where the vertices of skinned and morphed meshes are posed: once a frame by a kernel, or at every draw by the
-// vertex shader.
+// Where the vertices of skinned and morphed meshes are posed: once a frame by a kernel, or at every draw by
+// the vertex shader.
 enum class Skinning { compute, vertex };
 template <>
 inline constexpr auto enum_names<Skinning> =

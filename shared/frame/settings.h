@@ -25,7 +25,7 @@ struct Settings {
     Size size;
     std::string camera;  // "" the first; an index, a name, or "eye=x,y,z target=x,y,z fov=deg near=m far=m"
     double time = 0.0;   // s
-    std::string animation;      // "" all of them; an index or a name
+    std::string animation;  // "" all of them; an index or a name
     Skinning skinning = Skinning::compute;
     std::string env = "none";   // file of a lat-long environment, or scene
     float env_rotation = 0.0f;  // degrees about +Y

@@ -30,6 +30,7 @@ Settings everythingChanged() {
     s.camera = "eye=1,2,3 target=0,0,0 \"quoted\"";
     s.time = 1.0 / 3.0;
     s.animation = "walk \"fast\", \xc3\xa9";
+    s.skinning = Skinning::vertex;
     s.env = "sky \\ \xc3\xa9.exr";
     s.env_rotation = -30.5f;
     s.env_sun = true;
