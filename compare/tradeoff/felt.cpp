@@ -19,15 +19,17 @@ bool hasPlace(const Light& light) {
     return light.kind != LightKind::directional;
 }
 
-// What a scene's surfaces reflect by, whether it has an environment, and whether its harmonics are windowed.
+// What a scene's surfaces reflect by, whether it has an environment, whether its harmonics are windowed, and
+// whether joints or targets move vertices.
 struct Reflectors {
-    bool base = true, specular = true, environment = true, windowed = true;
+    bool base = true, specular = true, environment = true, windowed = true, deformed = true;
 };
 Reflectors reflectorsOf(const Scene* scene) {
     if (!scene) return {};
-    Reflectors found{false, false, scene->environment.has_value(), true};
+    Reflectors found{false, false, scene->environment.has_value(), true, false};
     for (const Mesh& mesh : scene->meshes)
         for (const Primitive& primitive : mesh.primitives) {
+            found.deformed = found.deformed || !primitive.joint_sets.empty() || !primitive.targets.empty();
             // glTF's default material is a metal.
             const Material material = primitive.material < 0
                                           ? Material{}
@@ -64,6 +66,7 @@ public:
         if (row_.multiscatter == Multiscatter::off && row_.ambient == Settings().ambient &&
             (!surfaces.environment || row_.ibl_intensity == 0 || row_.ibl == Ibl::sampled))
             reset("specular-albedo", "nothing asks what is reflected of light from everywhere");
+        if (!surfaces.deformed) reset("skinning", "no joint and no morph target moves a vertex");
         noteHaze();
     }
     const Settings& row() const { return row_; }

@@ -11,7 +11,7 @@ namespace diptych::tradeoff {
 
 // The sweep without rows that differ from an earlier one only in Settings that mean nothing to a scene with
 // these lights (the scene's own and those that were added). Their values become skips, which say why.
-// `scene`: whose materials and environment they light; nullptr: any.
+// `scene`: whose materials, environment and meshes they are; nullptr: any.
 SweepRows rowsThatAreFelt(const SweepRows& sweep, std::span<const Light> lights,
                           const Scene* scene = nullptr);
 

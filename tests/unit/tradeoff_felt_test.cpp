@@ -132,6 +132,23 @@ TEST(TradeoffFelt, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     EXPECT_EQ(valuesOf(feltUnder(metal, false), "ibl-diffuse").size(), 3u) << "a texture darkens it";
 }
 
+TEST(TradeoffFelt, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
+    Scene scene;
+    scene.meshes.resize(1);
+    scene.meshes[0].primitives.resize(1);
+    scene.materials.resize(1);
+    Primitive& primitive = scene.meshes[0].primitives[0];
+    primitive.material = 0;
+    const auto felt = [&] { return rowsThatAreFelt(makeSweepRows({}, usualGrids({})), {}, &scene); };
+    EXPECT_EQ(valuesOf(felt(), "skinning"), std::set<std::string>{"compute"});
+    EXPECT_EQ(reasonOf(felt(), "skinning", "vertex"), "no joint and no morph target moves a vertex");
+    primitive.targets.resize(1);
+    EXPECT_EQ(valuesOf(felt(), "skinning"), (std::set<std::string>{"compute", "vertex"}));
+    primitive.targets.clear();
+    primitive.joint_sets.resize(1);
+    EXPECT_EQ(valuesOf(felt(), "skinning").size(), 2u);
+}
+
 TEST(TradeoffFelt, HazeIsMarchedThroughWhereThereIsSome) {
     Settings given;
     given.haze = true;
