@@ -179,15 +179,14 @@ private:
         }
     }
 
-    // What of the scene's light and motion the rows' paths leave out, which is part of their error.
+    // What of the scene's light the rows' paths leave out, which is part of their error.
     void noteLeftOut(const Requirements& needs) {
         std::vector<Path> told;
         for (const Settings& row : sweep_.rows) {
             if (std::ranges::count(told, row.path) > 0) continue;
             told.push_back(row.path);
-            for (const auto& lines : {leftOutLight(row.path, needs), leftOutMotion(row.path, needs)})
-                for (const std::string& line : lines)
-                    if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+            for (const std::string& line : leftOutLight(row.path, needs))
+                if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
         }
     }
 

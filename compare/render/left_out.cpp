@@ -32,13 +32,6 @@ std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
     return notes;
 }
 
-std::vector<std::string> leftOutMotion(Path path, const Requirements& needs) {
-    if (path == Path::reference || needs.skinned + needs.morphed == 0) return {};
-    return {fmt::format("{}: drawn undeformed by {} yet: the reference poses {} in mode scene",
-                        needs.deformedInWords(), nameOf(path),
-                        needs.skinned + needs.morphed == 1 ? "it" : "them")};
-}
-
 std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings) {
     const std::optional<std::size_t> sun = brightestSun(lights);
     if (settings.shadows == Shadows::off || !sun) return {};

@@ -13,9 +13,6 @@ namespace diptych {
 // One note for each kind of light in the scene that the path does not draw yet; the reference draws all.
 std::vector<std::string> leftOutLight(Path path, const Requirements& needs);
 
-// Likewise for objects that the path draws undeformed; the reference poses them in mode scene.
-std::vector<std::string> leftOutMotion(Path path, const Requirements& needs);
-
 // What of the lights casts no shadow where shadows are asked for.
 std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings);
 

@@ -184,7 +184,6 @@ Frame describedFrame(const PreparedFrame& prepared, const SharedResources& share
     Frame frame = describedFrame(scene, seen, settings);
     for (const std::string& note : shared.materials.notes()) frame.notes.push_back(note);
     std::ranges::move(leftOutLight(settings.path, seen.needs), std::back_inserter(frame.notes));
-    std::ranges::move(leftOutMotion(settings.path, seen.needs), std::back_inserter(frame.notes));
     std::ranges::move(leftOutShadows(seen.lights, settings), std::back_inserter(frame.notes));
     for (const std::string& note : prepared.view.notes) frame.notes.push_back(note);
     frame.shadow_reach = prepared.view.shadow.sun.reach();

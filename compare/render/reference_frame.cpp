@@ -137,9 +137,6 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     reference::Picture picture = reference::draw(request);
 
     Frame frame = describedFrame(scene, view, settings);
-    if (surfaces)
-        std::ranges::move(leftOutMotion(surfaces->settings.path, view.needs),
-                          std::back_inserter(frame.notes));
     frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
     frame.channels = std::move(picture.channels);
     frame.shadow_edge = std::move(picture.shadow_edge);
@@ -175,18 +172,24 @@ bool needsDevice(const Settings& settings) {
     return settings.path != Path::reference || settings.reference_mode != ReferenceMode::scene;
 }
 
-std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Settings>& settings,
+std::vector<Frame> drawWithoutDevice(SceneViews& views, const std::vector<Settings>& settings,
                                      const RenderOptions& options) {
-    SceneViews views(scene);
     std::vector<Frame> frames;
     const auto count = static_cast<double>(settings.size());
     for (const Settings& each : settings) {
         RenderOptions drawing = options;
         const auto done = static_cast<double>(frames.size());
         drawing.progress = options.progress.part(done / count, (done + 1) / count);
-        frames.push_back(drawReferenceFrame(scene, views.at(viewRequest(each)), each, nullptr, drawing));
+        frames.push_back(
+            drawReferenceFrame(views.scene(), views.at(viewRequest(each)), each, nullptr, drawing));
     }
     return frames;
+}
+
+std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Settings>& settings,
+                                     const RenderOptions& options) {
+    SceneViews views(scene);
+    return drawWithoutDevice(views, settings, options);
 }
 
 KeptReferences::KeptReferences(const fs::path& output, bool isFolder)

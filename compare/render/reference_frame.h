@@ -26,7 +26,9 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
 // makes its surfaces itself.
 bool needsDevice(const Settings& settings);
 
-// One Frame per Settings, in order, none of which needsDevice().
+// One Frame per Settings, in order, none of which needsDevice(). Without views it has its own of the scene.
+std::vector<Frame> drawWithoutDevice(SceneViews& views, const std::vector<Settings>& settings,
+                                     const RenderOptions& options);
 std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Settings>& settings,
                                      const RenderOptions& options);
 

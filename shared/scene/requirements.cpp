@@ -57,6 +57,7 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
     std::vector<bool> used(scene.materials.size(), false);
     // The last node counted of each kind; a node's instances follow each other.
     int skinned = -1, morphed = -1;
+    std::set<int> skins;
     for (const Instance& instance : pose.instances) {
         const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
                                          .primitives[static_cast<std::size_t>(instance.primitive)];
@@ -66,9 +67,12 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
         r.vertices += primitive.positions.size();
         r.vertex_colors |= !primitive.colors.empty();
         used[static_cast<std::size_t>(primitive.material)] = true;
+        if (instance.skin >= 0 || instance.weights >= 0) r.deformed_vertices += primitive.positions.size();
+        if (instance.skin >= 0) skins.insert(instance.skin);
         r.skinned += instance.skin >= 0 && std::exchange(skinned, instance.node) != instance.node;
         r.morphed += instance.weights >= 0 && std::exchange(morphed, instance.node) != instance.node;
     }
+    for (const int skin : skins) r.joints += pose.skins[static_cast<std::size_t>(skin)].size();
     for (const Animation& animation : animationsOf(scene, pose.animation))
         r.animations += movesAnything(animation);
 
@@ -100,11 +104,14 @@ std::string Requirements::areaLightsInWords() const {
 }
 
 std::string Requirements::deformedInWords() const {
+    if (skinned + morphed == 0) return {};
     std::string words;
     if (skinned > 0) words = fmt::format("{} skinned mesh{}", skinned, skinned == 1 ? "" : "es");
     if (morphed > 0)
         words += skinned > 0 ? fmt::format(", {} morphed", morphed)
                              : fmt::format("{} morphed mesh{}", morphed, morphed == 1 ? "" : "es");
+    words += fmt::format(": {} {}", deformed_vertices, deformed_vertices == 1 ? "vertex" : "vertices");
+    if (skinned > 0) words += fmt::format(" by {} joint{}", joints, joints == 1 ? "" : "s");
     return words;
 }
 
@@ -148,10 +155,8 @@ std::vector<Requirements::Line> Requirements::lines() const {
         fmt::format("{} play{}: nodes, lights, cameras and materials are as at the picture's time",
                     animations, animations == 1 ? "s" : ""),
         "nothing of the scene is animated");
-    result.push_back({false, "skins and morph targets",
-                      skinned + morphed > 0
-                          ? fmt::format("{}: no path poses them yet; the reference does", deformedInWords())
-                          : "they move no vertex of the scene"});
+    say(skinned + morphed > 0, "skins and morph targets", deformedInWords(),
+        "they move no vertex of the scene: nothing is posed");
     say(directional_lights > 0, "directional lights", fmt::format("{} in the scene", directional_lights),
         "none in the scene");
     say(local_lights > 0, "point and spot lights",
