@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/folders.h"
 
+#include "compare/report/titles.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +37,15 @@ std::string sceneFolder(const std::string& scene) {
     return nameOfFolder(path.stem().string(), path.string());
 }
 
-// The comparisons that share a Frame are of one scene and camera: its number, per frame and comparison.
+// "0_5s" of 0.5 s: a folder's name has no dot and no plus sign.
+std::string timeFolder(double seconds) {
+    std::string name = fmt::format("{}s", seconds);
+    std::erase(name, '+');
+    std::ranges::replace(name, '.', '_');
+    return name;
+}
+
+// The comparisons that share a Frame are of one scene, camera and time: its number, per frame and comparison.
 struct Views {
     std::vector<std::size_t> frames, comparisons;
     std::vector<const Frame*> shown;  // per view: a Frame that was drawn in this run
@@ -95,13 +105,14 @@ std::string nameOfFile(std::string_view name) {
 ReportFolders reportFolders(const Report& report) {
     const Views views = viewsOf(report);
     std::vector<std::string> folders(views.shown.size());
-    std::map<std::string, int> times;
+    std::map<std::string, int> asked;
     for (std::size_t i = 0; i < folders.size() && folders.size() > 1; ++i) {
         const Frame& frame = *views.shown[i];
         std::string& name = folders[i] = sceneFolder(frame.scene);
         if (!frame.settings.camera.empty())
             name += "/" + nameOfFolder(frame.settings.camera, frame.settings.camera);
-        if (const int time = ++times[name]; time > 1) name += fmt::format("-{}", time);
+        if (saysTime(report, frame)) name += "/" + timeFolder(frame.settings.time);
+        if (const int again = ++asked[name]; again > 1) name += fmt::format("-{}", again);
         name += "/";
     }
     ReportFolders result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The folders of a report that has several scenes or cameras.
+// The folders of a report that has several scenes, cameras or times.
 #pragma once
 
 #include "compare/verdict/comparison.h"
@@ -26,11 +26,11 @@ struct ReportFolders {
     std::vector<std::string> frames, comparisons;
 };
 
-// One scene and camera: all stands in the report's own folder. Otherwise every scene has a folder, named
-// after it alone, so that it is called the same whatever else is compared, and in it every camera that was
-// asked for has one. Where a scene and camera have several comparisons, each of these has one of its own in
-// there: "forward_plus-against-reference/". Who asks for one scene and camera twice finds the second under
-// "NAME-2/".
+// One scene, camera and time: all stands in the report's own folder. Otherwise every scene has a folder,
+// named after it alone, so that it is called the same whatever else is compared, and in it every camera that
+// was asked for has one, and in that every time that a title says: "entrance/0_5s/". Where these have several
+// comparisons, each has one of its own in there: "forward_plus-against-reference/". Who asks for one scene,
+// camera and time twice finds the second under "NAME-2/".
 ReportFolders reportFolders(const Report& report);
 
 }  // namespace diptych

@@ -15,7 +15,6 @@
 namespace diptych {
 
 using page::breakable;
-using page::cameraTitle;
 using page::inFolder;
 using page::markup;
 using page::number;
@@ -28,8 +27,9 @@ std::string titleOf(const Report& report, const ReportLayout& layout, const Comp
                inFolder(report.baseline(comparison).origin.file, layout.folder);
     const Frame& left = report.baseline(comparison);
     const Frame& frame = left.origin.file.empty() ? left : report.test(comparison);
-    std::string title = fmt::format("{} \u00b7 {}", inFolder(frame.scene, layout.folder), cameraTitle(frame));
-    // Several comparisons of one scene and camera are told apart by their pair.
+    std::string title =
+        fmt::format("{} \u00b7 {}", inFolder(frame.scene, layout.folder), viewTitle(report, frame));
+    // Several comparisons of one scene, camera and time are told apart by their pair.
     if (hasSeveralPairs(report)) title += " \u00b7 " + pairTitle(report, comparison);
     return title;
 }

@@ -8,7 +8,6 @@
 
 namespace diptych {
 
-using page::cameraTitle;
 using page::markup;
 using page::number;
 
@@ -95,7 +94,7 @@ std::string closerPathSection(const Report& report, const ReportLayout& layout) 
         if (report.closer_paths.size() > 1)
             out +=
                 fmt::format("<h3>{} \u00b7 {}</h3>\n", markup(page::inFolder(reference.scene, layout.folder)),
-                            markup(cameraTitle(reference)));
+                            markup(viewTitle(report, reference)));
         std::string lines;
         for (const CloserPathChannel& channel : closer.channels)
             lines += "<li>" + markup(closerPathLine(closer, channel, report.frames)) + "</li>";

@@ -12,7 +12,6 @@ namespace diptych {
 
 using page::breakable;
 using page::bytes;
-using page::cameraTitle;
 using page::markup;
 
 namespace {
@@ -116,7 +115,7 @@ std::string settings(const Frame& a, const Frame& b) {
     return out + "</table></div></details>\n";
 }
 
-std::string camera(const Frame& frame) {
+std::string camera(const Report& report, const Frame& frame) {
     const FrameCamera& c = frame.camera;
     const std::string lens =
         c.fov_degrees > 0 ? fmt::format("{:.4g}\u00b0 vertical", c.fov_degrees) : "orthographic";
@@ -124,7 +123,7 @@ std::string camera(const Frame& frame) {
         "<p class=\"soft camera\">Scene {}. Camera {}{}: eye {:.5g}, {:.5g}, {:.5g}; target {:.5g}, {:.5g}, "
         "{:.5g}; {}; "
         "near {:.4g}, far {:.4g} m</p>\n",
-        markup(frame.scene), markup(cameraTitle(frame)),
+        markup(frame.scene), markup(viewTitle(report, frame)),
         c.choice.empty() ? "" : fmt::format(" ({})", markup(c.choice)), c.eye[0], c.eye[1], c.eye[2],
         c.target[0], c.target[1], c.target[2], lens, c.near, c.far);
 }
@@ -152,7 +151,7 @@ std::string frameTables(const Report& report, const Comparison& comparison) {
     const std::string files = origins(a, b);
     if (!a.origin.file.empty() && !b.origin.file.empty()) return files;
     return files + "<div class=\"columns\">" + times(a, b) + costs(a, b) + "</div>\n" + settings(a, b) +
-           camera(b);
+           camera(report, b);
 }
 
 }  // namespace diptych

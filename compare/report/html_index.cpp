@@ -13,7 +13,6 @@
 
 namespace diptych {
 
-using page::cameraTitle;
 using page::markup;
 using page::number;
 
@@ -64,6 +63,14 @@ std::string timeCell(const Frame& frame) {
     return numberCell(frame.time.median, frame.time.runs > 0 ? fmt::format("{:.1f}", frame.time.median) : "");
 }
 
+// Of a comparison among others of its scene.
+std::string rowTitle(const Report& report, const Comparison& comparison) {
+    const Frame& frame = report.baseline(comparison);
+    if (!hasSeveralPairs(report)) return viewTitle(report, frame);
+    const std::string pair = pairTitle(report, comparison);
+    return saysTime(report, frame) ? fmt::format("{}, {} s", pair, frame.settings.time) : pair;
+}
+
 std::string line(const Report& report, const ReportLayout& layout, std::size_t index) {
     const Comparison& comparison = report.comparisons[index];
     const Frame &left = report.baseline(comparison), &right = report.test(comparison);
@@ -73,8 +80,7 @@ std::string line(const Report& report, const ReportLayout& layout, std::size_t i
         "<tr data-comparison=\"{0}\"{1}><td><span class=\"verdict {2}\">{2}</span></td><td class=\"wide\"><a "
         "href=\"#s{0}\" title=\"{8}\">{3}</a></td><td class=\"wide\">{4}</td>{5}{6}{7}</tr>\n",
         index, file.empty() ? "" : fmt::format(" data-section=\"{}\"", markup(file)), verdict,
-        markup(page::inFolder(left.scene, layout.folder)),
-        markup(hasSeveralPairs(report) ? pairTitle(report, comparison) : cameraTitle(left)),
+        markup(page::inFolder(left.scene, layout.folder)), markup(rowTitle(report, comparison)),
         worstCell(comparison, index), litCell(comparison),
         isTimed(report) ? timeCell(left) + timeCell(right) : "", markup(left.scene));
 }
@@ -87,9 +93,15 @@ std::string indexTable(const Report& report, const ReportLayout& layout) {
     for (const std::size_t i : layout.order) lines += line(report, layout, i);
     const Comparison& first = report.comparisons[0];
     const bool pairs = hasSeveralPairs(report);
+    const bool times = std::ranges::any_of(
+        report.comparisons, [&](const Comparison& c) { return saysTime(report, report.baseline(c)); });
     std::vector<std::pair<std::string, bool>> columns{
-        {"verdict", false},       {"scene", false},       {pairs ? "pair" : "camera", false},
-        {"worst channel", false}, {"of its limit", true}, {"lit max", true}};
+        {"verdict", false},
+        {"scene", false},
+        {fmt::format("{}{}", pairs ? "pair" : "camera", times ? ", time" : ""), false},
+        {"worst channel", false},
+        {"of its limit", true},
+        {"lit max", true}};
     if (isTimed(report)) {
         columns.emplace_back((pairs ? "left" : report.baseline(first).name) + ", ms", true);
         columns.emplace_back((pairs ? "right" : report.test(first).name) + ", ms", true);
@@ -100,7 +112,7 @@ std::string indexTable(const Report& report, const ReportLayout& layout) {
                              isNumber ? " class=\"n optional\"" : "", markup(name));
     return fmt::format(
         "<section class=\"index\"><h2>Comparisons <span class=\"shown soft\"></span></h2>"
-        "<p><input type=\"search\" placeholder=\"filter: scene, camera, channel, fail\" "
+        "<p><input type=\"search\" placeholder=\"filter: scene, camera, time, channel, fail\" "
         "aria-label=\"filter\"></p>"
         "<div class=\"box scroll\"><table><thead><tr>{}</tr></thead>\n<tbody>{}</tbody>"
         "</table></div></section>\n",

@@ -55,8 +55,8 @@ public:
           folder_(folder),
           left_(report.baseline(comparison_)),
           right_(report.test(comparison_)),
-          title_(
-              fmt::format("{} | {} | {}", left_.scene, cameraTitle(left_), pairTitle(report, comparison_))) {}
+          title_(fmt::format("{} | {} | {}", left_.scene, viewTitle(report, left_),
+                             pairTitle(report, comparison_))) {}
 
     std::size_t count(Verdict verdict) const {
         return static_cast<std::size_t>(
@@ -98,6 +98,7 @@ private:
         };
         add("scene", left_.scene);
         add("camera", cameraTitle(left_));
+        if (saysTime(report_, left_)) add("time", left_.settings.valueOf("time"));
         add("size", left_.settings.valueOf("size"));
         if (left_.origin.file.empty()) add("gbuffer", left_.settings.valueOf("gbuffer"));
         add("baseline", left_.name);

@@ -12,7 +12,6 @@
 
 namespace diptych {
 
-using page::cameraTitle;
 using page::number;
 
 namespace {
@@ -84,7 +83,7 @@ std::string reportTable(const Report& report) {
     for (const std::string& line : report.first_notes) out += line + "\n";
     for (const Comparison& comparison : report.comparisons) {
         const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
-        out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, cameraTitle(baseline),
+        out += fmt::format("{}, {}, {}x{}: {}\n", baseline.scene, viewTitle(report, baseline),
                            baseline.settings.size.width, baseline.settings.size.height,
                            pairTitle(report, comparison));
         out += frameLine(baseline) + frameLine(test);
@@ -126,7 +125,7 @@ std::string reportTable(const Report& report) {
     for (const CloserPath& closer : report.closer_paths) {
         if (report.closer_paths.size() > 1)
             out += fmt::format("{}, {}:\n", report.frames[closer.reference].scene,
-                               cameraTitle(report.frames[closer.reference]));
+                               viewTitle(report, report.frames[closer.reference]));
         for (const CloserPathChannel& channel : closer.channels)
             out += closerPathLine(closer, channel, report.frames) + "\n";
     }

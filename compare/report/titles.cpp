@@ -18,6 +18,17 @@ std::string pairTitle(const Report& report, const Comparison& comparison) {
     return fmt::format("{} against {}", report.test(comparison).name, report.baseline(comparison).name);
 }
 
+bool saysTime(const Report& report, const Frame& frame) {
+    return frame.settings.time != 0 || std::ranges::any_of(report.comparisons, [&](const Comparison& other) {
+               return report.test(other).settings.time != frame.settings.time;
+           });
+}
+
+std::string viewTitle(const Report& report, const Frame& frame) {
+    const std::string camera = page::cameraTitle(frame);
+    return saysTime(report, frame) ? fmt::format("{}, {} s", camera, frame.settings.time) : camera;
+}
+
 std::string folderOfAll(const Report& report) {
     std::vector<std::string> paths;
     const bool files = report.device.name.empty();  // diff draws nothing
@@ -67,14 +78,11 @@ std::string placeOf(const Report& report, const Comparison& comparison) {
     const Frame& frame = report.baseline(comparison);
     const bool several = std::ranges::any_of(report.comparisons, [&](const Comparison& other) {
         return report.baseline(other).scene == frame.scene &&
-               page::cameraTitle(report.baseline(other)) != page::cameraTitle(frame);
+               viewTitle(report, report.baseline(other)) != viewTitle(report, frame);
     });
-    return several ? fmt::format("{}, {}", frame.scene, page::cameraTitle(frame)) : frame.scene;
+    return several ? fmt::format("{}, {}", frame.scene, viewTitle(report, frame)) : frame.scene;
 }
 
-namespace {
-
-// The text with every number made one and the same.
 std::string withoutNumbers(const std::string& text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -87,8 +95,6 @@ std::string withoutNumbers(const std::string& text) {
     }
     return result;
 }
-
-}  // namespace
 
 std::vector<GroupedNote> groupedNotes(const Report& report) {
     std::vector<GroupedNote> grouped;

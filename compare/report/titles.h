@@ -11,10 +11,16 @@
 
 namespace diptych {
 
-// Whether one scene and camera have several comparisons: with an earlier Frame or the reference.
+// Whether one scene, camera and time have several comparisons: with an earlier Frame or the reference.
 bool hasSeveralPairs(const Report& report);
 // "forward_plus against deferred"
 std::string pairTitle(const Report& report, const Comparison& comparison);
+
+// Whether titles and folders say at which time of its animations the Frame is: at any but 0 s, and wherever
+// the report has several times.
+bool saysTime(const Report& report, const Frame& frame);
+// Camera and, where saysTime(), time: "default view", "entrance, 0.5 s".
+std::string viewTitle(const Report& report, const Frame& frame);
 
 // The folder that all scenes are in, or the two files that diff compared: pages leave it out.
 std::string folderOfAll(const Report& report);
@@ -31,7 +37,11 @@ std::vector<std::string> notesOf(const Report& report, const Comparison& compari
 // "3 places to check by eye: texture transforms 2, alpha masks 1"; empty where there are none.
 std::string checksLine(const Comparison& comparison);
 
-// Scene, and camera where the report has several of that scene: "Box.glb", "Box.glb, camera 1".
+// The text with every number made one and the same: of notes that say it with other numbers.
+std::string withoutNumbers(const std::string& text);
+
+// Scene, and camera and time where the report has several of that scene: "Box.glb", "Box.glb, camera 1",
+// "Box.glb, default view, 0.5 s".
 std::string placeOf(const Report& report, const Comparison& comparison);
 
 // A note and the scenes that it is about, in the report's order.

@@ -67,4 +67,9 @@ const SceneView& SceneViews::at(const ViewRequest& request) {
     return *view;
 }
 
+void SceneViews::clear() {
+    views_.clear();
+    poses_.clear();
+}
+
 }  // namespace diptych

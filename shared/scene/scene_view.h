@@ -60,7 +60,11 @@ public:
     SceneViews& operator=(const SceneViews&) = delete;
 
     const Scene& scene() const { return scene_; }
-    const SceneView& at(const ViewRequest& request);  // the reference stays valid as long as this object
+    // The reference stays valid until clear(), or as long as this object.
+    const SceneView& at(const ViewRequest& request);
+    // Frees all views and poses, for whoever needs many one after the other; how a scene without a camera is
+    // seen stays known.
+    void clear();
 
 private:
     const Scene& scene_;

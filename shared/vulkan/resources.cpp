@@ -229,6 +229,7 @@ struct Uploader::State {
     Device& device;
     GpuBuffer staging{};
     VkDeviceSize used = 0;
+    std::uint64_t given = 0;  // bytes so far
     std::vector<std::function<void(VkCommandBuffer)>> copies{};
 
     // Room for up to `bytes`, at least one: data goes in pieces where it is larger than the staging buffer.
@@ -259,7 +260,12 @@ Uploader::Uploader(Device& device) : state_(new State{device}) {}
 
 Uploader::~Uploader() = default;
 
+std::uint64_t Uploader::bytes() const {
+    return state_->given;
+}
+
 void Uploader::buffer(const GpuBuffer& target, std::span<const std::byte> data) {
+    state_->given += data.size();
     for (VkDeviceSize done = 0; done < data.size();) {
         const VkDeviceSize bytes = std::min<VkDeviceSize>(data.size() - done, stagingSize);
         VkBufferCopy copy{.srcOffset = 0, .dstOffset = done, .size = bytes};
@@ -273,6 +279,7 @@ void Uploader::buffer(const GpuBuffer& target, std::span<const std::byte> data) 
 
 void Uploader::level(const GpuImage& target, std::uint32_t level, std::span<const std::byte> data) {
     VkDeviceSize offset = 0;
+    state_->given += data.size();
     std::copy(data.begin(), data.end(), state_->reserve(data.size(), offset));
     const GpuImageInfo& info = target.info();
     const VkBufferImageCopy copy{

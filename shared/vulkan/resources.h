@@ -112,6 +112,7 @@ public:
     // has been given in ascending order.
     void level(const GpuImage& target, std::uint32_t level, std::span<const std::byte> data);
     void flush();
+    std::uint64_t bytes() const;  // given so far
 
 private:
     struct State;

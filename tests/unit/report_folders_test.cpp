@@ -3,6 +3,7 @@
 #include "compare/files/our_files.h"
 #include "compare/report/folders.h"
 #include "compare/report/report.h"
+#include "compare/report/titles.h"
 #include "tests/unit/files.h"
 #include "tests/unit/report_maker.h"
 
@@ -17,17 +18,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A scene and a camera; its roughness differs where it fails.
+// A scene, a camera and a time, s; its roughness differs where it fails.
 struct Asked {
     std::string scene, camera{};
     bool fails = false;
+    double time = 0;
 };
 
 Report askedFor(const std::vector<Asked>& all) {
     std::vector<Frame> frames;
     for (const Asked& asked : all) {
         std::vector<Frame> pair = bothFrames(asked.scene);
-        for (Frame& frame : pair) frame.settings.camera = asked.camera;
+        for (Frame& frame : pair) {
+            frame.settings.camera = asked.camera;
+            frame.settings.time = asked.time;
+        }
         if (asked.fails) pair[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
         std::ranges::move(pair, std::back_inserter(frames));
     }
@@ -79,6 +84,42 @@ TEST(ReportFolders, WhatIsAskedForTwiceHasTwo) {
     EXPECT_EQ(folders.comparisons,
               (std::vector<std::string>{scene + "/", scene + "-2/", scene + "/0/", scene + "/0-2/"}));
     for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(folders.frames[i], folders.comparisons[i / 2]);
+}
+
+// Each time of a camera has a folder in the camera's, with a name that this program takes for its own.
+TEST(ReportFolders, TimesHaveFolders) {
+    const Report report = askedFor({{"builtin:a", "0", false, 0},
+                                    {"builtin:a", "0", false, 0.5},
+                                    {"builtin:a", "", false, 1e-5},
+                                    {"builtin:a", "", false, 1e20}});
+    const std::vector<std::string> names = reportFolders(report).comparisons;
+    EXPECT_EQ(names, (std::vector<std::string>{"a/0/0s/", "a/0/0_5s/", "a/1e-05s/", "a/1e20s/"}));
+    for (const std::string& name : names) EXPECT_TRUE(isOurName(fs::path(name) / "lit.png")) << name;
+    EXPECT_EQ(reportFolders(askedFor({{"a.glb", "", false, 2}})).comparisons, std::vector<std::string>{""})
+        << "one comparison stands on top";
+}
+
+// Titles say the time where the report has several, and wherever it is not 0 s.
+TEST(ReportFolders, TitlesSayTheTime) {
+    const Report several = askedFor({{"builtin:a", "0", false, 0}, {"builtin:a", "0", true, 0.5}});
+    EXPECT_EQ(viewTitle(several, several.frames[0]), "0, 0 s");
+    EXPECT_EQ(viewTitle(several, several.frames[3]), "0, 0.5 s");
+    EXPECT_EQ(placeOf(several, several.comparisons[1]), "builtin:a, 0, 0.5 s");
+    EXPECT_NE(reportTable(several).find("builtin:a, 0, 0.5 s, 4x3: forward_plus against deferred"),
+              std::string::npos)
+        << reportTable(several);
+    const Report later = askedFor({{"builtin:a", "", false, 2}}), start = askedFor({{"builtin:a"}});
+    EXPECT_EQ(viewTitle(later, later.frames[0]), "default view, 2 s");
+    EXPECT_EQ(viewTitle(start, start.frames[0]), "default view");
+    const fs::path out = folder() / "report";
+    writeReport(several, out, {});
+    const std::string junit = contentsOf(out / "junit.xml"), page = contentsOf(out / "index.html");
+    EXPECT_NE(junit.find("classname=\"builtin:a | 0, 0_5 s | forward_plus against deferred\""),
+              std::string::npos)
+        << junit;
+    EXPECT_NE(junit.find("<property name=\"time\" value=\"0.5\"/>"), std::string::npos) << junit;
+    EXPECT_NE(page.find("camera, time</button>"), std::string::npos);
+    EXPECT_NE(page.find(">0, 0.5 s</td>"), std::string::npos);
 }
 
 TEST(ReportFolders, OneSceneStandsOnTopAndItsPairsInside) {

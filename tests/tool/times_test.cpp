@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Frames of several times on one device: what they share is uploaded and compiled once, and each is drawn in
+// its own pose.
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
+#include "shared/scene/load.h"
+#include "shared/vulkan/device.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+Settings settingsAt(double time, Path path, Skinning skinning) {
+    Settings settings;
+    settings.size = {32, 18};
+    settings.time = time;
+    settings.path = path;
+    settings.skinning = skinning;
+    return settings;
+}
+
+TEST(Times, ASecondTimeUploadsItsPoseAndCompilesNothing) {
+    Device device(DeviceOptions{});
+    const Scene scene = loadScene("builtin:motion");
+    SceneViews views(scene);
+    SharedResources shared(device, scene);
+    for (const Skinning skinning : {Skinning::compute, Skinning::vertex}) {
+        std::deque<PreparedFrame> frames;
+        std::vector<Image> pictures;
+        const auto drawAt = [&](double time) {
+            for (const Path path : drawn_paths) {
+                const Settings settings = settingsAt(time, path, skinning);
+                frames.emplace_back(device, shared, views.at(viewRequest(settings)), settings);
+                frames.back().passes.run();
+                pictures.push_back(readLit(frames.back()));
+            }
+        };
+        const std::size_t posed = shared.posings.made();
+        drawAt(0.25);
+        EXPECT_EQ(shared.posings.made(), posed + 1) << "both paths draw one pose";
+        const std::size_t compiled = shared.pipelines.count();
+        const std::uint64_t uploaded = shared.uploader.bytes();
+        drawAt(0.5);
+        EXPECT_EQ(shared.pipelines.count(), compiled);
+        EXPECT_EQ(shared.posings.made(), posed + 2);
+        EXPECT_GT(shared.uploader.bytes(), uploaded) << "the second pose";
+        EXPECT_LT(shared.uploader.bytes() - uploaded, shared.geometry.bytes() / 4)
+            << "of " << shared.geometry.bytes() << " bytes of geometry";
+        // Of each time another picture, whichever was drawn last.
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_NE(pictures[i].data, pictures[i + 2].data) << i;
+            frames[i].passes.run();
+            EXPECT_EQ(readLit(frames[i]).data, pictures[i].data) << i;
+        }
+    }
+}
+
+// One after the other, as an animation is drawn: nothing of the frames before stays.
+TEST(Times, ViewsThatAreClearedAreMadeAgainAlike) {
+    const Scene scene = loadScene("builtin:motion");
+    SceneViews views(scene);
+    ViewRequest request = viewRequest(settingsAt(0.5, Path::deferred, Skinning::compute));
+    request.camera = "";
+    const glm::dvec3 eye = views.at(request).view.eye();
+    const auto instances = views.at(request).pose.instances;
+    views.clear();
+    EXPECT_EQ(views.at(request).pose.instances, instances);
+    EXPECT_EQ(views.at(request).view.eye(), eye);
+}
+
+}  // namespace
+}  // namespace diptych
