@@ -180,12 +180,12 @@ Drawn draw(const Options& options, const std::vector<Settings>& settings, Render
     return drawn;
 }
 
-// The one scene and camera that a picture can be of.
+// The one scene, camera and time that a picture can be of.
 void checkOnePicture(const Options& options, const std::vector<Settings>& settings) {
     if (options.scenes.size() != 1 || settings.size() != 2)
-        throw std::runtime_error(
-            fmt::format("--baseline {}: is one picture, so give one scene and one camera",
-                        options.baseline_file.string()));
+        throw std::runtime_error(fmt::format("--baseline {}: is one picture, so give one scene, one camera{}",
+                                             options.baseline_file.string(),
+                                             options.times.size() > 1 ? " and one time" : ""));
 }
 
 // Which of the Frames drawn becomes the baseline: as the file says, or --path.

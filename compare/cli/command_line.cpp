@@ -82,6 +82,45 @@ std::vector<std::string> pathNames() {
     return names;
 }
 
+// Of a list of --times.
+double timeOf(const std::string& word, const std::string& list) {
+    Settings settings;
+    try {
+        settings.set("time", word);
+    } catch (const std::runtime_error&) {
+        throw std::runtime_error(
+            fmt::format("--times {}: \"{}\" is no time; takes seconds, separated by commas", list, word));
+    }
+    if (settings.problem())
+        throw std::runtime_error(fmt::format("--times {}: each is finite and at least 0 s", list));
+    return settings.time;
+}
+
+void resolveTimes(Options& options, const ParsedOptions& parsed) {
+    options.times = {options.settings.time};
+    if (!parsed.times.empty()) {
+        options.times.clear();
+        // A comma at the end is followed by an empty word, too.
+        for (std::size_t at = 0; at <= parsed.times.size();) {
+            const std::size_t end = std::min(parsed.times.find(',', at), parsed.times.size());
+            options.times.push_back(timeOf(parsed.times.substr(at, end - at), parsed.times));
+            at = end + 1;
+        }
+        options.settings.time = options.times.front();
+    }
+    options.frames = parsed.frames;
+    options.fps = parsed.fps;
+    if (!(parsed.fps > 0) || !std::isfinite(parsed.fps))
+        throw std::runtime_error(fmt::format("--fps {}: above 0, finite", parsed.fps));
+    if (parsed.frames < 1) throw std::runtime_error(fmt::format("--frames {}: 1 or more", parsed.frames));
+    if (parsed.frames > 1 && options.command != "render")
+        throw std::runtime_error(fmt::format("--frames {}: render draws them{}", parsed.frames,
+                                             options.command == "compare" ? "; compare takes --times" : ""));
+    if (!std::isfinite(timeOfFrame(options, parsed.frames - 1)))
+        throw std::runtime_error(
+            fmt::format("--fps {}: the last of {} frames is at no finite time", parsed.fps, parsed.frames));
+}
+
 void resolveBaseline(Options& options, const ParsedOptions& parsed) {
     const auto path =
         std::ranges::find(enumNames<Path>(), parsed.baseline, &std::pair<Path, std::string_view>::second);
@@ -156,12 +195,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
         throw std::runtime_error(fmt::format("--exposure {}: above 0, finite", *options.picture.exposure));
     if (options.picture.ev100 && !std::isfinite(*options.picture.ev100))
         throw std::runtime_error(fmt::format("--ev100 {}: finite", *options.picture.ev100));
-    if (!(parsed.fps > 0) || !std::isfinite(parsed.fps))
-        throw std::runtime_error(fmt::format("--fps {}: above 0", parsed.fps));
-    if (parsed.frames < 1) throw std::runtime_error(fmt::format("--frames {}: 1 or more", parsed.frames));
-
-    if (parsed.frames != 1)
-        throw std::runtime_error(fmt::format("--frames {} is not built yet; use 1", parsed.frames));
+    resolveTimes(options, parsed);
     if (!parsed.not_built.empty()) throw std::runtime_error(parsed.not_built.front() + " is not built yet");
     options.keep = keepOf(parsed.keep);
     resolveBaseline(options, parsed);

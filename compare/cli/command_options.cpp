@@ -78,8 +78,10 @@ void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except
     app.add_option("--settings", parsed.settings_file,
                    "any of these as JSON, as every report prints them; applied first")
         ->type_name("FILE.json");
-    app.add_option("--frames", parsed.frames, "frames of an animation (1)")->type_name("N");
-    app.add_option("--fps", parsed.fps, "their rate (30)")->type_name("F");
+    app.add_option("--frames", parsed.frames,
+                   "so many pictures, numbered from 0000 on, the first at --time (1)")
+        ->type_name("N");
+    app.add_option("--fps", parsed.fps, "of --frames: pictures a second (30)")->type_name("F");
 }
 
 void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed) {
@@ -212,7 +214,7 @@ void hideGroup(CLI::App& app, const std::string& group) {
 
 void hideUnread(CLI::App& app, const std::string& command) {
     hideGroup(app, later_group);
-    hide(app, {"--frames", "--fps"});
+    if (command != "render") hide(app, {"--frames", "--fps"});
     if (command != "devices" && command != "diff")
         for (const Field& field : settingFields())
             if (!isDrawnBy(command, field)) hide(app, {("--" + std::string(field.option)).c_str()});
@@ -310,6 +312,10 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     app.add_option("--runs", options.runs, "timed frames; 0 measures no time (5)")->type_name("N");
 
     if (command == "compare") {
+        app.add_option("--times", parsed.times, "several animation times in one report, seconds (--time)")
+            ->type_name("S,S,...")
+            ->group(pixel_group)
+            ->excludes(app.get_option("--time"));
         addFiles(app, options, "folder of the report (diptych-report)");
         app.add_option("--baseline", parsed.baseline,
                        "the left panel: deferred, forward_plus; or reference or an EXR, with which both are "

@@ -25,7 +25,7 @@ std::span<const Command> allCommands();
 struct ParsedOptions {
     std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
     std::vector<std::string> cameras;
-    std::string settings_file, channels, debug;
+    std::string settings_file, channels, debug, times;
     std::string baseline = "deferred", crop, metric;
     std::optional<double> tolerance;
     std::vector<std::string> not_built;  // options that parse but cannot be done

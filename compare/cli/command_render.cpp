@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
+#include "compare/cli/render_output.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
 #include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
-#include "compare/report/frame_files.h"
-#include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 #include "shared/scene/builtin/builtin.h"
 
@@ -22,37 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Output outputIn(const Options& options) {
-    return outputOf(options.out.empty() ? "diptych-render" : options.out);
-}
-
-constexpr const char* single_manifest = "frame.json";    // in a folder that holds one Frame
-constexpr const char* several_manifest = "frames.json";  // in a folder that holds a folder for each Frame
-
-std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame) {
-    return folder / std::to_string(frame + 1);
-}
-
-// One Frame may replace several and the other way round. Whatever cannot be replaced is said before the
-// first Frame is drawn.
-void checkFolder(const Output& output, std::size_t count, bool force) {
-    const bool single = output.kind != OutputKind::folder || isOurManifest(output.path / single_manifest);
-    checkReplaceable(output, single ? single_manifest : several_manifest, force);
-    for (std::size_t i = 0; count > 1 && i < count; ++i)
-        checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_manifest, force);
-}
-
-// What an earlier render left, one Frame or several.
-std::vector<std::string> earlierIn(const std::filesystem::path& folder) {
-    std::vector<std::string> names = manifestFiles(folder, single_manifest);
-    if (!isOurManifest(folder / several_manifest)) return names;
-    names.emplace_back(several_manifest);
-    for (std::size_t i = 0; isOurManifest(numbered(folder, i) / single_manifest); ++i)
-        for (const std::string& name : manifestFiles(numbered(folder, i), single_manifest))
-            names.push_back(fmt::format("{}/{}", i + 1, name));
-    return names;
-}
-
 int listScenes(const Options& options) {
     Json names = Json::array();
     for (const BuiltinName& scene : builtinNames()) {
@@ -64,59 +30,6 @@ int listScenes(const Options& options) {
     if (options.json) fmt::print("{}\n", Json{{"schema", 1}, {"scenes", names}}.dump(2));
     return 0;
 }
-
-// Asked for by name, it must be there; of "all", a path gives what it can.
-void checkChannels(const Options& options) {
-    const auto check = [&](const DebugMode& mode, const char* option) {
-        if (mode.maker == MadeBy::paths_only && options.settings.path == Path::reference)
-            throw std::runtime_error(fmt::format(
-                "{} {}: the reference evaluates every light; --path forward_plus and deferred show it",
-                option, mode.name));
-        if (mode.maker == MadeBy::forward_only && options.settings.path == Path::deferred)
-            throw std::runtime_error(fmt::format(
-                "{} {}: the deferred path's G-buffer does not carry it; --path forward_plus makes it", option,
-                mode.name));
-    };
-    for (const int channel : options.channels) check(debugMode(channel), "--channels");
-    check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");
-}
-
-// What pictures show: the channels asked for by name, and --debug; without either, lit.
-ShownChannels shownChannels(const Options& options) {
-    ShownChannels shown;
-    for (const int channel : options.channels) shown.push_back(&debugMode(channel));
-    if ((shown.empty() || options.debug_given || options.heat) &&
-        std::ranges::count(options.channels, options.shown) == 0)
-        shown.push_back(&debugMode(options.shown));
-    return shown;
-}
-
-// What the files need: an EXR the channels asked for; pictures those that they show, lit for its exposure,
-// and which pixels are background.
-std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> requested) {
-    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit),
-                   background = static_cast<int>(gpu::DEBUG_material_id);
-    if (kind == OutputKind::exr) return requested;
-    if (kind == OutputKind::png) requested.clear();
-    for (const DebugMode* mode : shownChannels(options))
-        if (std::ranges::count(requested, mode->number) == 0) requested.push_back(mode->number);
-    for (const int needed : {lit, background})
-        if (std::ranges::count(requested, needed) == 0) requested.push_back(needed);
-    return requested;
-}
-
-std::string jsonText(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-// Where in the command's time drawing ends: writing takes as long as five frames drawn (lavapipe, the gallery
-// at 1280x720 with all channels).
-double drawnShare(const RenderOptions& render) {
-    return framesIn(render) / (framesIn(render) + 5);
-}
-
-// In files of a reference that was drawn without any device: what made it.
-constexpr const char* withoutDevice = "double precision, no Vulkan device";
 
 std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& settings, Device* device,
                            KeptReferences& kept, Progress& progress) {
@@ -143,14 +56,6 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
         if (device) checkValidation(*device);
     }
     return frames;
-}
-
-// "x.lit.png, x.normals.png"
-std::string pictureNames(const std::vector<std::filesystem::path>& files) {
-    std::string names;
-    for (const std::filesystem::path& file : files)
-        names += (names.empty() ? "" : ", ") + file.filename().string();
-    return names;
 }
 
 // Everything or nothing of it. Returns where each Frame is.
@@ -191,20 +96,11 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const Pictur
     return places;
 }
 
-// What was given for and the path ignores.
-void noteIgnored(const Options& options) {
-    const Settings &given = options.settings, usual;
-    for (const Field& field : settingFields()) {
-        const std::string_view why = ignoredBecause(given, field.option);
-        if (!why.empty() && given.valueOf(field.option) != usual.valueOf(field.option))
-            note(options, fmt::format("--{} is not used: {}", field.option, why));
-    }
-}
-
 }  // namespace
 
 int runRender(const Options& options) {
     if (options.list_scenes) return listScenes(options);
+    if (options.frames > 1) return runFrames(options);
     const std::vector<Settings> settings = settingsOf(options, {options.settings.path});
     checkChannels(options);
     noteIgnored(options);
@@ -223,13 +119,9 @@ int runRender(const Options& options) {
     Progress progress(progressOutput(options));
     std::optional<Device> device;
     if (std::ranges::any_of(settings, needsDevice)) device.emplace(deviceOptions(options));
-    const ReportDevice made =
-        device ? reportDevice(*device) : ReportDevice{withoutDevice, softwareName, "cpu"};
+    const ReportDevice made = madeBy(device);
     say(options, "on " + made.name);
-    Json result{{"schema", 1},
-                {"software", softwareName},
-                {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
-                {"frames", Json::array()}};
+    Json result = resultOf(made);
     // Everything is drawn before anything is written: a scene that cannot be read leaves no half of a folder.
     KeptReferences kept(output.path, output.kind == OutputKind::folder);
     const std::vector<Frame> frames = drawAll(options, settings, device ? &*device : nullptr, kept, progress);

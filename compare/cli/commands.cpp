@@ -63,16 +63,18 @@ std::filesystem::path outputFolder(const Options& options, const char* name, con
 std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths) {
     std::vector<Settings> all;
     for (const std::string& camera : options.cameras)
-        for (const Path path : paths) {
-            Settings settings = options.settings;
-            settings.camera = camera;
-            settings.path = path;
-            // A path drawn beside the reference gets no Setting that only the reference reads.
-            if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
-                settings = withoutReference(settings);
-            if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
-            all.push_back(path == Path::reference ? referenceSettings(settings) : settings);
-        }
+        for (const double time : options.times)
+            for (const Path path : paths) {
+                Settings settings = options.settings;
+                settings.camera = camera;
+                settings.time = time;
+                settings.path = path;
+                // A path drawn beside the reference gets no Setting that only the reference reads.
+                if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
+                    settings = withoutReference(settings);
+                if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+                all.push_back(path == Path::reference ? referenceSettings(settings) : settings);
+            }
     return all;
 }
 

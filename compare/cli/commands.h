@@ -35,7 +35,8 @@ int runDevices(const Options& options);
 
 // What the commands share.
 
-// One Settings per camera and path, the paths of one camera side by side. Throws the first problem().
+// One Settings per camera, time and path, the paths of one camera and time side by side. Throws the first
+// problem().
 std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>& paths);
 
 // Standard error; empty with --quiet.

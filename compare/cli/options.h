@@ -22,8 +22,11 @@ struct Options {
     std::string help;     // what to print instead of doing anything: --help, --version
     std::string command;  // "compare"
     std::vector<std::string> scenes{"builtin:gallery"};
-    Settings settings;                     // settings.camera is the first of cameras
+    Settings settings;  // settings.camera is the first of cameras, settings.time that of times
     std::vector<std::string> cameras{""};  // one Frame each, of every scene and path
+    std::vector<double> times{0.0};        // compare: s, one Frame each, of every scene, camera and path
+    int frames = 1;                        // render: so many pictures, the first at settings.time,
+    double fps = 30;                       // and so many a second
     bool path_given = false;               // --path stood on the command line
     Path baseline = Path::deferred;        // compare: the left panel
     int shown = 0;                         // debug mode of the picture
@@ -51,5 +54,10 @@ struct Options {
     bench::BenchOptions bench;
     std::string grid;  // tradeoff: a file or JSON; empty: usualGrids()
 };
+
+// The animation time, s, of picture `frame` of --frames, from 0 on.
+inline double timeOfFrame(const Options& options, int frame) {
+    return options.settings.time + frame / options.fps;
+}
 
 }  // namespace diptych::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Animated files through the whole program: the reference at a given time, and the notes of the paths.
+// Animated files through the whole program: at one time, at several in one report, and as numbered pictures.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
@@ -7,6 +7,9 @@
 
 #include <initializer_list>
 #include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace diptych {
 namespace {
@@ -86,66 +89,186 @@ std::string columnsIn(const fs::path& exr) {
     return row;
 }
 
-TEST(Motion, TheReferenceDrawsItWhereItIsAtATime) {
+const std::vector<std::pair<double, std::string>> where{
+    {0, "01000"}, {1, "00100"}, {2, "00010"}, {9, "00010"}};
+
+// One report of both paths and the reference at four times, which nothing but the time tells apart.
+TEST(Motion, EveryPathDrawsItWhereItIsAtEachTimeOfOneReport) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
     folder.write("target.gltf", byATarget().dump());
-    for (const std::string scene : {"node", "target"})
-        for (const auto& [time, columns] :
-             {std::pair{"0", "01000"}, {"1", "00100"}, {"2", "00010"}, {"9", "00010"}}) {
-            const std::string file = scene + time + ".exr";
-            const Ran ran = runTool(folder, "render " + scene + ".gltf" + posedView + reference + " --time " +
-                                                time + " -o " + file);
-            ASSERT_EQ(ran.code, 0) << ran.err;
-            EXPECT_EQ(columnsIn(folder / file), columns) << scene << " at " << time << " s";
+    for (const auto& [scene, more] :
+         {std::pair<std::string, std::string>{"node", " --baseline reference --reference-mode scene"},
+          {"target", " --baseline reference --reference-mode scene --skinning vertex"},
+          {"target", " --baseline reference"}}) {
+        const Ran ran =
+            runTool(folder, "compare " + scene + ".gltf --times 0,1,2,9 --runs 0 -o r" + posedView + more);
+        ASSERT_EQ(ran.code, 0) << ran.err << ran.out;
+        const Json report = Json::parse(contentsOf(folder / "r/report.json"));
+        ASSERT_EQ(report["frames"].size(), 12u);
+        ASSERT_EQ(report["comparisons"].size(), 12u) << "three pairs at each time";
+        for (std::size_t i = 0; i < 12; ++i) {
+            const Json& frame = report["frames"][i];
+            const auto& [time, columns] = where[i / 3];
+            EXPECT_EQ(frame["settings"]["time"], time);
+            const std::string exr = frame["exr"].get<std::string>();
+            EXPECT_NE(exr.find(std::to_string(static_cast<int>(time)) + "s/"), std::string::npos) << exr;
+            EXPECT_EQ(columnsIn(folder / ("r/" + exr)), columns) << exr << more;
         }
+        for (const auto& [time, columns] : where)
+            EXPECT_NE(contentsOf(folder / "r/junit.xml")
+                          .find(", " + std::to_string(static_cast<int>(time)) + " s | "),
+                      std::string::npos)
+                << time;
+    }
 }
 
-// At 0 s a path agrees with the reference if only nodes move; where it draws undeformed meshes, it says so.
-TEST(Motion, ThePathsDrawTheStartAndSayWhatTheyLeave) {
+// What is at rest in a file is posed as well, and whoever asks is told by what.
+TEST(Motion, ATargetAtRestIsPosedAndPlanSaysByWhat) {
     const Folder folder;
-    Json node = byItsNode(), target = byATarget();
-    // The first key has the value of the file's last one.
-    node["animations"][0]["samplers"][0]["output"] = 3;
-    node["accessors"][3]["byteOffset"] = node["accessors"][3]["byteOffset"].get<int>() + 12;
-    node["accessors"][3]["count"] = 1;
-    node["accessors"][2]["count"] = 1;
+    Json target = byATarget();
     target.erase("animations");
     target["meshes"][0]["weights"] = {1};
-    folder.write("node.gltf", node.dump());
     folder.write("target.gltf", target.dump());
-    for (const std::string path : {"deferred", "forward_plus"}) {
-        ASSERT_EQ(
-            runTool(folder, "render node.gltf --runs 0" + posedView + " --path " + path + " -o n.exr --force")
-                .code,
-            0);
-        EXPECT_EQ(columnsIn(folder / "n.exr"), "00010") << path;
-        const Ran ran = runTool(
-            folder, "render target.gltf --runs 0" + posedView + " --path " + path + " -o t.exr --force");
+    for (const std::string path :
+         {" --path deferred", " --path forward_plus --skinning vertex", " --path reference"}) {
+        const Ran ran = runTool(folder, "render target.gltf --runs 0" + posedView + path + " -o t.exr");
         ASSERT_EQ(ran.code, 0) << ran.err;
-        EXPECT_EQ(columnsIn(folder / "t.exr"), "01000") << path;
-        EXPECT_NE((ran.out + ran.err).find("1 morphed mesh: drawn undeformed by " + path + " yet"),
-                  std::string::npos)
-            << ran.out << ran.err;
+        EXPECT_EQ(columnsIn(folder / "t.exr"), "00010") << path;
+        EXPECT_EQ((ran.out + ran.err).find("undeformed"), std::string::npos) << ran.out << ran.err;
     }
-    const Ran ran = runTool(folder, "render target.gltf" + posedView + reference + " -o r.exr");
-    EXPECT_EQ(columnsIn(folder / "r.exr"), "00010") << ran.err;
-    EXPECT_EQ((ran.out + ran.err).find("undeformed"), std::string::npos) << ran.out << ran.err;
-    const Ran plan = runTool(folder, "plan target.gltf");
-    EXPECT_NE(plan.out.find("1 morphed mesh: no path poses them yet; the reference does"), std::string::npos)
-        << plan.out;
+    for (const auto& [skinning, words] : {std::pair{"compute", "posed once a frame by kernels"},
+                                          {"vertex", "posed by the vertex shader of every draw"}}) {
+        const Ran plan = runTool(folder, std::string("plan target.gltf --skinning ") + skinning);
+        EXPECT_NE(plan.out.find(std::string("1 morphed mesh: 3 vertices, ") + words), std::string::npos)
+            << plan.out;
+    }
 }
 
-TEST(Motion, ATimeThatNothingDrawsIsRefused) {
+TEST(Motion, AnAnimationPlaysByItsName) {
+    const Folder folder;
+    Json file = byItsNode();
+    file["animations"].push_back(byATarget()["animations"][0]);
+    file["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 1}}};
+    file["animations"][0]["name"] = "walk";
+    file["animations"][1]["name"] = "bend";
+    folder.write("a.gltf", file.dump());
+    for (const auto& [options, columns] : {std::pair{" --time 1", "00010"},
+                                           {" --time 1 --animation walk", "00100"},
+                                           {" --time 2 --animation bend", "00010"},
+                                           {" --time 2 --animation 0", "00010"}})
+        for (const std::string& path : {reference, std::string(" --path deferred --runs 0")}) {
+            const Ran ran = runTool(folder, "render a.gltf" + posedView + path + options + " -o a.exr");
+            ASSERT_EQ(ran.code, 0) << ran.err;
+            EXPECT_EQ(columnsIn(folder / "a.exr"), columns) << path << options;
+        }
+    EXPECT_TRUE(
+        runTool(folder, "render a.gltf --animation run" + reference).failedOver("--animation \"run\""));
+}
+
+TEST(Motion, TimesThatCannotBeAreRefused) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
-    for (const std::string rest : {"", " --path deferred", " --path reference"})
-        EXPECT_TRUE(
-            runTool(folder, "render node.gltf --time 1" + rest).failedOver("--time 1 is not built yet"));
-    EXPECT_TRUE(runTool(folder, "compare node.gltf --baseline reference --reference-mode scene --time 1")
-                    .failedOver("--time 1 is not built yet"));
     EXPECT_TRUE(runTool(folder, "render node.gltf --time -1" + reference)
                     .failedOver("--time -1: is finite and at least 0"));
+    EXPECT_TRUE(runTool(folder, "compare node.gltf --time 1 --times 0,1").failedOver("--times"));
+    EXPECT_TRUE(runTool(folder, "compare node.gltf --times 0,soon").failedOver("--times 0,soon"));
+    EXPECT_TRUE(runTool(folder, "compare node.gltf --times 0,1 --baseline b.exr")
+                    .failedOver("--baseline b.exr: is one picture"));
+    EXPECT_FALSE(fs::exists(folder / "diptych-report"));
+}
+
+// A line of output for each, and a file by each path.
+TEST(Motion, FramesAreNumberedPicturesOfTheirTimes) {
+    const Folder folder;
+    folder.write("node.gltf", byItsNode().dump());
+    folder.write("target.gltf", byATarget().dump());
+    for (const auto& [scene, path] : {std::pair<std::string, std::string>{"node", reference},
+                                      {"target", " --path reference"},
+                                      {"target", " --path deferred --runs 0"},
+                                      {"node", " --path forward_plus --runs 1"}}) {
+        const Ran ran = runTool(folder, "render " + scene + ".gltf --frames 3 --fps 2 --time 1" + posedView +
+                                            path + " -o out.exr");
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        for (const auto& [number, time, columns] :
+             {std::tuple{"0000", "1", "00100"}, {"0001", "1.5", ""}, {"0002", "2", "00010"}}) {
+            const std::string name = std::string("out.") + number + ".exr";
+            ASSERT_TRUE(fs::exists(folder / name)) << path;
+            EXPECT_NE(ran.out.find(name + ": " + scene + ".gltf at " + time + " s, 5x5, "), std::string::npos)
+                << ran.out;
+            if (*columns != '\0') {
+                EXPECT_EQ(columnsIn(folder / name), columns) << path << time;
+            }
+        }
+        EXPECT_FALSE(fs::exists(folder / "out.0003.exr"));
+        EXPECT_FALSE(fs::exists(folder / "out.exr"));
+    }
+}
+
+TEST(Motion, FramesInAFolderAreListedAndReplaced) {
+    const Folder folder;
+    folder.write("node.gltf", byItsNode().dump());
+    const std::string render = "render node.gltf" + posedView + reference + " -o out";
+    ASSERT_EQ(runTool(folder, render + " --frames 3 --fps 1").code, 0);
+    const Json listed = Json::parse(contentsOf(folder / "out/frames.json"));
+    ASSERT_EQ(listed["frames"].size(), 3u);
+    for (int i = 0; i < 3; ++i) {
+        const std::string number = "000" + std::to_string(i);
+        EXPECT_EQ(columnsIn(folder / ("out/reference." + number + ".exr")), where[i].second);
+        EXPECT_TRUE(fs::exists(folder / ("out/material_id." + number + ".png")));
+        EXPECT_EQ(listed["frames"][i]["settings"]["time"], i);
+        EXPECT_EQ(listed["frames"][i]["file"], "out/reference." + number + ".exr");
+    }
+    // Fewer replace more, one replaces several, and the other way round.
+    ASSERT_EQ(runTool(folder, render + " --frames 2").code, 0);
+    EXPECT_FALSE(fs::exists(folder / "out/reference.0002.exr"));
+    ASSERT_EQ(runTool(folder, render + " --frames 1").code, 0);
+    EXPECT_TRUE(fs::exists(folder / "out/frame.json"));
+    EXPECT_FALSE(fs::exists(folder / "out/reference.0000.exr"));
+    const Ran ran = runTool(folder, render + " --frames 2 --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_FALSE(fs::exists(folder / "out/frame.json"));
+    EXPECT_EQ(Json::parse(ran.out)["frames"].size(), 2u);
+}
+
+// One exposure for all: lit of a sun that rises would flicker otherwise.
+TEST(Motion, PicturesOfAMotionAreExposedAlike) {
+    const Folder folder;
+    const Ran ran = runTool(folder,
+                            "render builtin:motion --size 16x9 --frames 2 --fps 1 --runs 0 --channels lit "
+                            "--shadows off -o m.png");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.out.find("of the first picture, and taken for all"), std::string::npos) << ran.out;
+    EXPECT_NE(contentsOf(folder / "m.0000.png"), contentsOf(folder / "m.0001.png"));
+    const auto at = ran.out.find("exposure ") + 9;
+    const std::string exposure = ran.out.substr(at, ran.out.find(',', at) - at);
+    ASSERT_EQ(runTool(folder,
+                      "render builtin:motion --size 16x9 --time 1 --runs 0 --channels lit "
+                      "--shadows off -o one.png --exposure " +
+                          exposure)
+                  .code,
+              0);
+    const Ran same = runTool(folder, "diff m.0001.png one.png --metric max --tolerance 0.01");
+    EXPECT_EQ(same.code, 0) << same.out << "the factor is printed with four digits";
+}
+
+// Before the first is drawn.
+TEST(Motion, FramesReplaceNoFileOfOthers) {
+    const Folder folder;
+    folder.write("node.gltf", byItsNode().dump());
+    folder.write("out.0002.exr", "a note");
+    const std::string render = "render node.gltf --frames 3 --fps 1" + posedView + reference;
+    EXPECT_TRUE(runTool(folder, render + " -o out.exr").failedOver("-o out.0002.exr"));
+    EXPECT_FALSE(fs::exists(folder / "out.0000.exr"));
+    ASSERT_EQ(runTool(folder, render + " -o out.exr --force").code, 0);
+    EXPECT_EQ(columnsIn(folder / "out.0002.exr"), "00010");
+    ASSERT_EQ(runTool(folder, render + " -o out.exr").code, 0) << "those of its own";
+    folder.write("dir/mine.txt", "a note");
+    EXPECT_TRUE(runTool(folder, render + " -o dir").failedOver("-o dir"));
+    EXPECT_TRUE(runTool(folder, "render node.gltf --frames 0").failedOver("--frames 0: 1 or more"));
+    EXPECT_TRUE(runTool(folder, "render node.gltf --frames 2 --fps 0").failedOver("--fps 0: above 0"));
+    EXPECT_TRUE(runTool(folder, render + " builtin:triangle").failedOver("--frames 3: are of one scene"));
+    EXPECT_TRUE(runTool(folder, render + " --camera 0").failedOver("2 cameras were given"));
 }
 
 }  // namespace

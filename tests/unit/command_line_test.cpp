@@ -67,6 +67,19 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
     }
 }
 
+// Several times are several Frames of each camera; without --times there is one, --time.
+TEST(CommandLine, TimesAndFrames) {
+    EXPECT_EQ(parseCommandLine({"compare"}).times, std::vector{0.0});
+    EXPECT_EQ(parseCommandLine({"compare", "--time", "0.75"}).times, std::vector{0.75});
+    const Options several = parseCommandLine({"compare", "--times", "0.5,0,1e6", "--camera", "a"});
+    EXPECT_EQ(several.times, (std::vector{0.5, 0.0, 1e6}));
+    EXPECT_EQ(several.settings.time, 0.5) << "the first";
+    const Options drawn = parseCommandLine({"render", "--frames", "4", "--fps", "8", "--time", "1"});
+    EXPECT_EQ(drawn.frames, 4);
+    EXPECT_EQ(timeOfFrame(drawn, 0), 1);
+    EXPECT_EQ(timeOfFrame(drawn, 3), 1.375);
+}
+
 // The last values that are taken; those beyond are among the usage errors.
 TEST(CommandLine, LimitsAreTaken) {
     EXPECT_EQ(parseCommandLine({"compare", "--runs", "0"}).runs, 0) << "no times, no profile";
@@ -177,7 +190,6 @@ TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
         {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},
         {{"view", "a.glb", "--size", "64x64"}, "view"},
         {{"compare", "--pixel", "3,4"}, "--pixel 3,4"},
-        {{"render", "--frames", "2", "--fps", "30"}, "--frames 2"},
     };
     for (const auto& [words, name] : later) {
         const std::string what = whatIsThrown(words);
@@ -306,6 +318,20 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"compare", "--fps", "0"}, "--fps 0"},
         {{"compare", "--fps", "inf"}, "--fps inf"},
         {{"compare", "--frames", "0"}, "--frames 0: 1 or more"},
+        {{"compare", "--frames", "2"}, "--frames 2: render draws them; compare takes --times"},
+        {{"plan", "--frames", "2"}, "--frames 2: render draws them"},
+        {{"render", "--fps", "-24"}, "--fps -24: above 0"},
+        {{"render", "--fps", "nan"}, "--fps nan: above 0"},
+        {{"render", "--frames", "-3"}, "--frames -3: 1 or more"},
+        {{"render", "--frames", "2.5"}, "--frames"},
+        {{"render", "--frames", "3", "--fps", "1e-310"},
+         "--fps 1e-310: the last of 3 frames is at no finite time"},
+        {{"compare", "--times", "0,1", "--time", "2"}, "--time"},
+        {{"compare", "--times", "0,one"}, "--times 0,one: \"one\" is no time"},
+        {{"compare", "--times", "0,1,"}, "--times 0,1,: \"\" is no time"},
+        {{"compare", "--times", "0,-1"}, "--times 0,-1: each is finite and at least 0 s"},
+        {{"compare", "--times", "inf"}, "--times inf: \"inf\" is no time"},
+        {{"render", "--times", "0,1"}, "--times"},
         {{"diff", "a", "b", "--blur", "inf"}, "--blur"},
         {{"diff", "a", "b", "--tolerance", "nan"}, "--tolerance nan"},
         {{"diff", "a", "b", "--failing", "0.1", "--tolerance", "1", "--metric", "rmse"}, "--metric"},
@@ -337,7 +363,8 @@ TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
 TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     const auto help = [](const std::string& command) { return parseCommandLine({command, "--help"}).help; };
     const std::pair<const char*, std::vector<const char*>> unread[] = {
-        {"compare", {"--debug", "--heat", "--frames", "--pixel"}},
+        {"compare", {"--debug", "--heat", "--frames", "--fps", "--pixel"}},
+        {"render", {"--times"}},
         {"bench", {"--debug", "--channels", "--exposure"}},
         {"plan", {"--exposure", "--runs", "--out", "--channels"}},
         {"devices", {"--size", "--exposure", "--lights", "--out"}},
@@ -349,7 +376,9 @@ TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     for (const char* option :
          {"--tolerances", "--gbuffer", "--exposure", "--match-exposure", "--color", "--allow-empty"})
         EXPECT_NE(help("compare").find(option), std::string::npos) << option;
-    EXPECT_NE(help("render").find("--debug"), std::string::npos);
+    EXPECT_NE(help("compare").find("--times "), std::string::npos);
+    for (const char* option : {"--debug ", "--frames ", "--fps "})
+        EXPECT_NE(help("render").find(option), std::string::npos) << option;
     EXPECT_NO_THROW(parseCommandLine({"devices", "--size", "3x3"})) << "it is accepted yet";
 }
 

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// render --frames: the scene is loaded and uploaded once, and whoever waits sees each picture as soon as it
+// is drawn.
+#include "compare/cli/render_output.h"
+#include "compare/files/frame_json.h"
+#include "compare/files/output_folder.h"
+#include "compare/metrics/channel.h"
+#include "compare/render/reference_frame.h"
+#include "compare/report/exposure_line.h"
+#include "compare/report/titles.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/atomic_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+namespace diptych::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// "0007" of the eighth; as many digits in all names, so that their order is that of the pictures.
+std::string numberOf(int frame, int frames) {
+    const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames - 1).size());
+    return fmt::format("{:0{}}", frame, digits);
+}
+
+// "out.0007.exr" of "out.exr".
+fs::path numberedFile(fs::path file, const std::string& number) {
+    return file.replace_extension(number + file.extension().string());
+}
+
+// Everything that says what is drawn must be of one picture.
+void checkOneView(const Options& options) {
+    if (options.scenes.size() > 1 || options.cameras.size() > 1)
+        throw std::runtime_error(
+            fmt::format("--frames {}: are of one scene and one camera; {} were given", options.frames,
+                        options.scenes.size() > 1 ? fmt::format("{} scenes", options.scenes.size())
+                                                  : fmt::format("{} cameras", options.cameras.size())));
+}
+
+class FrameWriter {
+public:
+    FrameWriter(const Options& options, const ReportDevice& made)
+        : options_(options),
+          made_(made),
+          output_(outputIn(options)),
+          shown_(shownChannels(options)),
+          picture_(pictureChoice(options)),
+          result_(resultOf(made)) {
+        // Before the first is drawn.
+        if (output_.kind == OutputKind::folder) {
+            checkFolder(output_, 1, options.force);
+            folder_.emplace(output_.path);
+            return;
+        }
+        for (int i = 0; i < options.frames; ++i)
+            for (const fs::path& file : filesOf(i))
+                checkReplaceable({output_.kind, file}, single_manifest, options.force);
+    }
+
+    const Output& output() const { return output_; }
+
+    void write(const Frame& frame, int number) {
+        if (number == 0) chooseExposure(frame);
+        result_["frames"].push_back(jsonOf(frame));
+        Json& entry = result_["frames"].back();
+        fs::path place;
+        if (output_.kind == OutputKind::folder) {
+            place = writeInFolder(frame, number, entry);
+        } else {
+            const std::vector<fs::path> files = filesOf(number);
+            const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
+            writeFrame(frame, made_, {output_.kind, file}, shown_, picture_);
+            entry["file"] = file.string();
+            if (output_.kind == OutputKind::png)
+                for (const fs::path& of : files) entry["files"].push_back(of.string());
+            place = files.size() == 1 ? file : file.parent_path() / pictureNames(files);
+        }
+        if (!options_.json && !options_.quiet) print(frame, place, number);
+    }
+
+    // After the last: a folder is put in place as a whole.
+    void finish() {
+        if (folder_) {
+            Json manifest = result_;
+            manifest["files"] = files_;
+            writeFile(*folder_ / several_manifest, jsonText(manifest));
+            files_.emplace_back(several_manifest);
+            folder_->put(files_, [&] {
+                checkFolder(output_, 1, options_.force);
+                return earlierIn(output_.path);
+            });
+        }
+        if (options_.json) fmt::print("{}", jsonText(result_));
+    }
+
+private:
+    // Of an output that is no folder.
+    std::vector<fs::path> filesOf(int number) const {
+        const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
+        return output_.kind == OutputKind::png ? pictureFiles(file, shown_) : std::vector{file};
+    }
+
+    // All pictures are exposed as the first is: each by itself would flicker.
+    void chooseExposure(const Frame& first) {
+        exposure_line_ = exposureLine(first, picture_);
+        if (picture_.exposure || picture_.ev100) return;
+        const auto lit = first.channels.find(static_cast<int>(gpu::DEBUG_lit));
+        if (output_.kind == OutputKind::exr || lit == first.channels.end()) return;
+        picture_.exposure = exposureFor(picture_, &lit->second, coverage(first, first)).factor;
+        exposure_line_ += "; of the first picture, and taken for all";
+    }
+
+    // FRAME.0007.exr and CHANNEL.0007.png.
+    fs::path writeInFolder(const Frame& frame, int number, Json& entry) {
+        const std::string ending = numberOf(number, options_.frames);
+        const std::string exr = fmt::format("{}.{}.exr", frame.name, ending);
+        writeFrame(frame, made_, {OutputKind::exr, *folder_ / exr}, shown_, picture_);
+        files_.push_back(exr);
+        for (const DebugMode* mode : shown_) {
+            files_.push_back(fmt::format("{}.{}.png", mode->name, ending));
+            writeFrame(frame, made_, {OutputKind::png, *folder_ / files_.back()}, {mode}, picture_);
+        }
+        entry["file"] = (output_.path / exr).string();
+        return output_.path / exr;
+    }
+
+    void print(const Frame& frame, const fs::path& place, int number) {
+        const double ms = frame.time.runs > 0 ? frame.time.median : frame.made_in_ms;
+        fmt::print("{}: {} at {:.6g} s, {}x{}, {}{:.2f} ms\n", place.string(), frame.scene,
+                   frame.settings.time, frame.settings.size.width, frame.settings.size.height,
+                   frame.time.runs > 0 ? "" : "made in ", ms);
+        if (number == 0 && output_.kind != OutputKind::exr) fmt::print("  picture: {}\n", exposure_line_);
+        for (const std::string& line : frame.notes)
+            if (said_.insert(withoutNumbers(line)).second) fmt::print("  note: {}\n", line);
+        std::fflush(stdout);
+    }
+
+    const Options& options_;
+    const ReportDevice made_;
+    const Output output_;
+    const ShownChannels shown_;
+    PictureChoice picture_;
+    Json result_;
+    std::optional<OutputFolder> folder_;
+    std::vector<std::string> files_;  // in it
+    std::string exposure_line_;
+    std::set<std::string> said_;  // notes, whatever numbers they have
+};
+
+// One Frame after the other; the scene is uploaded once.
+class FrameSource {
+public:
+    FrameSource(const Scene& scene, Device* device) : views_(scene) {
+        if (device) renderer_.emplace(*device, views_);
+    }
+    Frame draw(const Settings& settings, const RenderOptions& render) {
+        Frame frame = renderer_ ? renderer_->draw(settings, render)
+                                : std::move(drawWithoutDevice(views_, {settings}, render).front());
+        views_.clear();  // no other frame is of this time
+        return frame;
+    }
+
+private:
+    SceneViews views_;
+    std::optional<Renderer> renderer_;
+};
+
+}  // namespace
+
+int runFrames(const Options& options) {
+    checkOneView(options);
+    Settings settings = settingsOf(options, {options.settings.path}).front();
+    checkChannels(options);
+    noteIgnored(options);
+    Progress progress(progressOutput(options));
+    std::optional<Device> device;
+    if (needsDevice(settings)) device.emplace(deviceOptions(options));
+    const ReportDevice made = madeBy(device);
+    FrameWriter writer(options, made);
+    say(options, "on " + made.name);
+
+    const std::string& name = options.scenes.front();
+    RenderOptions render = renderOptions(options);
+    render.channels = channelsFor(writer.output().kind, options, render.channels);
+    const Stage stage(progress, name);
+    const auto frames = static_cast<std::size_t>(options.frames);
+    const double loading = loadingShare(name, render, frames);
+    say(options, name);
+    const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
+    FrameSource source(scene, device ? &*device : nullptr);
+    for (int i = 0; i < options.frames; ++i) {
+        settings.time = timeOfFrame(options, i);
+        const double each = (1 - loading) / options.frames, begun = loading + each * i;
+        const Stage drawing = stage.part(begun, begun + each);
+        render.progress = drawing.part(0, drawnShare(render));
+        KeptReferences kept(writer.output().path, writer.output().kind == OutputKind::folder);
+        render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+            return kept.open(key, floats);
+        };
+        const Frame frame = source.draw(settings, render);
+        if (device) checkValidation(*device);
+        drawing.at(drawnShare(render), "write");
+        progress.wipe();
+        writer.write(frame, i);
+        kept.remove();
+        if (i + 1 == options.frames) noteLeftByOthers(options, kept);
+    }
+    progress.wipe();
+    writer.finish();
+    return 0;
+}
+
+}  // namespace diptych::cli
