@@ -208,8 +208,8 @@ TEST(Motion, FramesAreNumberedPicturesOfTheirTimes) {
 TEST(Motion, FramesInAFolderAreListedAndReplaced) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
-    const std::string render = "render node.gltf" + posedView + reference + " -o out";
-    ASSERT_EQ(runTool(folder, render + " --frames 3 --fps 1").code, 0);
+    const std::string asked = "render node.gltf" + posedView + reference + " -o out";
+    ASSERT_EQ(runTool(folder, asked + " --frames 3 --fps 1").code, 0);
     const Json listed = Json::parse(contentsOf(folder / "out/frames.json"));
     ASSERT_EQ(listed["frames"].size(), 3u);
     for (int i = 0; i < 3; ++i) {
@@ -220,12 +220,12 @@ TEST(Motion, FramesInAFolderAreListedAndReplaced) {
         EXPECT_EQ(listed["frames"][i]["file"], "out/reference." + number + ".exr");
     }
     // Fewer replace more, one replaces several, and the other way round.
-    ASSERT_EQ(runTool(folder, render + " --frames 2").code, 0);
+    ASSERT_EQ(runTool(folder, asked + " --frames 2").code, 0);
     EXPECT_FALSE(fs::exists(folder / "out/reference.0002.exr"));
-    ASSERT_EQ(runTool(folder, render + " --frames 1").code, 0);
+    ASSERT_EQ(runTool(folder, asked + " --frames 1").code, 0);
     EXPECT_TRUE(fs::exists(folder / "out/frame.json"));
     EXPECT_FALSE(fs::exists(folder / "out/reference.0000.exr"));
-    const Ran ran = runTool(folder, render + " --frames 2 --json");
+    const Ran ran = runTool(folder, asked + " --frames 2 --json");
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_FALSE(fs::exists(folder / "out/frame.json"));
     EXPECT_EQ(Json::parse(ran.out)["frames"].size(), 2u);
@@ -257,18 +257,18 @@ TEST(Motion, FramesReplaceNoFileOfOthers) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
     folder.write("out.0002.exr", "a note");
-    const std::string render = "render node.gltf --frames 3 --fps 1" + posedView + reference;
-    EXPECT_TRUE(runTool(folder, render + " -o out.exr").failedOver("-o out.0002.exr"));
+    const std::string asked = "render node.gltf --frames 3 --fps 1" + posedView + reference;
+    EXPECT_TRUE(runTool(folder, asked + " -o out.exr").failedOver("-o out.0002.exr"));
     EXPECT_FALSE(fs::exists(folder / "out.0000.exr"));
-    ASSERT_EQ(runTool(folder, render + " -o out.exr --force").code, 0);
+    ASSERT_EQ(runTool(folder, asked + " -o out.exr --force").code, 0);
     EXPECT_EQ(columnsIn(folder / "out.0002.exr"), "00010");
-    ASSERT_EQ(runTool(folder, render + " -o out.exr").code, 0) << "those of its own";
+    ASSERT_EQ(runTool(folder, asked + " -o out.exr").code, 0) << "those of its own";
     folder.write("dir/mine.txt", "a note");
-    EXPECT_TRUE(runTool(folder, render + " -o dir").failedOver("-o dir"));
+    EXPECT_TRUE(runTool(folder, asked + " -o dir").failedOver("-o dir"));
     EXPECT_TRUE(runTool(folder, "render node.gltf --frames 0").failedOver("--frames 0: 1 or more"));
     EXPECT_TRUE(runTool(folder, "render node.gltf --frames 2 --fps 0").failedOver("--fps 0: above 0"));
-    EXPECT_TRUE(runTool(folder, render + " builtin:triangle").failedOver("--frames 3: are of one scene"));
-    EXPECT_TRUE(runTool(folder, render + " --camera 0").failedOver("2 cameras were given"));
+    EXPECT_TRUE(runTool(folder, asked + " builtin:triangle").failedOver("--frames 3: are of one scene"));
+    EXPECT_TRUE(runTool(folder, asked + " --camera 0").failedOver("2 cameras were given"));
 }
 
 }  // namespace
