@@ -251,9 +251,9 @@ void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
             .uses(tangents, access::storageWrite(inCompute))
             .record(kernel(Shader::pose_tangents_comp, &Posed::groups, true));
     }
-    // Made before the first time that needs them.
+    // No later time compiles any, whichever instance's groups move then.
     for (const Posed& instance : instances_)
-        if (!makes_tangents_ && (instance.variant.get(gpu::FEATURE_posed_parts) & gpu::POSED_GROUPS) != 0)
+        if ((instance.variant.get(gpu::FEATURE_posed_parts) & gpu::POSED_GROUPS) != 0)
             for (const Shader shader : {Shader::pose_morph_comp, Shader::pose_tangents_comp})
                 pipelines.compute(shader, instance.variant, layout_, wide_ ? 1 : 0);
     if (!any() || skinning_ == Skinning::vertex) return;
