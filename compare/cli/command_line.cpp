@@ -98,27 +98,34 @@ double timeOf(const std::string& word, const std::string& list) {
 
 void resolveTimes(Options& options, const ParsedOptions& parsed) {
     options.times = {options.settings.time};
-    if (!parsed.times.empty()) {
+    if (parsed.times) {
+        const std::string& list = *parsed.times;
         options.times.clear();
         // A comma at the end is followed by an empty word, too.
-        for (std::size_t at = 0; at <= parsed.times.size();) {
-            const std::size_t end = std::min(parsed.times.find(',', at), parsed.times.size());
-            options.times.push_back(timeOf(parsed.times.substr(at, end - at), parsed.times));
+        for (std::size_t at = 0; at <= list.size();) {
+            const std::size_t end = std::min(list.find(',', at), list.size());
+            const std::string word = list.substr(at, end - at);
+            const double time = timeOf(word, list);
+            if (std::ranges::find(options.times, time) != options.times.end())
+                throw std::runtime_error(fmt::format("--times {}: {} is there twice", list, word));
+            options.times.push_back(time);
             at = end + 1;
         }
         options.settings.time = options.times.front();
     }
-    options.frames = parsed.frames;
-    options.fps = parsed.fps;
-    if (!(parsed.fps > 0) || !std::isfinite(parsed.fps))
-        throw std::runtime_error(fmt::format("--fps {}: above 0, finite", parsed.fps));
-    if (parsed.frames < 1) throw std::runtime_error(fmt::format("--frames {}: 1 or more", parsed.frames));
-    if (parsed.frames > 1 && options.command != "render")
-        throw std::runtime_error(fmt::format("--frames {}: render draws them{}", parsed.frames,
+    options.frames = parsed.frames.value_or(options.frames);
+    options.fps = parsed.fps.value_or(options.fps);
+    if (!(options.fps > 0) || !std::isfinite(options.fps))
+        throw std::runtime_error(fmt::format("--fps {}: above 0, finite", options.fps));
+    if (options.frames < 1) throw std::runtime_error(fmt::format("--frames {}: 1 or more", options.frames));
+    if (options.frames > 1 && options.command != "render")
+        throw std::runtime_error(fmt::format("--frames {}: render draws them{}", options.frames,
                                              options.command == "compare" ? "; compare takes --times" : ""));
-    if (!std::isfinite(timeOfFrame(options, parsed.frames - 1)))
+    if (parsed.fps && !parsed.frames)
+        throw std::runtime_error(fmt::format("--fps {}: of how many --frames?", options.fps));
+    if (!std::isfinite(timeOfFrame(options, options.frames - 1)))
         throw std::runtime_error(
-            fmt::format("--fps {}: the last of {} frames is at no finite time", parsed.fps, parsed.frames));
+            fmt::format("--fps {}: the last of {} frames is at no finite time", options.fps, options.frames));
 }
 
 void resolveBaseline(Options& options, const ParsedOptions& parsed) {

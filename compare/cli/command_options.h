@@ -25,12 +25,13 @@ std::span<const Command> allCommands();
 struct ParsedOptions {
     std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
     std::vector<std::string> cameras;
-    std::string settings_file, channels, debug, times;
+    std::string settings_file, channels, debug;
+    std::optional<std::string> times;
     std::string baseline = "deferred", crop, metric;
     std::optional<double> tolerance;
     std::vector<std::string> not_built;  // options that parse but cannot be done
-    int frames = 1;
-    double fps = 30;
+    std::optional<int> frames;
+    std::optional<double> fps;
     std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, light_counts, kernels = "on",
                                                                                             keep = "all";
     double max_ms = 2000;

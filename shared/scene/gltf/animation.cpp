@@ -68,7 +68,7 @@ public:
         if (moving == 0) scene_.animations.clear();
         if (moving > 1)
             scene_.notes.push_back(fmt::format(
-                "{} animations: all play at once, later ones win; --animation plays one alone", moving));
+                "{} animations: all play at once, later ones win, unless --animation names one", moving));
     }
 
 private:
