@@ -129,6 +129,8 @@ void ClipmapAtlas::follow(const Pose& pose, const Geometry& geometry, const Ligh
     std::vector<Caster> now;
     for (const Instance& instance : pose.instances) {
         const PlacedPrimitive placed = geometry.placed(pose, instance);
+        const Material& material =
+            materialsOf(geometry.scene(), pose)[static_cast<std::size_t>(placed.range.material)];
         Caster& caster = now.emplace_back();
         caster = {instance.mesh,
                   instance.primitive,
@@ -136,7 +138,14 @@ void ClipmapAtlas::follow(const Pose& pose, const Geometry& geometry, const Ligh
                   placed.range.bounds_min,
                   placed.range.bounds_max,
                   {},
-                  {}};
+                  {},
+                  blends(material),
+                  material.alpha_mode};
+        if (material.alpha_mode == AlphaMode::mask) {
+            caster.alpha = material.base_color.a;
+            caster.alpha_cutoff = material.alpha_cutoff;
+            caster.base_color = material.base_color_texture;
+        }
         if (instance.skin >= 0) caster.world_from_mesh = pose.skins[static_cast<std::size_t>(instance.skin)];
         if (instance.weights >= 0) caster.weights = pose.weights[static_cast<std::size_t>(instance.weights)];
     }

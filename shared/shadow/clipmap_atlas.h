@@ -58,6 +58,10 @@ private:
         glm::dvec3 bounds_min{0}, bounds_max{0};  // object
         std::vector<glm::dmat4> world_from_mesh;  // by joint
         std::vector<double> weights;              // of morph targets
+        bool blends = false;                      // casts nothing then
+        AlphaMode alpha_mode = AlphaMode::opaque;
+        float alpha = 1, alpha_cutoff = 0;  // of a mask, like the next
+        TextureSlot base_color{};
         bool operator==(const Caster&) const = default;
     };
     Device& device_;
