@@ -123,7 +123,7 @@ void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) con
         };
         const glm::dvec3 tangent =
             mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric);
-        const double sign = handedness * double{primitive.tangents[v[0]].w};
+        const double sign = handedness * double{primitive.tangents[v[0]].w} * (posed ? posed->bitangents : 1);
         glm::dvec3 t = glm::dvec3(lookUp(hit, m.normal_texture, false, &ray)) * 2.0 - 1.0;
         t.x *= double{m.normal_scale};
         t.y *= double{m.normal_scale};

@@ -85,7 +85,7 @@ void addScene(Key& key, const Request& request) {
 // Everything that decides a pixel. The version number must be increased whenever the reference itself draws
 // differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 11;
+    constexpr int version = 12;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));

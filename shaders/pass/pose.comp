@@ -15,6 +15,9 @@ void main() {
     Vec3Array(i.posed_positions).at[vertex] = posed.position;
     attributes.at[vertex].normal = posed.normal;
     attributes.at[vertex].tangent.xyz = posed.tangent;
+    if (i.groups > 0)
+        attributes.at[vertex].tangent.w =
+            i.bitangents * AttributesArray(i.attributes).at[vertex].tangent.w;
     // What no target moves is there already.
     if (has(POSED_TEXCOORDS0)) attributes.at[vertex].texcoord0 = morphedTexcoord0(i, vertex);
     if (has(POSED_TEXCOORDS1)) attributes.at[vertex].texcoord1 = morphedTexcoord1(i, vertex);

@@ -14,7 +14,6 @@ void main() {
     MorphedVertex morphed;
     morphed.position = morphedPosition(i, vertex);
     morphed.normal = morphedSurfaceNormal(i, vertex);
-    // t grows towards the top of the picture, v towards its bottom.
-    morphed.texcoord = vec2(dot(i.map_u, vec3(uv, 1.0)), 1.0 - dot(i.map_v, vec3(uv, 1.0)));
+    morphed.texcoord = uv;
     MorphedArray(i.morphed).at[vertex] = morphed;
 }

@@ -11,6 +11,9 @@
 
 vec3 inPlaneOf(vec3 normal, vec3 v) { return unitVector(v - normal * dot(normal, v)); }
 
+// How the normal map's coordinates differ: t grows towards the top of the picture, v towards its bottom.
+vec2 mapped(PosedInstance i, vec2 uv) { return vec2(dot(i.map_u, uv), -dot(i.map_v, uv)); }
+
 // At a corner, times its angle.
 vec3 tangentAt(PosedInstance i, uint corner) {
     UintArray indices = UintArray(i.indices);
@@ -19,11 +22,20 @@ vec3 tangentAt(PosedInstance i, uint corner) {
     MorphedVertex a = morphed.at[indices.at[corner]];
     MorphedVertex b = morphed.at[indices.at[triangle + (at + 1) % 3]];
     MorphedVertex c = morphed.at[indices.at[triangle + (at + 2) % 3]];
-    vec2 tb = b.texcoord - a.texcoord, tc = c.texcoord - a.texcoord;
-    float area = tb.x * tc.y - tb.y * tc.x;  // signed, twice
+    // Of the two edges that follow from the corner at which the shortest begins: differences of products of
+    // long edges would leave nothing of a thin triangle. Twice the signed area, and the derivative times it.
+    vec3 ab = b.position - a.position, bc = c.position - b.position, ca = a.position - c.position;
+    vec2 tab = mapped(i, b.texcoord - a.texcoord), tbc = mapped(i, c.texcoord - b.texcoord);
+    vec2 tca = mapped(i, a.texcoord - c.texcoord);
+    float ab2 = dot(ab, ab), bc2 = dot(bc, bc), ca2 = dot(ca, ca);
+    vec3 p = ab, q = bc;
+    vec2 tp = tab, tq = tbc;
+    if (bc2 < min(ab2, ca2)) p = bc, q = ca, tp = tbc, tq = tca;
+    if (ca2 < min(ab2, bc2)) p = ca, q = ab, tp = tca, tq = tab;
+    float area = tp.x * tq.y - tp.y * tq.x;
     vec3 normal = unitVector(a.normal);
-    vec3 toB = unitVector(b.position - a.position), toC = unitVector(c.position - a.position);
-    vec3 along = unitVector((b.position - a.position) * tc.y - (c.position - a.position) * tb.y);
+    vec3 toB = unitVector(ab), toC = unitVector(-ca);
+    vec3 along = unitVector(p * tq.y - q * tp.y);
     vec3 u = inPlaneOf(normal, toB), v = inPlaneOf(normal, toC);
     float angle = angleOf(dot(u, v), lengthOf(crossProduct(u, v)));
     return (area > 0.0 ? angle : area < 0.0 ? -angle : 0.0) * inPlaneOf(normal, along);

@@ -46,7 +46,7 @@ Vertex vertexAt() {
         PosedVertex posed = posedVertex(i, number);
         v.position = posed.position;
         v.normal = posed.normal;
-        v.tangent.xyz = posed.tangent;
+        v.tangent = vec4(posed.tangent, v.tangent.w * i.bitangents);
         v.texcoords = vec4(morphedTexcoord0(i, number), morphedTexcoord1(i, number));
         v.color = morphedColor(i, number);
     }

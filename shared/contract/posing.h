@@ -40,9 +40,10 @@ struct PosedInstance {
     // Tangents that are made of the morphed vertices: struct TangentGroups. No groups: tangents move as the
     // surface does.
     uint groups;
-    uint map_second;  // 1: the normal map is read with the second texture coordinates
-    vec3 map_u;       // struct TextureTransform of the normal map
-    vec3 map_v;
+    float bitangents;  // -1 where an animation has mirrored the normal map, else 1
+    uint map_second;   // 1: the normal map is read with the second texture coordinates
+    vec2 map_u;        // struct TextureTransform of the normal map, without its offset
+    vec2 map_v;
     uvec2 morphed;          // MorphedVertex[vertices]
     uvec2 indices;          // uint[]: three a triangle
     uvec2 group_of_vertex;  // uint[vertices]; `groups`: none
@@ -55,7 +56,7 @@ struct PosedInstance {
 struct MorphedVertex {
     vec3 position;  // object, from `pivot`, m
     vec3 normal;    // object, any length
-    vec2 texcoord;  // of the normal map, transformed
+    vec2 texcoord;  // of the normal map, before its transform
 };
 
 // Push constants of the kernels: where the instance is, and those of its members that every vertex needs. At

@@ -90,7 +90,8 @@ Deformations::Deformations(Device& device, Uploader& uploader, const Scene& scen
     for (std::size_t m = 0; m < scene.meshes.size(); ++m)
         for (std::size_t p = 0; p < scene.meshes[m].primitives.size(); ++p) {
             const Primitive& primitive = scene.meshes[m].primitives[p];
-            if (primitive.indices.empty() || (primitive.joint_sets.empty() && primitive.targets.empty()))
+            if (primitive.indices.empty() || (primitive.joint_sets.empty() && primitive.targets.empty() &&
+                                              primitive.tangent_groups.empty()))
                 continue;
             const std::pair place(static_cast<int>(m), static_cast<int>(p));
             rest_.emplace(place, collector.take(primitive, geometry.range(place.first, place.second)));

@@ -27,7 +27,7 @@ public:
     // Throws std::runtime_error where memory ends. The scene and the geometry must outlive it.
     Deformations(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry);
 
-    // Of a primitive with joints or targets.
+    // Of a primitive with joints, targets or tangents that are made anew.
     const Rest& of(int mesh, int primitive) const { return rest_.at({mesh, primitive}); }
     std::uint64_t bytes() const { return rest_.empty() ? 0 : buffer_.size(); }
 

@@ -2,6 +2,7 @@
 #include "shared/draw/posing.h"
 
 #include "shared/draw/arena.h"
+#include "shared/scene/motion/morphed_tangents.h"
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
@@ -57,7 +58,9 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
     add(&Target::colors, i.colors_end);
     // A flat triangle's corners are posed by each of its vertices: once more, and again for its tangents.
     const std::size_t corners = i.flat_normals == 0 ? 0 : i.groups > 0 ? 6 : 3;
-    const std::size_t rounds = deltas.size() + corners * i.positions_end;
+    // A tangent that has no direction is any at right angles to the normal, which is morphed again for it.
+    const std::size_t again = i.groups > 0 ? i.normals_end - i.positions_end : 0;
+    const std::size_t rounds = deltas.size() + corners * i.positions_end + again;
     if (rounds > mostRounds)
         throw std::runtime_error(fmt::format(
             "morph targets have a weight in {} attributes of a vertex at once, which takes {} additions: a "
@@ -128,6 +131,7 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         }
         const Deformations::Rest& of = rest.of(instance.mesh, instance.primitive);
         gpu::PosedInstance i = of.instance;
+        i.bitangents = 1;
         i.handedness = glm::determinant(glm::dmat3(instance.world_from_object)) < 0 ? -1.0f : 1.0f;
         if (instance.skin < 0) i.joint_sets = 0;
         const std::vector<double>* const weights =
@@ -137,11 +141,14 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         const TextureSlot& map = normalMapOf(geometry.scene(), pose, instance);
         const bool moves_texcoords =
             map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
-        if (i.normals_end == 0 && !moves_texcoords) i.groups = 0;
+        if (i.normals_end == 0 && !moves_texcoords && !instance.map_turned) i.groups = 0;
         if (i.groups > 0) {
+            i.bitangents = static_cast<float>(mirroredSign(
+                geometry.scene().materials[static_cast<std::size_t>(primitive.material)].normal_texture,
+                map));
             i.map_second = map.texcoord == 1 ? 1 : 0;
-            i.map_u = glm::vec3(map.u);
-            i.map_v = glm::vec3(map.v);
+            i.map_u = glm::vec2(map.u);
+            i.map_v = glm::vec2(map.v);
         }
         arrays.push_back({i, arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
                           arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,

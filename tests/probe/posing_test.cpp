@@ -4,6 +4,7 @@
 
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
+#include "shared/scene/model/tangents.h"
 #include "shared/vulkan/device.h"
 #include "tests/probe/posing_compare.h"
 #include "tests/probe/posing_maker.h"
@@ -93,6 +94,51 @@ TEST(Posing, TangentsAreMadeOfTheMorphedSurface) {
         comparePosing(maker.scene(c), poseAt(maker.scene(c), 0), fmt::format("mesh {}", n), errors);
     }
     printErrors("tangents made anew", errors);
+    EXPECT_GT(errors.fresh_tangent, 0);
+}
+
+TEST(Posing, TangentsFollowANormalMapThatAnAnimationTurnsAndMirrors) {
+    const Scene scene = makeBuiltin("tangents");
+    PosingErrors errors;
+    for (const double seconds : {1.5, 3.5})
+        comparePosing(scene, poseAt(scene, seconds), fmt::format("at {} s", seconds), errors);
+    printErrors("of turned maps", errors);
+    EXPECT_GT(errors.fresh_tangent, 0);
+}
+
+// A fan of triangles 40,000 times as long as wide, stretched unevenly by its map, and some as wide as long on
+// the other side, so that the tangent at the hub is the sum of all. Differences of the long edges' products
+// were off by 25 degrees.
+TEST(Posing, TangentsOfThinTrianglesKeepTheirDirection) {
+    Primitive fan;
+    fan.positions = {{0, 0, 0}};
+    fan.texcoords[0] = {{0.5f, 0.5f}};
+    const int thin = 6600, wide = 40;
+    for (int n = 0; n <= thin + wide; ++n) {
+        const double degrees = n <= thin ? 80 + 10.0 * n / thin : 90 + 200.0 * (n - thin) / wide;
+        const glm::dvec2 at(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)));
+        fan.positions.push_back({at, 0});
+        fan.texcoords[0].push_back({0.5 + 0.5 * at.x, 0.5 - 0.5 * (n <= thin ? at.y : at.y + 3 * at.x)});
+        if (n == 0) continue;
+        const auto last = static_cast<std::uint32_t>(n + 1);
+        fan.indices.insert(fan.indices.end(), {0, last - 1, last});
+    }
+    fan.normals.assign(fan.positions.size(), {0, 0, 1});
+    fan.targets.resize(1);
+    fan.targets[0].positions.assign(fan.positions.size(), {0, 0, 0.05f});
+    fan.targets[0].positions[0] = {0, 0, 0};
+    Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].normal_texture.texture = 0;
+    makeTangents(fan, scene.materials[0].normal_texture);
+    fan.tangents_made = true;
+    scene.meshes = {{"", {fan}, {1}}};
+    scene.nodes.resize(1);
+    scene.nodes[0].mesh = 0;
+    scene.materials[0].normal_texture.texture = -1;
+    PosingErrors errors;
+    comparePosing(scene, poseAt(scene, 0), "fan", errors);
+    printErrors("of thin triangles", errors);
     EXPECT_GT(errors.fresh_tangent, 0);
 }
 

@@ -3,11 +3,11 @@
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
+#include "shared/scene/model/animated.h"
 #include "shared/scene/model/tangents.h"
 
 #include <glm/trigonometric.hpp>
 
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -34,28 +34,50 @@ Primitive withTurnedSet(Primitive shape) {
     return shape;
 }
 
+void turnOverTime(Scene& scene, int material, const TextureTransform& rest) {
+    MaterialParts parts;
+    parts.transforms[gpu::SLOT_normal] = rest;
+    scene.material_parts[material] = parts;
+    Animation& turning = scene.animations.back();
+    const auto add = [&](AnimatedPart part, Keyframes frames) {
+        turning.channels.push_back({.keyframes = static_cast<int>(turning.keyframes.size()),
+                                    .part = part,
+                                    .object = material,
+                                    .element = gpu::SLOT_normal});
+        turning.keyframes.push_back(std::move(frames));
+    };
+    const auto from = static_cast<float>(rest.rotation);
+    const glm::vec2 scale(rest.scale);
+    add(AnimatedPart::texture_rotation,
+        {Interpolation::linear, {0, 4}, {from, from + glm::radians(120.0f)}, 1});
+    add(AnimatedPart::texture_scale, {Interpolation::step, {0, 3}, {scale.x, scale.y, -scale.x, scale.y}, 2});
+}
+
 }  // namespace
 
 // The same tiles on planes above and on columns below, read through a transform (KHR_texture_transform) that
 // differs from left to right: turned by several angles, mirrored, and of the second UV set. Lit from the
 // upper left, tiles stand out everywhere: tangents of untransformed coordinates would light some from the
-// right or from below.
+// right or from below. Its animation turns all of them by a third of a turn in 4 s, and mirrors them after 3
+// s: tangents of the maps at rest would then be as wrong.
 Scene tangents() {
     Builder b;
+    b.scene.animations.push_back({"turning", {}, {}});
     b.camera("front", {0, 0, 11}, {0, 0, 0}, 24, 0.1, 100);
     const TextureSlot tiles = b.texture(normalMap("tiles", tileHeights(128), 5), 1);
     double x = -3.6;
     for (const Turn& turn : turns) {
         const int material = b.material(turn.name, {{0.6f, 0.35f, 0.25f}, 0, 0.4f});
-        const double c = std::cos(glm::radians(turn.degrees)), s = std::sin(glm::radians(turn.degrees));
+        const TextureTransform transform{
+            {0.25, 0.125}, {turn.u, turn.v}, glm::radians(static_cast<float>(turn.degrees))};
         TextureSlot slot = tiles;
         slot.texcoord = turn.texcoord;
-        slot.u = {c * turn.u, s * turn.v, 0.25};
-        slot.v = {-s * turn.u, c * turn.v, 0.125};
+        setTransform(slot, transform);
         b.scene.materials.back().normal_texture = slot;
+        turnOverTime(b.scene, material, transform);
         const auto add = [&](const std::string& shape, Primitive primitive, double y) {
             primitive = withTurnedSet(std::move(primitive));
-            makeTangents(primitive, slot);
+            makeTangents(primitive, slot, true);
             primitive.tangents_made = true;
             b.add(shape + ", " + turn.name, std::move(primitive), material, {x, y, 0});
         };

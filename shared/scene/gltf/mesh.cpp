@@ -5,6 +5,7 @@
 #include "shared/scene/gltf/primitive.h"
 #include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/scene/model/animated.h"
 
 #include <fmt/format.h>
 
@@ -92,9 +93,11 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
     for (std::size_t m = 0; m < meshes.size(); ++m)
         if (uses[m].drawn) meshes[m].primitives.resize(model.meshes[m].primitives.size());
     std::vector<std::vector<std::string>> found(tasks.size());
+    const std::vector<bool> mapsThatTurn = normalMapsThatTurn(scene);
     forEachInParallel(tasks.size(), [&](std::size_t i) {
         const Task& task = tasks[i];
-        const PrimitiveUse use{scene.materials, uses[task.mesh].joints, meshes[task.mesh].weights.size()};
+        const PrimitiveUse use{scene.materials, mapsThatTurn, uses[task.mesh].joints,
+                               meshes[task.mesh].weights.size()};
         meshes[task.mesh].primitives[task.primitive] =
             readPrimitive(model, fileOf(model, task), task.who(), use, found[i]);
         tally.oneMore();

@@ -254,9 +254,10 @@ private:
     void finishTangents() {
         if (result_.tangents.empty()) {
             result_.tangents_made = true;
-            const TextureSlot& slot =
-                use_.materials[static_cast<std::size_t>(result_.material)].normal_texture;
-            return slot.texture >= 0 ? makeTangents(result_, slot) : makeAnyTangents(result_);
+            const auto material = static_cast<std::size_t>(result_.material);
+            const TextureSlot& slot = use_.materials[material].normal_texture;
+            return slot.texture >= 0 ? makeTangents(result_, slot, use_.maps_that_turn[material])
+                                     : makeAnyTangents(result_);
         }
         std::vector<glm::vec4> read = std::move(result_.tangents);
         makeAnyTangents(result_);  // the fallback for tangents of the file that have no direction

@@ -15,7 +15,8 @@ struct Primitive;
 namespace diptych::gltf {
 
 struct PrimitiveUse {
-    const std::vector<Material>& materials;  // the scene's; the last is used where a primitive names none
+    const std::vector<Material>& materials;   // the scene's; the last is used where a primitive names none
+    const std::vector<bool>& maps_that_turn;  // by material: normalMapsThatTurn()
     std::size_t joints = 0;   // of the smallest skin that moves it; 0: not skinned, joints are not read
     std::size_t targets = 0;  // number of morph targets of every primitive of its mesh
 };

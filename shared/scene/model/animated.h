@@ -116,6 +116,18 @@ inline std::set<int> materialsThatMove(const Scene& scene) {
     return moving;
 }
 
+// For each material, whether an animation turns, stretches or mirrors its normal map at any time.
+inline std::vector<bool> normalMapsThatTurn(const Scene& scene) {
+    std::vector<bool> turns(scene.materials.size(), false);
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            if ((channel.part == AnimatedPart::texture_rotation ||
+                 channel.part == AnimatedPart::texture_scale) &&
+                channel.element == gpu::SLOT_normal)
+                turns[static_cast<std::size_t>(channel.object)] = true;
+    return turns;
+}
+
 // For each material, whether it blends at any time: an animation may make it let light through.
 inline std::vector<bool> materialsThatBlend(const Scene& scene) {
     std::vector<bool> blended;

@@ -77,6 +77,7 @@ struct DeformationBounds {
     std::vector<Influence> influences;   // cluster by cluster; none without joints
     std::vector<std::uint32_t> targets;  // those that move positions
     std::vector<VertexBox> deltas;       // of each cluster, for each of `targets`
+    std::uint32_t main_joint = 0;        // whose shares in all vertices add up to most; 0 without joints
     bool empty() const { return clusters.empty(); }
 };
 

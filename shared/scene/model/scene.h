@@ -119,7 +119,7 @@ struct Primitive {
     bool tangents_made = false;  // by makeTangents, because the file has none that can be used
     // Made once the vertices are final; empty: made for each pose anew, which costs as much as posing.
     DeformationBounds deformation_bounds{};
-    TangentGroups tangent_groups{};  // empty unless targets move what makeTangents made tangents of
+    TangentGroups tangent_groups{};  // empty unless something moves what makeTangents made tangents of
 };
 
 struct Mesh {

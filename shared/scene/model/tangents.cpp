@@ -86,28 +86,32 @@ void makeAnyTangents(Primitive& primitive) {
     for (const glm::vec3& normal : primitive.normals) primitive.tangents.push_back(anyTangent(normal));
 }
 
-void makeTangents(Primitive& primitive, const TextureSlot& map) {
+void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns) {
     if (map.texcoord < 0 || map.texcoord > 1 || primitive.texcoords[map.texcoord].empty())
         return makeAnyTangents(primitive);
     primitive.tangents.clear();
-    const TangentSpace space(primitive, map);
+    // A map that has no extent at rest has some later; bitangents' signs are then those of the coordinates.
+    const bool flattened = map_turns && map.u.x * map.v.y - map.u.y * map.v.x == 0;
+    const TextureSlot read = flattened ? TextureSlot{.texture = map.texture, .texcoord = map.texcoord} : map;
+    const TangentSpace space(primitive, read);
 
-    const bool morphed = std::ranges::any_of(
-        primitive.targets, [&](const MorphTarget& target) { return movesTangents(target, map.texcoord); });
+    const bool moves = map_turns || std::ranges::any_of(primitive.targets, [&](const MorphTarget& target) {
+                           return movesTangents(target, map.texcoord);
+                       });
 
-    // A vertex keeps the first tangent found for it; for each further tangent, or group where targets move
-    // tangents, the vertex is copied. Corners with equal ones share a copy as long as the search is short: a
-    // vertex of a million triangles may have a million tangents.
+    // A vertex keeps the first tangent found for it; for each further tangent, or group where something
+    // moves tangents, the vertex is copied. Corners with equal ones share a copy as long as the search is
+    // short: a vertex of a million triangles may have a million tangents.
     constexpr std::uint32_t last = ~0u;
     constexpr int mostShared = 16;
     std::vector<std::uint32_t> source(primitive.positions.size());
     for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
     std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: not set yet
-    std::vector<std::uint32_t> groups(source.size(), last);        // stays so where no target moves tangents
+    std::vector<std::uint32_t> groups(source.size(), last);        // stays so where nothing moves tangents
     std::vector<std::uint32_t> nextCopy(source.size(), last);
     for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
         const glm::vec4 tangent = space.at(corner);
-        const std::uint32_t group = morphed ? space.groupAt(corner) : last;
+        const std::uint32_t group = moves ? space.groupAt(corner) : last;
         std::uint32_t v = primitive.indices[corner];
         for (int copies = 0; tangents[v] != glm::vec4(0) && (tangents[v] != tangent || groups[v] != group);
              ++copies) {
@@ -128,7 +132,7 @@ void makeTangents(Primitive& primitive, const TextureSlot& map) {
         primitive.indices[corner] = v;
     }
     TangentGroups made;  // before gather(), which replaces the vertices that the space looks at
-    if (morphed) made = groupsOf(space, primitive.indices, groups);
+    if (moves) made = groupsOf(space, primitive.indices, groups);
     gather(primitive, source);
     for (std::size_t v = 0; v < tangents.size(); ++v)
         if (tangents[v] == glm::vec4(0)) tangents[v] = anyTangent(primitive.normals[v]);

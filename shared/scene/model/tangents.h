@@ -12,9 +12,9 @@ void makeFlatNormals(Primitive& primitive);
 // Tangents as MikkTSpace makes them (M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008),
 // from positions, normals and the coordinates that `map` is read with, its transform included; vertices are
 // split where tangents differ. Without its UV set it makes any. Where morph targets move what tangents follow
-// from, vertices are also split by what moves them, and Primitive::tangent_groups says how tangents of a pose
-// follow; call it after the targets are there.
-void makeTangents(Primitive& primitive, const TextureSlot& map);
+// from, or `map_turns` over time, vertices are also split by what moves them, and Primitive::tangent_groups
+// says how tangents of a pose follow; call it after the targets are there.
+void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns = false);
 // Every vertex gets a unit tangent perpendicular to its normal, sign +1.
 void makeAnyTangents(Primitive& primitive);
 

@@ -252,7 +252,21 @@ private:
 }  // namespace
 
 DeformationBounds deformationBounds(const Primitive& primitive) {
-    return Clustering(primitive).take();
+    DeformationBounds bounds = Clustering(primitive).take();
+    bounds.main_joint = mainJoint(primitive);
+    return bounds;
+}
+
+std::uint32_t mainJoint(const Primitive& primitive) {
+    std::vector<double> shares(1, 0);
+    for (const JointSet& set : primitive.joint_sets)
+        for (std::size_t v = 0; v < set.joints.size(); ++v)
+            for (int i = 0; i < 4; ++i) {
+                const std::size_t joint = set.joints[v][i];
+                if (joint >= shares.size()) shares.resize(joint + 1, 0);
+                shares[joint] += set.weights[v][i];
+            }
+    return static_cast<std::uint32_t>(std::ranges::max_element(shares) - shares.begin());
 }
 
 void prepareDeformationBounds(Scene& scene) {

@@ -15,6 +15,9 @@ namespace diptych {
 // Its vertices in clusters; a cluster of a large primitive has 8 vertices or more.
 DeformationBounds deformationBounds(const Primitive& primitive);
 
+// DeformationBounds::main_joint alone.
+std::uint32_t mainJoint(const Primitive& primitive);
+
 // Fills Primitive::deformation_bounds of all primitives that joints or targets move. Vertices, joint sets and
 // targets must not be changed afterwards, or deformation_bounds be cleared.
 void prepareDeformationBounds(Scene& scene);

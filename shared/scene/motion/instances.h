@@ -11,17 +11,18 @@
 
 namespace diptych {
 
-// A primitive of a mesh, placed by the node tree. If joints or morph targets move its vertices, posed.h
-// computes them; world_from_object is then the transform of the undeformed primitive: that of its skin's
-// first joint.
+// A primitive of a mesh, placed by the node tree. If joints or morph targets move its vertices, or its
+// tangents are made anew, posed.h computes them; world_from_object is then the transform of the undeformed
+// primitive: that of the joint of its skin that moves most of it.
 struct Instance {
     int mesh = 0, primitive = 0, node = 0;
     int copy = 0;  // of its node's: into Scene::copies[...]; 0 where the mesh is drawn once
     glm::dmat4 world_from_object{1.0};
-    int skin = -1;     // into Pose::skins
-    int weights = -1;  // into Pose::weights; -1: no morph target applies
-    int box = -1;      // into Pose::boxes; of deformed ones
-    bool deformed() const { return skin >= 0 || weights >= 0; }
+    int skin = -1;            // into Pose::skins
+    int weights = -1;         // into Pose::weights; -1: no morph target applies
+    int box = -1;             // into Pose::boxes; of deformed ones
+    bool map_turned = false;  // tangents are made anew for a normal map that an animation has turned
+    bool deformed() const { return skin >= 0 || weights >= 0 || map_turned; }
     bool operator==(const Instance&) const = default;
 };
 

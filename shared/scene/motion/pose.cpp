@@ -4,6 +4,7 @@
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/animation.h"
 #include "shared/scene/motion/deformation_bounds.h"
+#include "shared/scene/motion/morphed_tangents.h"
 #include "shared/scene/motion/properties.h"
 
 #include <fmt/format.h>
@@ -95,16 +96,19 @@ bool hasPlace(const Camera& camera, const std::vector<glm::dmat4>& world) {
     return camera.node < 0 || isWithin(world[static_cast<std::size_t>(camera.node)]);
 }
 
-// In bind pose all joints move a vertex alike, so the first joint is used; the transform of a skinned mesh's
-// own node has no effect (glTF 2.0, 3.7.3.3). The node's transform is used, however, if that joint's is not
-// finite or collapses the mesh into a plane.
+// In bind pose all joints move a vertex alike. Where they don't, the one that moves most of the primitive
+// says which side is the front: one that moves little or nothing of it may mirror. The transform of a skinned
+// mesh's own node has no effect (glTF 2.0, 3.7.3.3), but is used if that joint's is not finite or collapses
+// the mesh into a plane.
 glm::dmat4 worldFromPrimitive(const Scene& scene, const std::vector<glm::dmat4>& world, std::size_t node,
                               const Primitive& primitive) {
     const int index = scene.nodes[node].skin;
     if (index < 0 || primitive.joint_sets.empty()) return world[node];
     const Skin& skin = scene.skins[static_cast<std::size_t>(index)];
+    const std::size_t joint =
+        primitive.deformation_bounds.empty() ? mainJoint(primitive) : primitive.deformation_bounds.main_joint;
     const glm::dmat4 bound =
-        world[static_cast<std::size_t>(skin.joints[0])] * glm::dmat4(skin.joint_from_mesh[0]);
+        world[static_cast<std::size_t>(skin.joints[joint])] * glm::dmat4(skin.joint_from_mesh[joint]);
     return isWithin(bound) && glm::determinant(glm::dmat3(bound)) != 0 ? bound : world[node];
 }
 
@@ -184,6 +188,12 @@ PosedBox boxOf(const Scene& scene, const Pose& pose, const Instance& instance) {
     return {origin, box.min - origin, box.max - origin};
 }
 
+bool hasTurnedMap(const Scene& scene, const Pose& pose, const Primitive& primitive) {
+    if (primitive.tangent_groups.empty() || pose.materials.empty()) return false;
+    const auto m = static_cast<std::size_t>(primitive.material);
+    return isTurned(scene.materials[m].normal_texture, pose.materials[m].normal_texture);
+}
+
 }  // namespace
 
 Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
@@ -193,6 +203,8 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
     pose.seconds = seconds;
     pose.animation = animation;
     for (const Skin& skin : scene.skins) pose.skins.push_back(worldFromMesh(skin, world));
+    PropertyMotion properties = propertiesAt(scene, seconds, animation);
+    pose.materials = std::move(properties.materials);
     Weights weights(scene, motion, pose);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
@@ -202,6 +214,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
             const glm::dmat4 worldFromNode = worldFromPrimitive(scene, world, n, primitives[p]);
             // At rest, all vertices have been checked by leaveOutWhatIsBeyond().
             const glm::dvec3 extent = scene.animations.empty() ? glm::dvec3(0) : extentOf(primitives[p]);
+            const bool mapTurned = hasTurnedMap(scene, pose, primitives[p]);
             const std::span<const glm::dmat4> copies = copiesOf(scene, node);
             for (std::size_t c = 0; c < copies.size(); ++c) {
                 const glm::dmat4 worldFromObject = worldFromNode * copies[c];
@@ -212,7 +225,8 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
                                           .copy = static_cast<int>(c),
                                           .world_from_object = worldFromObject,
                                           .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
-                                          .weights = placeOfWeights});
+                                          .weights = placeOfWeights,
+                                          .map_turned = mapTurned});
             }
         }
     }
@@ -224,8 +238,6 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
         pose.boxes.back().first_vertex = vertices;
         vertices += primitiveOf(scene, instance).positions.size();
     }
-    PropertyMotion properties = propertiesAt(scene, seconds, animation);
-    pose.materials = std::move(properties.materials);
     for (const Light& light : properties.lights)
         if (hasPlace(light, world)) pose.lights.push_back(inWorld(light, world));
     std::stable_partition(pose.lights.begin(), pose.lights.end(),

@@ -126,12 +126,12 @@ void makeFlat(const std::vector<glm::dvec3>& positions, const std::vector<std::u
 }
 
 // In object space, before joints move them.
-std::vector<glm::dvec3> tangentsOf(const Posing& posing, const TextureSlot& map) {
+std::vector<glm::dvec3> tangentsOf(const Posing& posing, const TextureSlot& map, bool map_turned) {
     const Primitive& primitive = posing.primitive();
     const std::size_t count = primitive.positions.size();
     std::vector<glm::dvec3> tangents(count);
-    if (primitive.tangent_groups.empty() ||
-        !posing.isMoved([&](const MorphTarget& target) { return movesTangents(target, map.texcoord); })) {
+    const auto moves = [&](const MorphTarget& target) { return movesTangents(target, map.texcoord); };
+    if (primitive.tangent_groups.empty() || (!map_turned && !posing.isMoved(moves))) {
         for (std::size_t v = 0; v < count; ++v) tangents[v] = posing.tangent(v);
         return tangents;
     }
@@ -164,8 +164,10 @@ PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance
     const std::size_t count = primitive.positions.size();
     result.positions.resize(count);
     result.normals.resize(count);
-    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-    result.tangents = tangentsOf(posing, material.normal_texture);
+    const auto material = static_cast<std::size_t>(primitive.material);
+    const TextureSlot& map = materialsOf(scene, pose)[material].normal_texture;
+    result.tangents = tangentsOf(posing, map, instance.map_turned);
+    if (instance.map_turned) result.bitangents = mirroredSign(scene.materials[material].normal_texture, map);
     for (std::size_t v = 0; v < count; ++v) {
         const glm::dmat4 world = posing.worldFrom(v);
         const glm::dmat3 axes(world);
