@@ -272,7 +272,8 @@ std::uint32_t mainJoint(const Primitive& primitive) {
 void prepareDeformationBounds(Scene& scene) {
     for (Mesh& mesh : scene.meshes)
         for (Primitive& primitive : mesh.primitives)
-            if (!primitive.joint_sets.empty() || !primitive.targets.empty())
+            if (!primitive.joint_sets.empty() || !primitive.targets.empty() ||
+                !primitive.tangent_groups.empty())
                 primitive.deformation_bounds = deformationBounds(primitive);
 }
 

@@ -18,8 +18,9 @@ DeformationBounds deformationBounds(const Primitive& primitive);
 // DeformationBounds::main_joint alone.
 std::uint32_t mainJoint(const Primitive& primitive);
 
-// Fills Primitive::deformation_bounds of all primitives that joints or targets move. Vertices, joint sets and
-// targets must not be changed afterwards, or deformation_bounds be cleared.
+// Fills Primitive::deformation_bounds of all primitives that joints or targets move or whose tangents are
+// made anew over time. Vertices, joint sets and targets must not be changed afterwards, or deformation_bounds
+// be cleared.
 void prepareDeformationBounds(Scene& scene);
 
 // Where a primitive is in a pose: what posed.h computes each vertex of.
