@@ -283,6 +283,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     vkGetPhysicalDeviceFeatures(physical, &there);
     wanted.v10.features.occlusionQueryPrecise = there.occlusionQueryPrecise;
     wanted.v10.features.depthClamp = there.depthClamp;
+    wanted.v10.features.sampleRateShading = there.sampleRateShading;
     wanted.v10.features.independentBlend = there.independentBlend;
     wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;
     wanted.v10.features.fragmentStoresAndAtomics = there.fragmentStoresAndAtomics;

@@ -178,6 +178,8 @@ OwnedPipeline Pipelines::make(const PipelineKey& key, const PipelineParts& parts
     VkPipelineMultisampleStateCreateInfo samples{};
     samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
     samples.rasterizationSamples = key.samples;
+    samples.sampleShadingEnable = key.sample_shading;
+    samples.minSampleShading = 1;
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = key.depth_compare != VK_COMPARE_OP_ALWAYS || key.depth_write;

@@ -45,6 +45,7 @@ struct PipelineKey {
     bool depth_clamp = false;  // what lies before or behind the depth range is drawn at its end, not cut off
     DepthBias depth_bias{};
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool sample_shading = false;  // a fragment for every sample, not for every pixel
     auto operator<=>(const PipelineKey&) const = default;
 };
 
