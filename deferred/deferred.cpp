@@ -2,10 +2,12 @@
 #include "deferred/deferred.h"
 
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/samples.h"
 #include "shared/draw/background.h"
 #include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
+#include "shared/draw/resolve.h"
 #include "shared/shadow/shadow_maps.h"
 #include "shared/transparent/transparent.h"
 
@@ -43,7 +45,8 @@ Variant lightingVariant(const FrameInputs& inputs) {
 }
 
 // A full-screen pass over the G-buffer. Its triangle lies at the smallest depth that can be drawn, so a depth
-// test of LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded.
+// test of LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded. With several samples
+// a pixel the depth is that of addGroups(), and there is a triangle for each group that a pixel may have.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                          Shader fragment, Variant variant, const std::vector<VkFormat>& colors,
                          const LightBatch& batch) {
@@ -61,8 +64,49 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
                                                                  .colors = colors,
                                                                  .depth = depthFormat,
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                                                 .depth_write = false});
-    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch));
+                                                                 .depth_write = false,
+                                                                 .samples = inputs.samples});
+    pass.record(
+        recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, inputs.samples));
+}
+
+gpu::uint edgesOf(MsaaEdges edges) {
+    switch (edges) {
+        case MsaaEdges::all:
+            return gpu::EDGES_ALL;
+        case MsaaEdges::exact:
+            return gpu::EDGES_EXACT;
+        case MsaaEdges::similar:
+            return gpu::EDGES_SIMILAR;
+        case MsaaEdges::coverage:
+            return gpu::EDGES_COVERAGE;
+    }
+    return gpu::EDGES_EXACT;
+}
+
+// What lighting reads of a frame: its G-buffer and depth; with several samples a pixel in the depth's place which
+// samples are shaded as one.
+FrameImages addGroups(PassList& passes, const FrameInputs& inputs, const FrameImages& frame, Life life) {
+    if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return frame;
+    FrameImages grouped = frame;
+    grouped.depth = passes.image(
+        {.name = "groups of samples", .format = depthFormat, .samples = inputs.samples, .life = life});
+    Pass& pass = passes.draw("group samples").depth(grouped.depth, Load::clear);
+    for (const ImageRef image : frame.gbuffer)
+        if (image.valid()) pass.samples(image, inFragment);
+    pass.samples(frame.depth, inFragment);
+    Variant variant = lightingVariant(inputs);
+    variant.set(gpu::FEATURE_sample_edges, edgesOf(inputs.edges));
+    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
+                                                                 .fragment = Shader::deferred_groups_frag,
+                                                                 .variant = variant,
+                                                                 .input = NO_VERTICES,
+                                                                 .depth = depthFormat,
+                                                                 .depth_compare = VK_COMPARE_OP_ALWAYS,
+                                                                 .depth_write = true,
+                                                                 .samples = inputs.samples});
+    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), {}));
+    return grouped;
 }
 
 // Draws the scene into the depth and the attachments. `captured`: with what only channels need.
@@ -87,21 +131,23 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
     inputs.posing.addPasses(passes, inputs.pipelines);
     inputs.shadow.addPasses(passes, inputs);
-    images.depth = passes.image("depth", depthFormat);
+    images.depth = sampledImage(passes, inputs, "depth", depthFormat);
     for (std::size_t i = 0; i < images.gbuffer.size(); ++i) {
         const VkFormat format = inputs.gbuffer.formats[i];
         if (format == VK_FORMAT_UNDEFINED) continue;
-        images.gbuffer[i] = passes.image(gbufferAttachmentNames[i], format);
+        images.gbuffer[i] = sampledImage(passes, inputs, gbufferAttachmentNames[i], format);
     }
     addGBuffer(passes, inputs, images, false);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
-    const LightBatch last = addEarlierLighting(passes, inputs, images);
-    images.lit = passes.image("lit", litFormat);
-    Pass& shade = passes.draw("shade").color(images.lit, Load::clear);
-    addDeferredLighting(passes, shade, inputs, images, Shader::deferred_shade_frag, lightingVariant(inputs),
+    const FrameImages shaded = addGroups(passes, inputs, images, Life::kept);
+    const LightBatch last = addEarlierLighting(passes, inputs, shaded);
+    const ImageRef lit = sampledImage(passes, inputs, "lit", litFormat);
+    Pass& shade = passes.draw("shade").color(lit, Load::clear);
+    addDeferredLighting(passes, shade, inputs, shaded, Shader::deferred_shade_frag, lightingVariant(inputs),
                         {litFormat}, last);
-    addBackground(passes, inputs, images.depth, images.lit);
-    addTransparent(passes, inputs, images.depth, images.lit);
+    addBackground(passes, inputs, images.depth, lit);
+    addTransparent(passes, inputs, images.depth, lit);
+    images.lit = addResolve(passes, inputs, lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
@@ -113,14 +159,16 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
         request.modes.end())
         addGBuffer(passes, inputs, frame, true);
-    const LightBatch last = addEarlierLighting(passes, inputs, frame);
-    for (const CaptureGroup& group : captureGroups(request.modes)) {
+    const FrameImages shaded = addGroups(passes, inputs, frame, Life::kept);
+    const LightBatch last = addEarlierLighting(passes, inputs, shaded);
+    for (const CaptureGroup& group : captureGroups(request.modes, mostCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
         Pass& pass = passes.draw("capture");
-        for (const CapturedImage& image : addCaptureImages(passes, pass, group, lit)) images.push_back(image);
+        for (const CapturedImage& image : addCaptureImages(passes, pass, group, lit, inputs.samples))
+            images.push_back(image);
         Variant variant = lightingVariant(inputs);
         group.specialise(variant);
-        addDeferredLighting(passes, pass, inputs, frame, Shader::deferred_capture_frag, variant,
+        addDeferredLighting(passes, pass, inputs, shaded, Shader::deferred_capture_frag, variant,
                             group.formats, last);
         addTransparentCapture(passes, inputs, frame.depth, images);
     }

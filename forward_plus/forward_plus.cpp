@@ -5,6 +5,7 @@
 #include "shared/draw/background.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
+#include "shared/draw/resolve.h"
 #include "shared/shadow/shadow_maps.h"
 #include "shared/transparent/transparent.h"
 
@@ -20,7 +21,8 @@ namespace {
 // pre-pass there is none, and where both have the same bits fetching it would be in vain.
 std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const FrameInputs& inputs,
                                                   const FrameImages& images) {
-    if (!inputs.prepass || !inputs.device.profile().fetches_depth) return nullptr;
+    // With several samples a pixel a fragment is shaded between them, where no depth is stored.
+    if (inputs.samples > 1 || !inputs.prepass || !inputs.device.profile().fetches_depth) return nullptr;
     return std::make_shared<const DescriptorSets>(gbufferSet(passes, inputs, images));
 }
 
@@ -50,7 +52,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
     inputs.posing.addPasses(passes, inputs.pipelines);
     inputs.shadow.addPasses(passes, inputs);
-    images.depth = passes.image("depth", depthFormat);
+    images.depth = sampledImage(passes, inputs, "depth", depthFormat);
     if (inputs.prepass)
         inputs.posing.read(passes, passes.draw("depth pre-pass"))
             .depth(images.depth, Load::clear)
@@ -73,10 +75,11 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     const LightBatch last = addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
         addShading(pass, batch, forwardBatchKey);
     });
-    images.lit = passes.image("lit", litFormat);
-    addShading(passes.draw("shade").color(images.lit, Load::clear), last, forwardKey);
-    addBackground(passes, inputs, images.depth, images.lit);
-    addTransparent(passes, inputs, images.depth, images.lit);
+    const ImageRef lit = sampledImage(passes, inputs, "lit", litFormat);
+    addShading(passes.draw("shade").color(lit, Load::clear), last, forwardKey);
+    addBackground(passes, inputs, images.depth, lit);
+    addTransparent(passes, inputs, images.depth, lit);
+    images.lit = addResolve(passes, inputs, lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;
 }
@@ -97,10 +100,10 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
                 },
                 shaded);
         });
-        for (const CaptureGroup& group : captureGroups(modes)) {
+        for (const CaptureGroup& group : captureGroups(modes, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
-            for (CapturedImage image : addCaptureImages(passes, pass, group, lit)) {
+            for (CapturedImage image : addCaptureImages(passes, pass, group, lit, inputs.samples)) {
                 image.surface = surface;
                 images.push_back(image);
             }

@@ -104,14 +104,10 @@ private:
                                 gpu::SET_PARTIAL_SUMS, 1, &sums, 0, nullptr);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
         vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        const gpu::DrawConstants constants{static_cast<gpu::uint>(workload_.tilesAcross()),
-                                           static_cast<gpu::uint>(workload_.list_capacity / 4),
-                                           0,
-                                           static_cast<gpu::uint>(length_ / 4),
-                                           0,
-                                           0,
-                                           {},
-                                           {}};
+        gpu::DrawConstants constants{};
+        constants.draw = static_cast<gpu::uint>(workload_.tilesAcross());
+        constants.material = static_cast<gpu::uint>(workload_.list_capacity / 4);
+        constants.light_end = static_cast<gpu::uint>(length_ / 4);
         vkCmdPushConstants(commands, layouts_.pipeline,
                            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                            &constants);

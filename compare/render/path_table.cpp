@@ -14,7 +14,7 @@ namespace {
 // The paths, one row each.
 const PathFunctions paths[] = {
     {Path::deferred, [](FrameInputs&, const Settings&) { return std::vector<std::string>{}; }, addDeferred,
-     addDeferredCapture, [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerPixel() + 4; },
+     addDeferredCapture, [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerSample() + 4; },
      [](Shader fragment) {
          return fragment == Shader::gbuffer_frag || fragment == Shader::deferred_shade_frag ||
                 fragment == Shader::deferred_light_batch_frag || fragment == Shader::deferred_capture_frag;

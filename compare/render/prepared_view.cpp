@@ -4,6 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/left_out.h"
 #include "shared/draw/pipeline_parts.h"
+#include "shared/draw/resolve.h"
 #include "shared/light/cutoff.h"
 #include "shared/scene/lights/casters.h"
 #include "shared/transparent/transparent.h"
@@ -121,7 +122,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       shadow(device, shared.uploader, scene.pose, shared.geometry, materials, scene.view, draws, lights,
              scene.lights, buffers.sets(), settings),
       fragments(device, draws, settings),
-      gbuffer(gbufferLayout(settings.gbuffer, scene.needs)),
+      gbuffer(gbufferLayout(settings.gbuffer, scene.needs, settings.msaa > 1)),
       inputs{
           .device = device,
           .layouts = shared.layouts,
@@ -142,6 +143,9 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .transparency = settings.transparency,
           .blended = blendedRange(draws, scene.view),
           .fragments = &fragments,
+          .samples = static_cast<VkSampleCountFlagBits>(settings.msaa),
+          .sample_shading = settings.msaa_shading == MsaaShading::sample,
+          .edges = settings.msaa_edges,
       } {
     shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
                    castingSun(scene.lights, lights, settings));
@@ -157,6 +161,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
                           : objects.features() != 0 ? objects.longest()
                                                     : lights.local();
     checkLightsOfBlended(inputs);
+    checkSamples(inputs);
     notes = functionsOf(settings.path).prepare(inputs, settings);
     shadow.choosePages(inputs);
     std::ranges::move(shadow.notes(), std::back_inserter(notes));

@@ -26,6 +26,7 @@
 #include "shared/contract/multiscatter.h"
 #include "shared/contract/object_lights.h"
 #include "shared/contract/posing.h"
+#include "shared/contract/samples.h"
 #include "shared/contract/shadow.h"
 #include "shared/contract/transparency.h"
 #include "shared/contract/view.h"

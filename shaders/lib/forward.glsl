@@ -11,7 +11,7 @@
 
 // The depth that the pixel is shaded with, reversed.
 float shadedDepth() {
-    return on(feature_stored_depth) ? depthAt(ivec2(gl_FragCoord.xy)) : gl_FragCoord.z;
+    return on(feature_stored_depth) ? depthAt(ivec2(gl_FragCoord.xy)) : fragmentDepth();
 }
 
 // With encoded_surface it is what the deferred path would read back, which reproduces its picture bit for

@@ -54,6 +54,18 @@ struct PixelLights {
     LightListHead packets;
 };
 
+// The list of a pixel at a view depth, m. With several samples a pixel a triangle that is hidden in some of them
+// may be shaded farther away than the farthest surface that is seen in the tile: there the list is that of all
+// lights, which follows the tiles' ones.
+uint listAt(vec2 pixel, float depth) {
+    uint list = cellOf(pixel, depth);
+    if (feature_light_lists == LISTS_TILED && feature_samples > 1) {
+        uint all = grid.tiles.x * grid.tiles.y;
+        list = depth > uintBitsToFloat(listed[all + 1u + list]) ? all : list;
+    }
+    return list;
+}
+
 // `pixel`: gl_FragCoord.xy; z: the reversed depth.
 PixelLights lightsAt(vec2 pixel, float z) {
     if (on(feature_object_lights)) {
@@ -62,7 +74,7 @@ PixelLights lightsAt(vec2 pixel, float z) {
             0u, LightListHead(object.local_begin, object.point_end, object.spot_end, object.area_end));
     }
     if (feature_light_lists != LISTS_NONE) {
-        uint list = cellOf(pixel, viewDepth(z));
+        uint list = listAt(pixel, viewDepth(z));
         uvec4 head = texelFetch(list_heads, int(list));
         return PixelLights(list, LIGHT_LIST_HEAD_OF_TEXEL(head));
     }
@@ -78,7 +90,9 @@ uint lightCount(PixelLights lights) {
     return view.directional_light_count + local;
 }
 bool listOverflowed(PixelLights lights) {
-    return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u;
+    bool tooFar = feature_light_lists == LISTS_TILED && feature_samples > 1 &&
+                  lights.list == grid.tiles.x * grid.tiles.y;
+    return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u && !tooFar;
 }
 
 // Of the packets [begin, end) of a list those that this draw walks: all of them, or those of its light batch.

@@ -26,15 +26,26 @@ layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_t
 // which choose the mip level, would be wrong.
 vec2 slotTexcoord(uint slot) {
 #if INPUTS >= 3
-    if (on(feature_texture_transform) || on(feature_second_texcoord)) return v_slot_texcoords[slot];
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) return SHADED(v_slot_texcoords[slot]);
 #endif
-    return v_texcoord;
+    return shaded_texcoord;
+}
+
+// A slot's texture. With several samples a pixel the mip level is that of coordinates at the pixel's middle:
+// where they are shaded, neighbouring pixels are not a pixel apart.
+vec4 slotTexel(sampler2D map, uint slot) {
+    if (!multisampled()) return texture(map, slotTexcoord(slot));
+    vec2 middle = middle_texcoord;
+#if INPUTS >= 3
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) middle = MIDDLE(v_slot_texcoords[slot]);
+#endif
+    return textureGrad(map, slotTexcoord(slot), dFdx(middle), dFdy(middle));
 }
 
 vec4 baseColor() {
     vec4 color = material.base_color;
-    if (on(feature_base_color_texture)) color *= texture(base_color_texture, slotTexcoord(SLOT_base_color));
-    if (on(feature_vertex_color)) color *= v_color;
+    if (on(feature_base_color_texture)) color *= slotTexel(base_color_texture, SLOT_base_color);
+    if (on(feature_vertex_color)) color *= shaded_color;
     return color;
 }
 
@@ -61,7 +72,7 @@ vec3 triangleNormal(vec3 towards) {
 
 // In tangent space, scaled, not of unit length.
 vec3 mappedNormal() {
-    vec3 t = texture(normal_texture, slotTexcoord(SLOT_normal)).xyz * 2.0 - 1.0;
+    vec3 t = slotTexel(normal_texture, SLOT_normal).xyz * 2.0 - 1.0;
     t.xy *= material.normal_scale;
     return t;
 }
@@ -77,11 +88,12 @@ vec3 directionOf(vec3 v) {
 // normal, replaces a normal that vanished, flattened by the node's scale or by interpolation; only variants
 // where that can happen check for it.
 vec3 shadingNormal(vec3 triangle) {
-    vec3 n = v_normal;
+    vec3 n = shaded_normal;
     if (on(feature_normal_texture)) {
         vec3 t = mappedNormal();
-        vec3 bitangent = v_tangent.w * crossProduct(v_normal, v_tangent.xyz);
-        n = t.x * v_tangent.xyz + t.y * bitangent + t.z * v_normal;
+        vec4 tangent = shaded_tangent;
+        vec3 bitangent = tangent.w * crossProduct(n, tangent.xyz);
+        n = t.x * tangent.xyz + t.y * bitangent + t.z * n;
     }
     float length2 = dot(n, n);
     if (on(feature_vanishing_normals) && !(length2 > 0.0)) return triangle;
@@ -92,18 +104,18 @@ vec3 shadingNormal(vec3 triangle) {
 Surface surfaceFromMaterial(vec4 base_color) {
     Material m = material;
     Surface s;
-    s.position = positionFromDepth(gl_FragCoord.xy, gl_FragCoord.z);
+    s.position = positionFromDepth(shadedPixel(), fragmentDepth());
     s.geometric_normal = vec3(0.0);
     if (needsGeometricNormal() || on(feature_vanishing_normals))
         s.geometric_normal = triangleNormal(on(feature_orthographic) ? view.backward : -v_world);
     s.normal = shadingNormal(s.geometric_normal);
     s.material_id = constants.material;
-    s.texcoord = v_texcoord;
+    s.texcoord = shaded_texcoord;
     s.tangent = s.tangent_normal = vec3(0.0);
     s.handedness = 0.0;
     if (on(feature_captured) && on(feature_normal_texture)) {
-        s.tangent = directionOf(v_tangent.xyz);
-        s.handedness = v_tangent.w < 0.0 ? -1.0 : 1.0;  // which interpolation rounds
+        s.tangent = directionOf(shaded_tangent.xyz);
+        s.handedness = shaded_tangent.w < 0.0 ? -1.0 : 1.0;  // which interpolation rounds
         s.tangent_normal = directionOf(mappedNormal());
     }
     s.lightmap = vec3(0.0);
@@ -112,7 +124,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.transmission = on(feature_transmission) ? m.transmission : 0.0;
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
         s.object_irradiance +=
-            on(feature_double_sided) && !gl_FrontFacing ? v_irradiance_behind : v_irradiance;
+            on(feature_double_sided) && !gl_FrontFacing ? shaded_irradiance_behind : shaded_irradiance;
     if ((feature_object_lights & OBJECT_LIGHTS_SH) != 0) s.object_irradiance += harmonicIrradiance(s.normal);
     if (on(feature_unlit)) {  // see contract/material.h
         s.albedo = vec3(0.0);
@@ -128,32 +140,32 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.metallic = m.metallic;
     s.roughness = m.roughness;
     if (on(feature_metallic_roughness_texture)) {
-        vec4 texel = texture(metallic_roughness_texture, slotTexcoord(SLOT_metallic_roughness));
+        vec4 texel = slotTexel(metallic_roughness_texture, SLOT_metallic_roughness);
         s.roughness *= texel.g;
         s.metallic *= texel.b;
     }
     s.occlusion = 1.0;
     if (on(feature_occlusion_texture)) {
-        float texel = texture(occlusion_texture, slotTexcoord(SLOT_occlusion)).r;
+        float texel = slotTexel(occlusion_texture, SLOT_occlusion).r;
         s.occlusion = 1.0 + m.occlusion_strength * (texel - 1.0);
     }
     s.emission = vec3(0.0);
     if (on(feature_emission)) {
         s.emission = m.emission;
         if (on(feature_emissive_texture))
-            s.emission *= texture(emissive_texture, slotTexcoord(SLOT_emissive)).rgb;
+            s.emission *= slotTexel(emissive_texture, SLOT_emissive).rgb;
     }
     if (on(feature_lightmap_texture))
-        s.lightmap = m.lightmap_intensity * texture(lightmap_texture, slotTexcoord(SLOT_lightmap)).rgb;
+        s.lightmap = m.lightmap_intensity * slotTexel(lightmap_texture, SLOT_lightmap).rgb;
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {
         s.dielectric_f0 = m.dielectric_f0;
         s.dielectric_f90 = m.specular;
         if (on(feature_specular_color_texture))
-            s.dielectric_f0 *= texture(specular_color_texture, slotTexcoord(SLOT_specular_color)).rgb;
+            s.dielectric_f0 *= slotTexel(specular_color_texture, SLOT_specular_color).rgb;
         if (on(feature_specular_texture))
-            s.dielectric_f90 *= texture(specular_texture, slotTexcoord(SLOT_specular)).a;
+            s.dielectric_f90 *= slotTexel(specular_texture, SLOT_specular).a;
         s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
     }
     return s;

@@ -6,9 +6,18 @@
 
 #include "shaders/lib/contract.glsl"
 
-layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2D gbuffer_depth;
+#ifndef SAMPLES
+#define SAMPLES 0
+#endif
 
-// Reversed, in [0, 1].
-float depthAt(ivec2 p) { return texelFetch(gbuffer_depth, p, 0).r; }
+#if SAMPLES
+layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2DMS gbuffer_depth;
+#else
+layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2D gbuffer_depth;
+#endif
+
+// Reversed, in [0, 1]. i: the sample, 0 where pixels have one.
+float depthAt(ivec2 p, int i) { return texelFetch(gbuffer_depth, p, i).r; }
+float depthAt(ivec2 p) { return depthAt(p, 0); }
 
 #endif

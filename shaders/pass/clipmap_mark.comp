@@ -3,21 +3,40 @@
 #extension GL_GOOGLE_include_directive : require
 
 // One thread a pixel: marks the page of the sun's clipmap that the surface at the pixel is read from.
+// MULTISAMPLED: 0 to 1, the surfaces of all of its samples, as if each were shaded where the sample is.
 #include "shaders/lib/clipmap.glsl"
 #include "shaders/lib/position.glsl"
+#include "shaders/lib/samples.glsl"
 
 layout(local_size_x = CLIPMAP_MARK_SIDE, local_size_y = CLIPMAP_MARK_SIDE) in;
+#if MULTISAMPLED
+layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2DMS depth;
+ivec2 size() { return textureSize(depth); }
+#else
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2D depth;
+ivec2 size() { return textureSize(depth, 0); }
+#endif
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_MARKS, scalar) buffer Marks { uint marks[]; };
 
-void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, textureSize(depth, 0)))) return;
-    float z = texelFetch(depth, p, 0).r;
+// z: the reversed depth at a place of the picture, pixels.
+void mark(vec2 place, float z) {
     if (z == 0.0) return;  // nothing was drawn there
-    vec3 position = positionFromDepth(vec2(p) + 0.5, z);
+    vec3 position = positionFromDepth(place, z);
     Clipmap map = clipmap();
     uint page = pageAt(map, shadowLight(), levelAt(map, position), position);
     // Most pixels find their page marked: atomic operations wait for each other.
     if ((marks[page / 32u] & (1u << (page % 32u))) == 0u) atomicOr(marks[page / 32u], 1u << (page % 32u));
+}
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, size()))) return;
+#if MULTISAMPLED
+    uint i = 0u;
+    do {
+        mark(vec2(p) + samplePlace(i), texelFetch(depth, p, int(i)).r);
+    } while (++i < feature_samples);
+#else
+    mark(vec2(p) + 0.5, texelFetch(depth, p, 0).r);
+#endif
 }

@@ -3,12 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 // ATTACHMENTS: 1 to 8 channels.
+// SAMPLES: 0 to 1
 #define FLAT_VIEW
 #include "shaders/lib/capture.glsl"
-#include "shaders/lib/gbuffer_read.glsl"
+#include "shaders/lib/deferred.glsl"
 
 void main() {
-    ivec2 p = ivec2(gl_FragCoord.xy);
-    float z = depthAt(p);
-    capture(surfaceFromGBuffer(p, z), z);
+    float z;
+    Surface s = deferredSurface(z);
+    capture(s, z);
 }

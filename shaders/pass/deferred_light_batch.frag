@@ -3,16 +3,16 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define FLAT_VIEW
-#include "shaders/lib/gbuffer_read.glsl"
+#include "shaders/lib/deferred.glsl"
 #include "shaders/lib/shade.glsl"
 
 layout(location = 0) out vec4 out_diffuse;
 layout(location = 1) out vec4 out_specular;
 
 void main() {
-    ivec2 p = ivec2(gl_FragCoord.xy);
-    float z = depthAt(p);
-    Radiance radiance = shade(surfaceFromGBuffer(p, z), lightsAt(gl_FragCoord.xy, z));
+    float z;
+    Surface s = deferredSurface(z);
+    Radiance radiance = shade(s, lightsAt(gl_FragCoord.xy, z));
     out_diffuse = vec4(radiance.diffuse, radiance.local_seen);
     out_specular = vec4(radiance.specular, radiance.local_light);
 }

@@ -4,10 +4,15 @@
 
 // The full-screen triangle of deferred lighting.
 #define FLAT_VIEW
-#include "shaders/lib/view.glsl"
+#include "shaders/lib/draw.glsl"
 #include "shaders/lib/full_screen.glsl"
+#include "shaders/lib/samples.glsl"
+#include "shaders/lib/view.glsl"
 
 void main() {
     gl_Position = fullScreenCorner(gl_VertexIndex);
+    // Where the draw of a group of samples passes the test: samples.h.
+    if (multisampled())
+        gl_Position.z = float((constants.group + 1u) << GROUP_CODE_BITS) / float(1u << GROUP_BITS);
     passViewThrough();
 }

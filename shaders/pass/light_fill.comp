@@ -14,6 +14,8 @@ void pad(uint from, uint end) {
         if (from + i < end) indices[from + i] = grid.null_light;
 }
 
+LightListHead listOfAll() { return LightListHead(0u, grid.all_point_end, grid.all_spot_end, grid.all_end); }
+
 void main() {
     uint list = gl_GlobalInvocationID.x, segment = gl_GlobalInvocationID.y;
     if (list >= grid.lists) return;
@@ -25,8 +27,15 @@ void main() {
          area = head.spot_end * grid.width;
     if (segment == 0u) {
         if (!fits) atomicAdd(overflowed_lists, 1u);
-        heads[list] = fits ? head : LightListHead(0u, grid.all_point_end, grid.all_spot_end, grid.all_end);
+        heads[list] = fits ? head : listOfAll();
         listed[list] = fits ? count.all : grid.local_lights;
+        if (feature_light_lists == LISTS_TILED && feature_samples > 1) {
+            listed[grid.lists + 1u + list] = floatBitsToUint(tile_depths[list].y);
+            if (list == 0u) {
+                heads[grid.lists] = listOfAll();
+                listed[grid.lists] = grid.local_lights;
+            }
+        }
         if (fits) {
             pad(point + count.points, spot);
             if (on(feature_spot_lights)) pad(spot + count.points_and_spots - count.points, area);

@@ -76,11 +76,11 @@ int writeLayoutChecks(std::ofstream& out, const Reflection& r) {
     return structs;
 }
 
-// A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area or .unlit][.inputsN].
+// A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area or .unlit][.samples][.inputsN].
 struct Module {
     std::string name, shader;
     unsigned number = 0;
-    bool area_lights = false, lights = true;
+    bool area_lights = false, lights = true, samples = false;
     int inputs = 3;
     Words words;
 
@@ -89,7 +89,7 @@ struct Module {
         std::ranges::replace(symbol, '.', '_');
         return symbol;
     }
-    auto order() const { return std::tie(shader, number, lights, area_lights, inputs); }
+    auto order() const { return std::tie(shader, number, lights, area_lights, samples, inputs); }
 };
 
 Module moduleOf(const std::filesystem::path& file) {
@@ -106,6 +106,8 @@ Module moduleOf(const std::filesystem::path& file) {
             module.area_lights = true;
         else if (part == "unlit")
             module.lights = false;
+        else if (part == "samples")
+            module.samples = true;
         else if (part.starts_with("inputs"))
             module.inputs = std::stoi(part.substr(std::string("inputs").size()));
         else
@@ -119,7 +121,7 @@ void writeTable(std::ofstream& out, const std::vector<Module>& modules) {
            "    static constexpr ShaderModule modules[] = {\n";
     for (const Module& m : modules)
         out << "        {\"" << m.name << "\", Shader::" << m.shader << ", " << m.number << ", "
-            << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.inputs << ", " << m.symbol()
+            << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.samples << ", " << m.inputs << ", " << m.symbol()
             << "},\n";
     out << "    };\n    return modules;\n}\n\n}  // namespace diptych\n";
 }

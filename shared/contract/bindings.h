@@ -26,9 +26,9 @@ CONTRACT_END
     X(3,  SPOT_CONES,   texel_buffer,   "SpotCone[], two texels each")                        \
     X(4,  AREA_LIGHTS,  texel_buffer,   "AreaLight[], three texels each")                     \
     X(5,  LTC_TABLE,    image,          "ltc.h")                                              \
-    X(6,  LIST_HEADS,   texel_buffer,   "LightListHead[lists], a texel each")                 \
+    X(6,  LIST_HEADS,   texel_buffer,   "LightListHead[lists + 1], a texel each")             \
     X(7,  LIST_INDICES, texel_buffer,   "uint[]: numbers of lights, a packet a texel")        \
-    X(8,  LIST_COUNTS,  storage_buffer, "uint[lists]")                                        \
+    X(8,  LIST_COUNTS,  storage_buffer, "uint[2 lists + 1]: light_list.h")                    \
     X(9,  ALBEDO,       texel_buffer,   "vec4[]: each sample of albedo.h with the next one")      \
     X(10, OBJECT_LIST,  storage_buffer, "ObjectLight[]")                                      \
     X(11, OBJECTS,      storage_buffer, "ObjectLights[draws]")                                \

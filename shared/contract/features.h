@@ -98,7 +98,15 @@
     X(54, vertex_posing,              item,    0, PASSES_DRAW)                                              \
     /* of the instance that a kernel poses: how many sets of joints it has, a sum of POSED_* of posing.h */ \
     X(55, posed_joint_sets,           pass,    0, PASS_POSING)                                              \
-    X(56, posed_parts,                pass,    0, PASS_POSING)
+    X(56, posed_parts,                pass,    0, PASS_POSING)                                              \
+    /* of a pixel, where it has several: 4 or 8 */                                                          \
+    X(57, samples,                    frame,   0, PASSES_DRAW | PASS_LIGHTING | PASS_LISTS | PASS_SAMPLES)  \
+    /* EDGES_* of samples.h */                                                                              \
+    X(58, sample_edges,               pass,    0, PASS_LIGHTING)                                            \
+    /* an alpha mask covers as many samples as its alpha */                                                 \
+    X(59, alpha_to_coverage,          frame,   0, PASSES_DRAW)                                              \
+    /* the mean of a pixel's samples is weighted by what a tone curve leaves of them */                     \
+    X(60, tonemapped_resolve,         frame,   0, PASS_SAMPLES)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -118,6 +126,7 @@ CONTRACT_CONST(uint, PASS_LISTS, 16);          // light_*.comp
 CONTRACT_CONST(uint, PASS_SHADOWS, 32);        // moments of shadow maps: shadow_*.comp
 CONTRACT_CONST(uint, PASS_BACKGROUND, 64);     // background.frag
 CONTRACT_CONST(uint, PASS_POSING, 128);        // pose.comp, pose_*.comp
+CONTRACT_CONST(uint, PASS_SAMPLES, 256);       // sample_*.frag: of a pixel to its radiance
 CONTRACT_CONST(uint, PASSES_DRAW, 1 | 2 | 4);  // those that draw the scene's triangles
 CONTRACT_CONST(uint, PASSES_SURFACE, 2 | 4);   // those that make a Surface from a material
 CONTRACT_CONST(uint, PASSES_SHADE, 2 | 8);     // those that evaluate lights

@@ -37,6 +37,7 @@ struct DrawConstants {
     // Of blended draws: the number of the draw's first triangle among those of all blended surfaces, in the
     // scene's order.
     uint triangle;
+    uint group;    // of samples, that a draw of deferred lighting shades: samples.h
     uvec2 posing;  // address of a PosedInstance, with FEATURE_vertex_posing
     BlendedConstants blended;
 };

@@ -31,7 +31,8 @@ void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, 
                                                                  .colors = {litFormat},
                                                                  .depth = depthFormat,
                                                                  .depth_compare = VK_COMPARE_OP_GREATER,
-                                                                 .depth_write = false});
+                                                                 .depth_write = false,
+                                                                 .samples = inputs.samples});
     passes.draw("background").color(lit, load).depthTest(depth).record(recordFullScreen(inputs, pipeline));
 }
 
@@ -41,6 +42,7 @@ ImageRef addCaptureBackground(PassList& passes, const FrameInputs& inputs, Image
     if (!shown || !isSeen(inputs)) return {};
     const ImageRef lit = passes.image({.name = "lit",
                                        .format = litFormat,
+                                       .samples = inputs.samples,
                                        .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                                        .life = Life::transient});
     addBackground(passes, inputs, depth, lit, Load::clear);

@@ -26,12 +26,12 @@ void CaptureGroup::specialise(Variant& variant) const {
                     i < modes.size() ? static_cast<gpu::uint>(modes[i]) : gpu::DEBUG_none);
 }
 
-std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes, std::size_t most) {
     std::vector<int> ordered(modes.begin(), modes.end());
     std::stable_partition(ordered.begin(), ordered.end(), [](int mode) { return !isShaded(mode); });
     std::vector<CaptureGroup> groups;
     for (std::size_t i = 0; i < ordered.size(); ++i) {
-        if (i % gpu::CAPTURE_ATTACHMENTS == 0) groups.emplace_back();
+        if (i % most == 0) groups.emplace_back();
         groups.back().modes.push_back(ordered[i]);
         groups.back().formats.push_back(formatFor(debugMode(ordered[i])));
     }
@@ -39,7 +39,7 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes) {
 }
 
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
-                                            ImageRef lit) {
+                                            ImageRef lit, VkSampleCountFlagBits samples) {
     std::vector<CapturedImage> images;
     for (std::size_t i = 0; i < group.modes.size(); ++i) {
         if (lit.valid() && group.modes[i] == static_cast<int>(gpu::DEBUG_lit)) {
@@ -49,6 +49,7 @@ std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const 
         }
         const ImageRef image = passes.image({.name = std::string(debugMode(group.modes[i]).name),
                                              .format = group.formats[i],
+                                             .samples = samples,
                                              .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                                              .life = Life::transient});
         const float background = group.modes[i] == static_cast<int>(gpu::DEBUG_material_id) ? -1.0f : 0.0f;

@@ -19,7 +19,9 @@ struct CaptureGroup {
     std::vector<VkFormat> formats;  // float32, as wide as the channel
     void specialise(Variant& variant) const;
 };
-std::vector<CaptureGroup> captureGroups(std::span<const int> modes);
+// `most`: attachments of a group.
+std::vector<CaptureGroup> captureGroups(std::span<const int> modes,
+                                        std::size_t most = gpu::CAPTURE_ATTACHMENTS);
 
 // Groups share their images' memory: each is run, and read back, before the next one runs.
 struct CapturedImage {
@@ -38,8 +40,9 @@ struct CaptureRequest {
 };
 
 // Adds the group's attachments to the list's last pass, cleared to what the background holds (0; material_id
-// -1). `lit`: the image that its lit goes on from, if there is one.
+// -1). `lit`: the image that its lit goes on from, if there is one. `samples`: of each.
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
-                                            ImageRef lit = {});
+                                            ImageRef lit = {},
+                                            VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
 
 }  // namespace diptych

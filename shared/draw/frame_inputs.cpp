@@ -47,9 +47,15 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_fitted_albedo,
              readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::fit)
         .set(gpu::FEATURE_lights_in_front, !draws.blended().empty())
+        .set(gpu::FEATURE_samples, settings.msaa > 1 ? static_cast<gpu::uint>(settings.msaa) : 0)
+        .set(gpu::FEATURE_tonemapped_resolve, settings.resolve == Resolve::tonemapped)
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
     gbuffer.specialise(variant);
     return variant;
+}
+
+ImageRef sampledImage(PassList& passes, const FrameInputs& inputs, const std::string& name, VkFormat format) {
+    return passes.image({.name = name, .format = format, .samples = inputs.samples});
 }
 
 DescriptorSets blendedSet(const FrameInputs& inputs) {

@@ -39,6 +39,9 @@ struct FrameInputs {
     gpu::BlendedConstants blended{};           // of all passes of blended surfaces
     const FragmentLists* fragments = nullptr;  // Transparency::list
     gpu::uint longest_list = 0;                // packets of the longest light list that a pixel may walk
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  // of a pixel, in images that triangles draw to
+    bool sample_shading = false;                            // a fragment a sample
+    MsaaEdges edges = MsaaEdges::exact;
     bool prepass = true;                       // forward+ draws depth first; prepareForwardPlus() decides
 };
 
@@ -47,6 +50,9 @@ struct FrameImages {
     ImageRef depth;                                            // D32F, reversed
     std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid where there is none
 };
+
+// A transient that the scene's triangles draw to: with all samples of the frame.
+ImageRef sampledImage(PassList& passes, const FrameInputs& inputs, const std::string& name, VkFormat format);
 
 // SET_GBUFFER of what `images` has. Made when they have memory, once a pass is prepared at the latest.
 DescriptorSets gbufferSet(const PassList& passes, const FrameInputs& inputs, const FrameImages& images);

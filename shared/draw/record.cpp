@@ -32,12 +32,29 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
     vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
 }
 
+gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) {
+    gpu::DrawConstants constants{};
+    constants.draw = item.draw;
+    constants.material = item.range.material;
+    constants.posing = inputs.posing.address(item);
+    return constants;
+}
+
+// `sampled`: to images with the frame's samples; those of shadow maps have one.
 std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const DrawItem> items,
-                                    const KeyOf& keyOf) {
+                                    const KeyOf& keyOf, bool sampled) {
     std::vector<PipelineKey> keys;
     for (const DrawItem& item : items) {
         keys.push_back(keyOf(item));
-        keys.back().variant.set(gpu::FEATURE_vertex_posing, inputs.posing.isPosedInShader(item));
+        PipelineKey& key = keys.back();
+        key.variant.set(gpu::FEATURE_vertex_posing, inputs.posing.isPosedInShader(item));
+        if (sampled) {
+            key.samples = inputs.samples;
+            key.sample_shading = inputs.sample_shading;
+        }
+        if (key.fragment != Shader::none)
+            key.variant.set(gpu::FEATURE_samples,
+                            sampled ? inputs.variant.get(gpu::FEATURE_samples) : 0);
     }
     return inputs.pipelines.get(keys);
 }
@@ -147,12 +164,15 @@ std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, cons
                                                  std::shared_ptr<const DescriptorSets> gbuffer,
                                                  gpu::uint surface) {
     return [&inputs, batch, surface, gbuffer = std::move(gbuffer),
-            pipelines = pipelinesOf(inputs, inputs.draws.solids(), keyOf)](VkCommandBuffer commands) {
+            pipelines = pipelinesOf(inputs, inputs.draws.solids(), keyOf, true)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, gbuffer.get());
         recordItems(commands, inputs, {inputs.draws.solids(), inputs.draws.runs, inputs.draw_buffer, true},
-                    pipelines, [&](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material,         batch.first, batch.end, surface,
-                                0,         inputs.posing.address(item), {}};
+                    pipelines, [&](const DrawItem& item) {
+                        gpu::DrawConstants constants = constantsOf(inputs, item);
+                        constants.light_first = batch.first;
+                        constants.light_end = batch.end;
+                        constants.surface = surface;
+                        return constants;
                     });
     };
 }
@@ -161,30 +181,29 @@ std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, co
                                                    std::shared_ptr<const DescriptorSets> gbuffer,
                                                    const gpu::BlendedConstants& constants) {
     return [&inputs, constants, gbuffer = std::move(gbuffer),
-            pipelines = pipelinesOf(inputs, inputs.draws.blended(), keyOf)](VkCommandBuffer commands) {
+            pipelines = pipelinesOf(inputs, inputs.draws.blended(), keyOf, true)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, gbuffer.get());
         const DrawSource source{inputs.draws.blended(), inputs.draws.runs, inputs.draw_buffer, true};
-        const auto constantsOf = [&](const DrawItem& item) -> gpu::DrawConstants {
-            return {item.draw,     item.range.material,         0,        0, gpu::SURFACE_DECODED,
-                    item.triangle, inputs.posing.address(item), constants};
+        const auto blendedConstants = [&](const DrawItem& item) {
+            gpu::DrawConstants own = constantsOf(inputs, item);
+            own.triangle = item.triangle;
+            own.blended = constants;
+            return own;
         };
         if (inputs.draws.sorted_runs.empty())
-            recordItems(commands, inputs, source, pipelines, constantsOf);
+            recordItems(commands, inputs, source, pipelines, blendedConstants);
         else
-            recordSorted(commands, inputs, source, pipelines, constantsOf);
+            recordSorted(commands, inputs, source, pipelines, blendedConstants);
     };
 }
 
 std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, const DrawList& draws,
                                                    VkBuffer draw_buffer) {
     return [&inputs, &draws, draw_buffer,
-            pipelines = pipelinesOf(inputs, draws.items, depthKey)](VkCommandBuffer commands) {
+            pipelines = pipelinesOf(inputs, draws.items, depthKey, false)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, nullptr);
         recordItems(commands, inputs, {draws.items, draws.runs, draw_buffer, false}, pipelines,
-                    [&](const DrawItem& item) -> gpu::DrawConstants {
-                        return {item.draw, item.range.material,         0, 0, gpu::SURFACE_DECODED,
-                                0,         inputs.posing.address(item), {}};
-                    });
+                    [&](const DrawItem& item) { return constantsOf(inputs, item); });
     };
 }
 
@@ -196,12 +215,18 @@ void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline) {
 }
 
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
-                                                      DescriptorSets gbuffer, const LightBatch& batch) {
-    return [&inputs, pipeline, batch,
+                                                      DescriptorSets gbuffer, const LightBatch& batch,
+                                                      gpu::uint groups) {
+    return [&inputs, pipeline, batch, groups,
             sets = std::make_shared<const DescriptorSets>(std::move(gbuffer))](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, sets.get());
-        push(commands, inputs, {0, 0, batch.first, batch.end, gpu::SURFACE_DECODED, 0, {}, {}});
-        recordTriangle(commands, pipeline);
+        gpu::DrawConstants constants{};
+        constants.light_first = batch.first;
+        constants.light_end = batch.end;
+        for (; constants.group < groups; ++constants.group) {
+            push(commands, inputs, constants);
+            recordTriangle(commands, pipeline);
+        }
     };
 }
 
@@ -210,7 +235,9 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
                                                       const gpu::BlendedConstants& constants) {
     return [&inputs, pipeline, constants, gbuffer = std::move(gbuffer)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, gbuffer.get());
-        push(commands, inputs, {0, 0, 0, 0, gpu::SURFACE_DECODED, 0, {}, constants});
+        gpu::DrawConstants own{};
+        own.blended = constants;
+        push(commands, inputs, own);
         recordTriangle(commands, pipeline);
     };
 }

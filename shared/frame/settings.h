@@ -61,6 +61,14 @@ struct Settings {
     float evsm_bleed = 0.0f;
     float evsm_min_variance = 1e-8f;
     int msaa = 1;
+    MsaaShading msaa_shading = MsaaShading::pixel;
+    MsaaEdges msaa_edges = MsaaEdges::exact;
+    Resolve resolve = Resolve::linear;
+    bool alpha_to_coverage = false;
+    bool spec_aa = false;
+    float spec_aa_variance = 0.15915494f;  // square pixels
+    float spec_aa_limit = 0.18f;
+    SpecularNormals spec_aa_normals = SpecularNormals::geometry;
     Transparency transparency = Transparency::sorted;
     int transparency_layers = 8;
     bool haze = false;
@@ -201,6 +209,16 @@ inline bool isFiniteFrom0(double value) {
 }
 inline bool isReference(const Settings& s) {
     return s.path == Path::reference;
+}
+inline constexpr std::string_view needs_msaa = "has no meaning without --msaa 4";
+inline constexpr std::string_view own_samples = "the reference takes as many samples as --spp says";
+inline bool hasMsaa(const Settings& s) {
+    return s.msaa > 1;
+}
+inline constexpr std::string_view needs_spec_aa = "has no meaning without --spec-aa on";
+inline constexpr std::string_view unfiltered = "the reference takes samples where a roughness is filtered";
+inline bool hasSpecAa(const Settings& s) {
+    return s.spec_aa;
 }
 inline bool hasShadows(const Settings& s) {
     return s.shadows != Shadows::off;
@@ -540,15 +558,78 @@ void Settings::rows(Visit&& visit) {
                 .sweep_with = "shadows"},
           &Settings::evsm_min_variance);
     visit(Field{.option = "msaa",
-                .help = "samples per pixel, 1 or 4",
+                .help = "samples per pixel: 1 or 4, and 8 where the device has them",
                 .off = "1",
-                .valid = {"a pixel has 1 or 4 samples",
-                          [](const Settings& s) { return s.msaa == 1 || s.msaa == 4; }},
-                .default_only = {row::not_built},
-                .ignored = {.reference = "the reference takes as many samples as --spp says"},
+                .valid = {"a pixel has 1, 4 or 8 samples",
+                          [](const Settings& s) { return s.msaa == 1 || s.msaa == 4 || s.msaa == 8; }},
+                .ignored = {.reference = row::own_samples},
                 .sweep = "1,4",
                 .sweep_with = "gbuffer,size"},
           &Settings::msaa);
+    visit(Field{.option = "msaa-shading",
+                .help = "what is shaded: each triangle of a pixel once, or each sample",
+                .default_only = {row::needs_msaa, row::hasMsaa},
+                .ignored = {.reference = row::own_samples},
+                .sweep = "sample",
+                .sweep_with = "msaa"},
+          &Settings::msaa_shading);
+    visit(Field{.option = "msaa-edges",
+                .help = "samples that deferred lighting shades each for itself: all, those that differ in a "
+                        "bit of the G-buffer, visibly, or where a triangle covers a part of the pixel",
+                .default_only = {row::needs_msaa, row::hasMsaa},
+                .ignored = {.forward_plus = "forward_plus shades each triangle as it is drawn",
+                            .reference = row::own_samples},
+                .sweep = "all,similar,coverage",
+                .sweep_with = "msaa"},
+          &Settings::msaa_edges);
+    visit(Field{.option = "resolve",
+                .help = "mean of a pixel's samples: of their radiance, or weighted by 1 / (1 + the largest "
+                        "component)",
+                .default_only = {"has no meaning without --msaa 4 or --path reference",
+                                 [](const Settings& s) { return row::hasMsaa(s) || row::isReference(s); }},
+                .sweep = "tonemapped",
+                .sweep_with = "msaa",
+                .for_surfaces = "linear"},
+          &Settings::resolve);
+    visit(Field{.option = "alpha-to-coverage",
+                .help = "alpha masks cover as many of a pixel's samples as their alpha, sharpened at the cutoff",
+                .default_only = {row::not_built},
+                .ignored = {.reference = row::own_samples}},
+          &Settings::alpha_to_coverage);
+    visit(Field{.option = "spec-aa",
+                .help = "specular anti-aliasing: roughness that grows with what the normal does in a pixel",
+                .off = "off",
+                .default_only = {row::not_built},
+                .ignored = {.reference = row::unfiltered},
+                .sweep = "on"},
+          &Settings::spec_aa);
+    visit(Field{.option = "spec-aa-variance",
+                .help = "variance of the pixel's filter, square pixels",
+                .valid = {"is 0 to 100",
+                          [](const Settings& s) {
+                              return s.spec_aa_variance >= 0 && s.spec_aa_variance <= 100;
+                          }},
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered},
+                .sweep = "0.05,0.5",
+                .sweep_with = "spec-aa"},
+          &Settings::spec_aa_variance);
+    visit(Field{.option = "spec-aa-limit",
+                .help = "the most that the square of the GGX width grows",
+                .valid = {"is 0 to 1",
+                          [](const Settings& s) { return s.spec_aa_limit >= 0 && s.spec_aa_limit <= 1; }},
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered},
+                .sweep = "0.5",
+                .sweep_with = "spec-aa"},
+          &Settings::spec_aa_limit);
+    visit(Field{.option = "spec-aa-normals",
+                .help = "whose changes are filtered: the interpolated normal, or the normal map's too",
+                .default_only = {row::needs_spec_aa, row::hasSpecAa},
+                .ignored = {.reference = row::unfiltered},
+                .sweep = "mapped",
+                .sweep_with = "spec-aa"},
+          &Settings::spec_aa_normals);
     visit(Field{.option = "transparency",
                 .help =
                     "how blended surfaces are put in order; off: they are not drawn; --sort off is unsorted",

@@ -43,8 +43,18 @@ std::optional<std::string> onlyTheReferenceWalks(const Settings& s) {
     return "--multiscatter walk: the reference alone follows light between microfacets; use energy or fdez";
 }
 
+std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
+    const bool drawnOver = s.transparency == Transparency::sorted || s.transparency == Transparency::unsorted ||
+                           s.transparency == Transparency::triangles || s.transparency == Transparency::off;
+    if (s.path == Path::reference || s.msaa == 1 || drawnOver) return {};
+    return fmt::format(
+        "--transparency {} with --msaa {}: what it sums up has one sample a pixel; use sorted, unsorted or "
+        "triangles",
+        nameOf(s.transparency), s.msaa);
+}
+
 constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths, levelsHavePages,
-                          onlyTheReferenceWalks};
+                          onlyTheReferenceWalks, sumsOfLayersHaveOneSample};
 
 // "''" of a value without any.
 std::string quotedValue(const Settings& settings, std::string_view option) {

@@ -80,11 +80,12 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     };
     grid_buffer_ = makeBuffer<gpu::LightGrid>(device, uploader, "light grid", std::span(&grid_, 1),
                                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    heads_ = buffer("light list heads", grid_.lists, sizeof(gpu::LightListHead),
+    // One more than the cells have: that of all lights, for what lies in none.
+    heads_ = buffer("light list heads", std::uint64_t{grid_.lists} + 1, sizeof(gpu::LightListHead),
                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     indices_ = buffer("light lists", std::uint64_t{grid_.capacity} * grid_.width, 4,
                       VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    listed_ = buffer("light list counts", grid_.lists, 4);
+    listed_ = buffer("light list counts", 2 * std::uint64_t{grid_.lists} + 1, 4);
     heads_view_ = makeTexelView(device, "light list heads", heads_, VK_FORMAT_R32G32B32A32_UINT);
     indices_view_ = makeTexelView(device, "light lists", indices_,
                                   grid_.width == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT);
@@ -146,7 +147,9 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     if (!any()) return;
     Variant own = variant.only(featuresReadBy(gpu::PASS_LISTS));
     specialise(own);
-    const auto kernel = [&](Shader shader) { return pipelines.compute(shader, own, layouts_.pipeline()); };
+    const auto kernel = [&](Shader shader, std::uint32_t number = 0) {
+        return pipelines.compute(shader, own, layouts_.pipeline(), number);
+    };
     const auto bind = [this, frame_set](VkCommandBuffer commands) {
         const std::array sets{frame_set, sets_[0]};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0, sets.size(),
@@ -172,7 +175,7 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
     if (tiled) {
-        const VkPipeline bounds = kernel(Shader::light_depths_comp);
+        const VkPipeline bounds = kernel(Shader::light_depths_comp, variant.get(gpu::FEATURE_samples) > 1 ? 1 : 0);
         passes.compute("assign depth bounds")
             .samples(depth, inCompute)
             .uses(depths, write)

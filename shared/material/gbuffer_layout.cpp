@@ -10,7 +10,7 @@ const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames{
     GBUFFER_BINDINGS(DIPTYCH_GBUFFER_NAME)};
 #undef DIPTYCH_GBUFFER_NAME
 
-std::uint32_t GBufferLayout::bytesPerPixel() const {
+std::uint32_t GBufferLayout::bytesPerSample() const {
     std::uint32_t bytes = 0;
     for (const VkFormat format : formats)
         if (format != VK_FORMAT_UNDEFINED) bytes += bytesPerTexel(format);
@@ -24,7 +24,7 @@ void GBufferLayout::specialise(Variant& variant) const {
         .set(gpu::FEATURE_gbuffer_wide_material_id, wide_material_id);
 }
 
-GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs) {
+GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled) {
     GBufferLayout layout;
     const bool full = encoding == GBufferEncoding::full, compact = encoding == GBufferEncoding::compact;
     layout.encoding = full ? gpu::GBUFFER_full : compact ? gpu::GBUFFER_compact : gpu::GBUFFER_standard;
@@ -45,6 +45,7 @@ GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs)
     if (needs.dielectric_specular) f[gpu::GBUFFER_SPECULAR] = word;
     if (needs.lightmap) f[gpu::GBUFFER_LIGHTMAP] = layout.wide_lightmap ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (layout.wide_material_id) f[gpu::GBUFFER_IDS] = VK_FORMAT_R32_UINT;
+    if (sampled) f[gpu::GBUFFER_SHADED] = VK_FORMAT_R32G32_UINT;
     return layout;
 }
 

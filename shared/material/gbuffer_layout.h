@@ -19,11 +19,12 @@ struct GBufferLayout {
     bool wide_material_id = false;                             // more materials than the packed bits can name
     std::array<VkFormat, gpu::GBUFFER_ATTACHMENTS> formats{};  // undefined: not there
 
-    std::uint32_t bytesPerPixel() const;  // without depth
+    std::uint32_t bytesPerSample() const;  // without depth
     void specialise(Variant& variant) const;
 };
 
-GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs);
+// `sampled`: pixels have several samples.
+GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled = false);
 
 extern const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames;
 

@@ -6,6 +6,7 @@
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
+#include "shared/draw/resolve.h"
 #include "shared/shadow/shadow_maps.h"
 #include "shared/transparent/fragment_lists.h"
 
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -202,19 +204,24 @@ void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth,
 
 void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                            std::vector<CapturedImage>& images) {
-    const std::size_t capture = passes.size() - 1;
-    const auto lit = std::ranges::find_if(images, [&](const CapturedImage& image) {
-        return image.pass == capture && image.mode == static_cast<int>(gpu::DEBUG_lit);
-    });
-    if (lit == images.end() || inputs.draws.blended().empty()) return;
-    addTransparent(passes, inputs, depth, lit->image);
-    CapturedImage blended = *lit;
+    const auto first = std::ranges::find(images, passes.size() - 1, &CapturedImage::pass);
+    const auto lit =
+        std::ranges::find(first, images.end(), static_cast<int>(gpu::DEBUG_lit), &CapturedImage::mode);
+    const bool shown = lit != images.end();
+    const ImageRef drawn = shown ? lit->image : ImageRef{};
+    addCaptureResolve(passes, inputs, std::span(first, images.end()));
+    if (!shown || inputs.draws.blended().empty()) return;
+    addTransparent(passes, inputs, depth, drawn);
+    const auto opaque =
+        std::ranges::find(first, images.end(), static_cast<int>(gpu::DEBUG_lit), &CapturedImage::mode);
+    CapturedImage blended = *opaque;
+    blended.image = addResolve(passes, inputs, drawn, Life::transient);
     blended.pass = passes.size() - 1;
     // Of surfaces that bound an encoding nobody asks what lit was.
-    if (lit->surface.value_or(gpu::SURFACE_DECODED) == gpu::SURFACE_DECODED)
-        lit->before_blending = true;
+    if (opaque->surface.value_or(gpu::SURFACE_DECODED) == gpu::SURFACE_DECODED)
+        opaque->before_blending = true;
     else
-        images.erase(lit);
+        images.erase(opaque);
     images.push_back(blended);
 }
 

@@ -228,6 +228,14 @@ bool Device::countsFragments() const {
     vkGetPhysicalDeviceFeatures(state_->physical, &features);
     return features.occlusionQueryPrecise == VK_TRUE;
 }
+VkSampleCountFlags Device::sampleCounts(VkFormat format, VkImageUsageFlags usage) const {
+    VkImageFormatProperties properties{};
+    const VkResult found =
+        vkGetPhysicalDeviceImageFormatProperties(state_->physical, format, VK_IMAGE_TYPE_2D,
+                                                 VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
+    return found == VK_SUCCESS ? properties.sampleCounts : 0;
+}
+
 bool Device::hasInt64() const {
     return diptych::hasInt64(state_->physical);
 }

@@ -54,6 +54,8 @@ public:
     bool countsFragments() const;           // occlusion queries are exact
     // Fragment shaders have 64-bit atomics on buffers and the number of their triangle.
     bool sortsFragments() const;
+    // A sum of VkSampleCountFlagBits that images of a format and usage may have; 0: there are no such images.
+    VkSampleCountFlags sampleCounts(VkFormat format, VkImageUsageFlags usage) const;
     // Whether shaders may have integers of 64 bits.
     bool hasInt64() const;
     const DeviceProfile& profile() const;

@@ -123,6 +123,7 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     need("maintenance4", f.v13.maintenance4 == VK_TRUE);
     need("demotion to helper invocations", f.v13.shaderDemoteToHelperInvocation == VK_TRUE);
     need("scalar block layout", f.v12.scalarBlockLayout == VK_TRUE);
+    need("shading of samples", f.v10.features.sampleRateShading == VK_TRUE);
     need("32-bit indices", f.v10.features.fullDrawIndexUint32 == VK_TRUE);
     need("workgroups of 256 threads", l.maxComputeWorkGroupInvocations >= gpu::LIST_GROUP,
          fmt::format("{} at most", l.maxComputeWorkGroupInvocations));
@@ -279,11 +280,11 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v12.scalarBlockLayout = VK_TRUE;
     wanted.v12.bufferDeviceAddress = VK_TRUE;  // of Vulkan 1.3: every device has it
     wanted.v10.features.fullDrawIndexUint32 = VK_TRUE;
+    wanted.v10.features.sampleRateShading = VK_TRUE;  // and what is interpolated at an offset
     VkPhysicalDeviceFeatures there{};
     vkGetPhysicalDeviceFeatures(physical, &there);
     wanted.v10.features.occlusionQueryPrecise = there.occlusionQueryPrecise;
     wanted.v10.features.depthClamp = there.depthClamp;
-    wanted.v10.features.sampleRateShading = there.sampleRateShading;
     wanted.v10.features.independentBlend = there.independentBlend;
     wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;
     wanted.v10.features.fragmentStoresAndAtomics = there.fragmentStoresAndAtomics;

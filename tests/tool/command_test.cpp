@@ -78,7 +78,7 @@ TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
 
 TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
     const Folder folder;
-    for (const std::string option : {"--msaa 4"})
+    for (const std::string option : {"--alpha-to-coverage on"})
         for (const std::string command : {"compare ", "render ", "plan "})
             EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
     EXPECT_TRUE(runTool(folder, "plan --shadows off --shadow-lights 1")

@@ -148,7 +148,7 @@ TEST(Tradeoff, WhatItCannotDoIsOneLine) {
                                                        {"-o mine", "--force"},
                                                        {"--path reference", "--path reference"},
                                                        {"--spp 2", "--spp 2"},
-                                                       {"--grid '{\"settings\":{\"msaa\":4}}'", "--msaa 4"},
+                                                       {"--grid '{\"settings\":{\"msaa_shading\":\"sample\"}}'", "--msaa-shading sample"},
                                                        {"--camera 7", "7"}};
     for (const auto& [words, fault] : bad)
         EXPECT_TRUE(

@@ -391,7 +391,8 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
         return parseCommandLine({command, "--help"}).help.find("--" + option + " ") != std::string::npos;
     };
     for (const std::string command : {"compare", "tradeoff", "bench"}) {
-        for (const char* option : {"msaa"}) EXPECT_FALSE(shows(command, option)) << command << " " << option;
+        for (const char* option : {"alpha-to-coverage"})
+            EXPECT_FALSE(shows(command, option)) << command << " " << option;
         for (const char* option : {"gbuffer",
                                    "pixel-lights",
                                    "spp",
@@ -414,12 +415,16 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
                                    "haze-march-steps",
                                    "specular-albedo",
                                    "time",
-                                   "animation"})
+                                   "animation",
+                                   "msaa",
+                                   "msaa-shading",
+                                   "msaa-edges",
+                                   "resolve"})
             EXPECT_TRUE(shows(command, option)) << command << " " << option;
     }
     for (const char* option : {"env", "ibl-intensity", "shadows", "time", "animation", "gbuffer", "spp"})
         EXPECT_TRUE(shows("render", option)) << option;
-    for (const char* option : {"msaa"}) EXPECT_FALSE(shows("render", option)) << option;
+    for (const char* option : {"alpha-to-coverage"}) EXPECT_FALSE(shows("render", option)) << option;
 }
 
 TEST(CommandLine, WhatWasMeantIsSaid) {

@@ -66,6 +66,9 @@ std::vector<Settings> severalSettings() {
     add([](Settings& s) { s.shadows = Shadows::clipmap; });
     add([](Settings& s) { s.transparency = Transparency::unsorted; });
     add([](Settings& s) { s.transparency = Transparency::triangles; });
+    add([](Settings& s) { s.msaa = 4, s.msaa_shading = MsaaShading::sample; });
+    add([](Settings& s) { s.msaa = 4, s.msaa_edges = MsaaEdges::coverage; });
+    add([](Settings& s) { s.msaa = 4, s.resolve = Resolve::tonemapped; });
     add([](Settings& s) { s.haze = true; });
     add([](Settings& s) { s.reference_mode = ReferenceMode::scene; });
     all.emplace_back();

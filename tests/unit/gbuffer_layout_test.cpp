@@ -14,7 +14,7 @@ Requirements noneNeeded() {
 }
 
 std::uint32_t bytesOf(GBufferEncoding encoding, const Requirements& needs) {
-    return gbufferLayout(encoding, needs).bytesPerPixel();
+    return gbufferLayout(encoding, needs).bytesPerSample();
 }
 
 TEST(GBufferLayout, HoldsWhatTheMaterialsNeed) {

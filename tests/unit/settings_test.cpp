@@ -65,6 +65,14 @@ Settings everythingChanged() {
     s.evsm_bleed = 0.2f;
     s.evsm_min_variance = 1e-6f;
     s.msaa = 4;
+    s.msaa_shading = MsaaShading::sample;
+    s.msaa_edges = MsaaEdges::similar;
+    s.resolve = Resolve::tonemapped;
+    s.alpha_to_coverage = true;
+    s.spec_aa = true;
+    s.spec_aa_variance = 0.3f;
+    s.spec_aa_limit = 0.4f;
+    s.spec_aa_normals = SpecularNormals::mapped;
     s.transparency = Transparency::list;
     s.transparency_layers = 12;
     s.haze = true;

@@ -142,10 +142,10 @@ TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
 
 TEST(TradeoffSweep, NothingToDrawIsAnError) {
     try {
-        makeSweepRows({}, {{{"msaa", {"4"}}}});
+        makeSweepRows({}, {{{"msaa-shading", {"sample"}}}});
         FAIL();
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("--msaa 4"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("--msaa-shading sample"), std::string::npos) << error.what();
     }
 }
 

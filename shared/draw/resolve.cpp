@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "shared/draw/resolve.h"
+
+#include "shared/contract/debug_mode.h"
+#include "shared/draw/pipeline_parts.h"
+#include "shared/draw/record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+// A full-screen pass that reads `sources` at the first bindings of SET_GBUFFER and draws to as many images.
+void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, const char* name,
+                const std::vector<ImageRef>& sources, const std::vector<ImageRef>& targets) {
+    Pass& pass = passes.draw(name);
+    std::vector<VkFormat> formats;
+    for (const ImageRef target : targets) {
+        pass.color(target, Load::clear);
+        formats.push_back(passes.format(target));
+    }
+    const auto sets = std::make_shared<DescriptorSets>(blendedSet(inputs));
+    for (const ImageRef source : sources) pass.samples(source, inFragment);
+    pass.prepare([&passes, sources, sets, sampler = inputs.layouts.nearest.get()] {
+        // What a scene lacks is never read, but its binding is of the same kind.
+        for (gpu::uint i = 0; i < gpu::GBUFFER_ATTACHMENTS; ++i)
+            sets->image(0, i, passes.view(sources[i < sources.size() ? i : 0]), sampler,
+                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    });
+    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{
+        .vertex = Shader::full_screen_vert,
+        .fragment = fragment,
+        .variant = inputs.variant.only(featuresReadBy(gpu::PASS_SAMPLES)),
+        .input = NO_VERTICES,
+        .colors = formats,
+    });
+    pass.record(recordFullScreen(inputs, pipeline, sets, gpu::BlendedConstants{}));
+}
+
+}  // namespace
+
+void checkSamples(const FrameInputs& inputs) {
+    if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return;
+    const auto samples = static_cast<int>(inputs.samples);
+    const Device& device = inputs.device;
+    const auto fail = [&](const std::string& why) {
+        throw std::runtime_error(fmt::format("--msaa {}: {} {}", samples, device.info().name, why));
+    };
+    if (device.limits().standardSampleLocations != VK_TRUE)
+        fail("has no standard places of samples; use --msaa 1");
+    std::vector<VkFormat> formats{litFormat, depthFormat};
+    for (const VkFormat format : inputs.gbuffer.formats)
+        if (format != VK_FORMAT_UNDEFINED) formats.push_back(format);
+    for (const VkFormat format : formats) {
+        const VkImageUsageFlags attachment = format == depthFormat
+                                                 ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                 : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        if ((device.sampleCounts(format, attachment | VK_IMAGE_USAGE_SAMPLED_BIT) & inputs.samples) == 0)
+            fail(fmt::format("does not draw to images of format {} with so many samples; use --msaa {}",
+                             static_cast<int>(format), samples > 4 ? 4 : 1));
+    }
+    const gpu::uint most = device.profile().packets_per_draw;
+    if (inputs.longest_list > most)
+        fail(fmt::format("walks {} packets of lights in a draw, and a list has {}; use --assign clustered or "
+                         "tiled, or --light-cutoff",
+                         most, inputs.longest_list));
+}
+
+ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life) {
+    if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return lit;
+    const ImageRef resolved = passes.image({.name = "lit",
+                                            .format = litFormat,
+                                            .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                            .life = life});
+    addReading(passes, inputs, Shader::sample_resolve_frag, "resolve", {lit}, {resolved});
+    return resolved;
+}
+
+std::size_t mostCaptured(const FrameInputs& inputs) {
+    return inputs.samples == VK_SAMPLE_COUNT_1_BIT ? gpu::CAPTURE_ATTACHMENTS : gpu::CAPTURE_ATTACHMENTS / 2;
+}
+
+void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<CapturedImage> images) {
+    if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return;
+    const auto lit = std::ranges::stable_partition(
+        images, [](const CapturedImage& image) { return image.mode != static_cast<int>(gpu::DEBUG_lit); });
+    std::vector<ImageRef> sources, targets;
+    for (CapturedImage& image : images.first(images.size() - lit.size())) {
+        sources.push_back(image.image);
+        targets.push_back(passes.image({.name = "first sample",
+                                        .format = passes.format(image.image),
+                                        .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                        .life = Life::transient}));
+        image.image = targets.back();
+        image.pass = passes.size();
+    }
+    if (!sources.empty())
+        addReading(passes, inputs, Shader::sample_first_frag, "first samples", sources, targets);
+    for (CapturedImage& image : lit) {
+        image.image = addResolve(passes, inputs, image.image, Life::transient);
+        image.pass = passes.size() - 1;
+    }
+}
+
+}  // namespace diptych
