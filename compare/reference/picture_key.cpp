@@ -91,6 +91,7 @@ std::uint64_t keyOf(const Request& request) {
     key.add(std::as_bytes(std::span(request.program)));
     const View& view = request.view;
     key.add(glm::ivec4(view.width, view.height, request.samples, static_cast<int>(request.mode)));
+    key.add(request.resolve);
     key.add(view.camera.world_from_camera);
     key.add(glm::dvec4(view.camera.yfov, view.camera.ymag, view.camera.near, view.camera.far));
     key.add(glm::ivec4(view.camera.orthographic, request.shadowed_environment, request.environment_costs,

@@ -9,8 +9,10 @@
 #include "compare/reference/material.h"
 #include "compare/reference/pace.h"
 #include "compare/reference/picture_key.h"
+#include "compare/reference/pixel.h"
 #include "compare/reference/pixel_rays.h"
 #include "compare/reference/punctual.h"
+#include "compare/reference/resolve.h"
 #include "compare/reference/sampling.h"
 #include "compare/reference/shadow_edge.h"
 #include "shared/contract/debug_mode.h"
@@ -49,21 +51,6 @@ bool isLocal(const Light& light) {
 }
 
 // ---- channels ----------------------------------------------------------------------------------------
-
-// The result for one pixel. Without a surface it is background.
-struct Pixel {
-    std::optional<Surface> surface;
-    Shading shading;    // of the nearest surface that is not blended
-    Shading blended;    // of those in front of it, as seen
-    double hidden = 0;  // the share of it that they hide
-    glm::dvec3 lit{0}, unblended{0};
-    double sun_visibility = 0;
-    double edge_distance = std::numeric_limits<double>::infinity(), sun_radiance = 0, sun_irradiance = 0;
-    double local_visibility = 0;
-    double local_edge = std::numeric_limits<double>::infinity(), local_radiance = 0;
-    double depth = 0;
-    Hazed haze;
-};
 
 // The components of a channel (shared/contract/debug_mode.h).
 glm::dvec3 channelValue(int mode, const Pixel& pixel) {
@@ -455,27 +442,18 @@ private:
         return pixel;
     }
 
-    // With several samples, light is their mean over the pixel; the other channels are the centre's.
+    // With several samples, light is theirs over the pixel; the other channels are the centre's.
     Pixel renderScene(int x, int y, std::uint64_t seed) const {
         Pixel centre = alongRay(rays_.through(x + 0.5, y + 0.5), seed);
         if (request_.samples == 1) return centre;
-        Pixel mean;
-        const double share = 1.0 / request_.samples;
+        ResolvedLight light(request_.resolve, request_.samples);
+        const double side = std::sqrt(1.0 / request_.samples);
         for (int i = 0; i < request_.samples; ++i) {
             const glm::dvec2 at = evenly(static_cast<std::uint64_t>(i), {0.5, 0.5});
-            const PixelRay ray = rays_.through(x + at.x, y + at.y, std::sqrt(share));
-            const Pixel sample = alongRay(ray, streamOf(~seed, static_cast<std::uint64_t>(i)));
-            mean.lit += sample.lit * share;
-            mean.unblended += sample.unblended * share;
-            mean.shading += sample.shading * share;
-            mean.haze.scattered += sample.haze.scattered * share;
-            mean.blended += sample.blended * share;
+            const PixelRay ray = rays_.through(x + at.x, y + at.y, side);
+            light.add(alongRay(ray, streamOf(~seed, static_cast<std::uint64_t>(i))));
         }
-        centre.lit = mean.lit;
-        centre.unblended = mean.unblended;
-        centre.haze.scattered = mean.haze.scattered;
-        centre.shading = mean.shading;
-        centre.blended = mean.blended;
+        light.put(centre);
         return centre;
     }
 

@@ -47,6 +47,7 @@ struct Request {
     // In both modes rays meet what the pose's skins and morph targets deform.
     ReferenceMode mode = ReferenceMode::surface;
     int samples = 1;                                 // per pixel; mode scene only
+    Resolve resolve = Resolve::linear;               // of their light; mode scene only
     const std::map<int, Image>* surfaces = nullptr;  // mode surface only: all channels of surfaceChannels()
     // Called once, with the key of the picture and the number of floats in a tile; returns where finished
     // tiles are kept. The caller owns the Checkpoint, and removes it once the picture has been written.

@@ -124,6 +124,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         .surroundings = options.environment_errors && isLitFromEverywhere(scene, settings),
         .mode = settings.reference_mode,
         .samples = settings.spp,
+        .resolve = settings.resolve,
         .surfaces = surfaces ? &surfaces->channels : nullptr,
         .keep = options.keep,
         .program = commitName(),

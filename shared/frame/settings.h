@@ -215,6 +215,9 @@ inline constexpr std::string_view own_samples = "the reference takes as many sam
 inline bool hasMsaa(const Settings& s) {
     return s.msaa > 1;
 }
+inline bool hasReferenceSamples(const Settings& s) {
+    return isReference(s) && s.reference_mode == ReferenceMode::scene && s.spp > 1;
+}
 inline constexpr std::string_view needs_spec_aa = "has no meaning without --spec-aa on";
 inline constexpr std::string_view unfiltered = "the reference takes samples where a roughness is filtered";
 inline bool hasSpecAa(const Settings& s) {
@@ -587,6 +590,8 @@ void Settings::rows(Visit&& visit) {
                         "component)",
                 .default_only = {"has no meaning without --msaa 4 or --path reference",
                                  [](const Settings& s) { return row::hasMsaa(s) || row::isReference(s); }},
+                .ignored = {.reference = "the reference takes one sample of a pixel",
+                            .unless = row::hasReferenceSamples},
                 .sweep = "tonemapped",
                 .sweep_with = "msaa",
                 .for_surfaces = "linear"},

@@ -25,6 +25,7 @@ struct Asked {
     bool shadowed_environment = false, environment_costs = false, surroundings = false;
     ReferenceMode mode = ReferenceMode::scene;
     int samples = 4;
+    Resolve resolve = Resolve::linear;
     std::map<int, Image> surfaces{{0, Image(2, 1, 1)}};
     std::string program = "1.0";
 
@@ -64,6 +65,7 @@ struct Asked {
                       .surroundings = surroundings,
                       .mode = mode,
                       .samples = samples,
+                      .resolve = resolve,
                       .surfaces = &surfaces,
                       .program = program});
     }
@@ -92,6 +94,7 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
         {"width", [](Asked& a) { a.view.width = 4; }},
         {"height", [](Asked& a) { a.view.height = 8; }},
         {"samples", [](Asked& a) { a.samples = 8; }},
+        {"resolve", [](Asked& a) { a.resolve = Resolve::tonemapped; }},
         {"mode", [](Asked& a) { a.mode = ReferenceMode::surface; }},
         {"casters", [](Asked& a) { a.casters = {0}; }},
         {"shadowed environment", [](Asked& a) { a.shadowed_environment = true; }},

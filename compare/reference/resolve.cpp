@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "compare/reference/resolve.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace diptych::reference {
+namespace {
+
+double largestComponent(const glm::dvec3& radiance) {
+    return std::max({0.0, radiance.x, radiance.y, radiance.z});
+}
+
+// Of a half interval of 95 % confidence: to the variance of a normal distribution.
+constexpr double variancesOf95 = 1 / (1.96 * 1.96);
+
+// The sum of Shadings' errors alone. With weights w = 1 / (1 + c) a mean L of samples c moves by w^2 (1 + L)
+// over the sum of w where a sample does by 1: here is the w^2. The curve's bend makes of a sample's noise of
+// variance v an error of its mean, w v of the above (the second term of its series).
+void addErrors(Shading& sum, const Shading& sample, double weight, double share) {
+    const double u = sample.uncertainty, slope = share * weight * weight;
+    sum.uncertainty += slope * (u + weight * u * u * variancesOf95);
+    sum.costs += sample.costs * slope;
+}
+
+}  // namespace
+
+double resolveWeight(Resolve resolve, const glm::dvec3& radiance) {
+    return resolve == Resolve::tonemapped ? 1 / (1 + largestComponent(radiance)) : 1;
+}
+
+void ResolvedLight::add(const Pixel& sample) {
+    const double weight = resolveWeight(resolve_, sample.lit), share = share_ * weight;
+    const double unblended = share_ * resolveWeight(resolve_, sample.unblended);
+    sum_.lit += sample.lit * share;
+    sum_.shading += sample.shading * share;
+    sum_.haze.scattered += sample.haze.scattered * share;
+    sum_.blended += sample.blended * share;
+    sum_.unblended += sample.unblended * unblended;
+    weights_ += share;
+    unblended_weights_ += unblended;
+    if (resolve_ == Resolve::linear) return;
+    addErrors(errors_, sample.shading, weight, share_);
+    addErrors(blended_errors_, sample.blended, weight, share_);
+}
+
+void ResolvedLight::put(Pixel& pixel) const {
+    pixel.lit = sum_.lit;
+    pixel.unblended = sum_.unblended;
+    pixel.haze.scattered = sum_.haze.scattered;
+    pixel.shading = sum_.shading;
+    pixel.blended = sum_.blended;
+    if (resolve_ == Resolve::linear) return;  // the shares' sum is 1
+    pixel.lit /= weights_;
+    pixel.unblended /= unblended_weights_;
+    pixel.haze.scattered /= weights_;
+    pixel.shading = pixel.shading * (1 / weights_);
+    pixel.blended = pixel.blended * (1 / weights_);
+    const double slope = (1 + largestComponent(pixel.lit)) / weights_;
+    for (const auto& [shading, errors] :
+         {std::pair{&pixel.shading, &errors_}, {&pixel.blended, &blended_errors_}}) {
+        shading->uncertainty = errors->uncertainty * slope;
+        shading->costs = errors->costs * slope;
+    }
+}
+
+}  // namespace diptych::reference
