@@ -188,6 +188,24 @@ void checkOnePicture(const Options& options, const std::vector<Settings>& settin
                                              options.times.size() > 1 ? " and one time" : ""));
 }
 
+// The reference must have samples where the paths have them; and what is compared with it then is lit.
+void checkSamples(const Options& options, const std::vector<Settings>& settings,
+                  const std::optional<Frame>& baseline) {
+    std::optional<Settings> reference;
+    if (againstReference(options)) reference = referenceSettings(options.settings);
+    if (baseline && isReferenceFrame(*baseline)) reference = baseline->settings;
+    if (!reference) return;
+    for (const Settings& s : settings) {
+        if (s.path == Path::reference || s.msaa == 1) continue;
+        if (const std::string problem = samplesProblem(*reference, s); !problem.empty())
+            throw std::runtime_error(problem);
+        if (!options.channels.empty() &&
+            std::ranges::count(options.channels, static_cast<int>(gpu::DEBUG_lit)) == 0)
+            throw std::runtime_error(fmt::format(
+                "--msaa {}: lit alone is compared with the reference; add it to --channels", s.msaa));
+    }
+}
+
 // Which of the Frames drawn becomes the baseline: as the file says, or --path.
 const Frame& renewing(const Options& options, const Frame* old, const std::vector<Frame>& frames) {
     const Path path = old && !options.path_given && old->settings.path != Path::reference
@@ -230,6 +248,7 @@ int runCompare(const Options& options) {
         if (!options.update_baseline || std::filesystem::exists(options.baseline_file))
             baseline = frameFromExr(options.baseline_file);
     }
+    checkSamples(options, settings, baseline);
 
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/sweep.h"
 
+#include "compare/verdict/baseline.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,6 +66,12 @@ public:
                         "is tried where the command line asks for light between microfacets: give "
                         "--multiscatter energy");
         const Settings row = effectiveSettings(requested);
+        if (row.msaa > 1 && row.resolve != given_.resolve)
+            return skip(tried,
+                        fmt::format("is tried where the truth's samples are resolved so: give --resolve {}",
+                                    nameOf(row.resolve)));
+        if (const std::string why = samplesProblem(referenceSettings(given_), row); !why.empty())
+            return skip({{"path", std::string(nameOf(row.path))}, {"msaa", row.valueOf("msaa")}}, why);
         if (const auto problem = row.problem()) return skip(tried, *problem);
         if (std::ranges::count(sweep_.rows, row) == 0) sweep_.rows.push_back(row);
     }

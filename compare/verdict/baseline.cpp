@@ -87,6 +87,20 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
     return lines;
 }
 
+std::string samplesProblem(const Settings& reference, const Settings& path) {
+    if (path.msaa == 1) return {};
+    if (reference.reference_mode == ReferenceMode::surface)
+        return fmt::format(
+            "--msaa {}: --reference-mode surface shades one surface a pixel; use --reference-mode scene "
+            "--spp "
+            "64",
+            path.msaa);
+    if (reference.spp < path.msaa)
+        return fmt::format("--msaa {}: the reference takes {} of a pixel's samples; use --spp 64", path.msaa,
+                           reference.spp);
+    return {};
+}
+
 std::string updateBaseline(const fs::path& file, const Frame& frame, const ReportDevice& device) {
     const fs::path old = file.string() + ".old";
     const bool fresh = !fs::exists(file);

@@ -15,6 +15,10 @@ namespace diptych {
 std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& frame,
                                             const ReportDevice& device);
 
+// Why a reference of Settings `reference` is no truth of the samples that `path` draws: lit is the mean of a
+// pixel's, and there the reference has one place, or fewer. Empty where it is one.
+std::string samplesProblem(const Settings& reference, const Settings& path);
+
 // Writes `frame` as the new `file`: into a temporary file first, which is then renamed; the old file stays as
 // FILE.old. Returns a line for the user that says what was done. Throws std::runtime_error naming the file.
 std::string updateBaseline(const std::filesystem::path& file, const Frame& frame, const ReportDevice& device);

@@ -120,7 +120,9 @@ CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
                         const std::vector<std::string>& names) {
     CloserPath closer{reference, paths, {}};
     const std::array<const Frame*, 3> all{&frames[reference], &frames[paths[0]], &frames[paths[1]]};
+    const bool sampled = all[1]->settings.msaa > 1;  // other channels are of one sample, not the pixel's
     for (const int mode : litModes) {
+        if (sampled && mode != static_cast<int>(gpu::DEBUG_lit)) continue;
         if (std::ranges::all_of(
                 all, [&](const Frame* f) { return f->channels.contains(mode) && f->isRequested(mode); }))
             closer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));

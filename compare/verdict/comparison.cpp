@@ -32,6 +32,13 @@ ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
     return objects;
 }
 
+// Whether lit alone means one thing in both: a path's other channels are of the first of its samples, and the
+// reference's of the pixel's middle.
+bool comparesLitAlone(const Frame& left, const Frame& right) {
+    if (isReferenceFrame(left) == isReferenceFrame(right)) return false;
+    return (isReferenceFrame(left) ? right : left).settings.msaa > 1;
+}
+
 // Adds failures and notes from the Frame's counters, which no channel shows.
 void readCounters(const Frame& frame, Comparison& comparison) {
     const FrameCounters& counters = frame.counters;
@@ -199,6 +206,12 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                          explaining(report, left, right),
                          options.texels ? &*options.texels : nullptr};
 
+    const bool lit_alone = comparesLitAlone(left, right);
+    if (lit_alone)
+        comparison.notes.push_back(
+            "lit alone is compared with the reference: a path's other channels are of one of a pixel's "
+            "samples, "
+            "the reference's of the pixel's middle");
     bool shared = false;
     std::vector<std::string> names;  // of the channels that one side has at least
     ChannelDemands demands{options.rules, {}, options.strict};
@@ -213,6 +226,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                    onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
         const bool paths = mode.maker == MadeBy::paths_only;
         if (onLeft || onRight) names.emplace_back(mode.name);
+        if (lit_alone && mode.number != static_cast<int>(gpu::DEBUG_lit)) continue;
         if (paths && onLeft && onRight && left.settings.assign != right.settings.assign) {
             comparison.notes.push_back(
                 fmt::format("{} was not compared: --assign {} and {} evaluate other lights", mode.name,

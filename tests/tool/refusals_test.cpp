@@ -68,5 +68,25 @@ TEST(Refusals, ExposuresAreSaidAndShared) {
     EXPECT_TRUE(runTool(folder, compare + " --match-exposure a.png").failedOver("holds display colours"));
 }
 
+// A reference with one place a pixel, or fewer than a path has samples, is no truth of their mean.
+TEST(Refusals, SamplesNeedATruthOfSamples) {
+    const Folder folder;
+    const std::string compare =
+        "compare builtin:triangle --size 16x9 --runs 0 --msaa 4 --baseline reference ";
+    EXPECT_TRUE(runTool(folder, compare)
+                    .failedOver("--msaa 4: --reference-mode surface shades one surface a pixel; use "
+                                "--reference-mode scene --spp 64"));
+    EXPECT_TRUE(runTool(folder, compare + "--reference-mode scene --spp 2").failedOver("use --spp 64"));
+    EXPECT_TRUE(runTool(folder, compare + "--reference-mode scene --spp 64 --channels albedo")
+                    .failedOver("--msaa 4: lit alone is compared with the reference; add it to --channels"));
+    ASSERT_EQ(runTool(folder,
+                      "render builtin:triangle --size 16x9 --path reference --reference-mode scene -o r.exr")
+                  .code,
+              0);
+    EXPECT_TRUE(runTool(folder, "compare builtin:triangle --size 16x9 --runs 0 --msaa 4 --baseline r.exr")
+                    .failedOver("--msaa 4: the reference takes 1 of a pixel's samples; use --spp 64"));
+    EXPECT_FALSE(fs::exists(folder / "diptych-report"));
+}
+
 }  // namespace
 }  // namespace diptych

@@ -154,5 +154,23 @@ TEST(BaselineMismatches, EverySettingIsNamed) {
     EXPECT_EQ(cases + 2, usual.size());
 }
 
+TEST(Baseline, AReferenceOfFewerSamplesIsNoTruthOfThem) {
+    Settings reference, path;
+    reference.path = Path::reference;
+    EXPECT_EQ(samplesProblem(reference, path), "") << "one of each";
+    path.msaa = 4;
+    EXPECT_EQ(samplesProblem(reference, path),
+              "--msaa 4: --reference-mode surface shades one surface a pixel; use --reference-mode scene "
+              "--spp 64");
+    reference.reference_mode = ReferenceMode::scene;
+    reference.spp = 3;
+    EXPECT_EQ(samplesProblem(reference, path),
+              "--msaa 4: the reference takes 3 of a pixel's samples; use --spp 64");
+    reference.spp = 4;
+    EXPECT_EQ(samplesProblem(reference, path), "");
+    path.msaa = 8;
+    EXPECT_NE(samplesProblem(reference, path), "");
+}
+
 }  // namespace
 }  // namespace diptych

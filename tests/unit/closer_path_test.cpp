@@ -40,6 +40,20 @@ CloserPathChannel litOf(const std::vector<Frame>& frames) {
     return closer.channels.at(0);
 }
 
+// With several samples a pixel a path's parts of light are of one of them, the reference's of all.
+TEST(CloserPath, OfSeveralSamplesIsOfLitAlone) {
+    auto frames = threeFrames({1, 1}, {1.1f, 1}, {1, 1});
+    for (Frame& frame : frames)
+        frame.channels[static_cast<int>(gpu::DEBUG_lit_diffuse)] = frame.channels.at(litMode);
+    const auto channels = [&] {
+        return closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {}).channels.size();
+    };
+    EXPECT_EQ(channels(), 2u);
+    frames[1].settings.msaa = frames[2].settings.msaa = 4;
+    EXPECT_EQ(channels(), 1u);
+    EXPECT_EQ(litOf(frames).mode->number, litMode);
+}
+
 TEST(CloserPath, SaysWhichWhereAndByHowMuch) {
     const auto frames = threeFrames({1, 1, 2, 4}, {1.1f, 1, 2.4f, 4}, {1, 1, 2.1f, 4.4f});
     const CloserPathChannel channel = litOf(frames);

@@ -109,6 +109,30 @@ TEST(TradeoffSweep, ReferenceSamplesReachNoRow) {
     for (const Settings& row : usualSweep(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
 }
 
+// Of a truth that has one place a pixel, or other weights, the mean of a pixel's samples would be called
+// wrong.
+TEST(TradeoffSweep, SamplesAreTriedAgainstATruthOfSamples) {
+    const Grid samples{{"msaa", {"1", "4"}}, {"resolve", {"linear", "tonemapped"}}};
+    Settings given;
+    EXPECT_EQ(wordsOfRows(makeSweepRows(given, {samples})), std::vector<std::string>{"forward_plus"});
+    for (const auto& [mode, spp, use] : {std::tuple{"surface", "1", "use --reference-mode scene --spp 64"},
+                                         {"scene", "3", "use --spp 64"}}) {
+        given.set("reference-mode", mode);
+        given.set("spp", spp);
+        bool said = false;
+        for (const std::string& reason : reasonsOf(makeSweepRows(given, {samples}), "msaa"))
+            said = said || reason.find(use) != std::string::npos;
+        EXPECT_TRUE(said) << use;
+    }
+    given.set("spp", "64");
+    EXPECT_EQ(wordsOfRows(makeSweepRows(given, {samples}), given),
+              (std::vector<std::string>{"forward_plus", "forward_plus, msaa 4"}));
+    given.set("msaa", "4");
+    given.set("resolve", "tonemapped");
+    EXPECT_EQ(wordsOfRows(makeSweepRows(given, {samples}), given),
+              (std::vector<std::string>{"forward_plus, msaa 1, resolve linear", "forward_plus"}));
+}
+
 TEST(TradeoffSweep, SizesArePartsOfTheGivenOne) {
     Settings given;
     given.size = {641, 3};
