@@ -38,12 +38,20 @@ Json jsonOf(const ScenePlan& plan) {
     Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
     for (const auto& line : plan.lines)
         (line.modelled ? modelled : leftOut).push_back({{"what", line.what}, {"why", line.why}});
-    for (const PathPlan& path : plan.paths)
+    for (const PathPlan& path : plan.paths) {
+        Json samples = Json::array();
+        for (const SampledBytes& bytes : path.bytes)
+            samples.push_back({{"samples", bytes.samples},
+                               {"bytes_per_pixel", bytes.geometry},
+                               {"bytes_per_sample", bytes.geometry / static_cast<unsigned>(bytes.samples)},
+                               {"image_bytes_per_pixel", bytes.all}});
         paths.push_back({{"path", path.path},
                          {"passes", path.passes},
-                         {"bytes_per_pixel", path.bytes_per_pixel},
+                         {"bytes_per_pixel", path.bytes.front().geometry},
+                         {"samples", samples},
                          {"shared_bytes_per_pixel", path.shared_bytes_per_pixel},
                          {"notes", path.notes}});
+    }
     return {{"scene", plan.scene},
             {"draws", plan.needs.draws},
             {"triangles", plan.needs.triangles},
@@ -54,6 +62,16 @@ Json jsonOf(const ScenePlan& plan) {
             {"left_out", leftOut},
             {"notes", plan.notes},
             {"paths", paths}};
+}
+
+// "16 bytes per pixel, 48 with lit; with --msaa 4 96 and 176"
+std::string bytesInWords(const PathPlan& path) {
+    const SampledBytes& planned = path.bytes.front();
+    std::string words = fmt::format("{} bytes per pixel, {} with light", planned.geometry, planned.all);
+    for (const SampledBytes& other : path.bytes)
+        if (other.samples != planned.samples)
+            words += fmt::format("; {} and {} with --msaa {}", other.geometry, other.all, other.samples);
+    return words;
 }
 
 void print(const ScenePlan& plan) {
@@ -67,8 +85,7 @@ void print(const ScenePlan& plan) {
     }
     for (const PathPlan& path : plan.paths) {
         fmt::print(
-            "  {}: {}; {} bytes per pixel{}\n", path.path, fmt::join(path.passes, " > "),
-            path.bytes_per_pixel,
+            "  {}: {}; {}{}\n", path.path, fmt::join(path.passes, " > "), bytesInWords(path),
             path.shared_bytes_per_pixel > 0
                 ? fmt::format("; {} more are saved by images that share memory", path.shared_bytes_per_pixel)
                 : "");

@@ -3,10 +3,22 @@
 
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
+#include "compare/render/sample_counts.h"
 
 #include <fmt/format.h>
 
 namespace diptych {
+
+namespace {
+
+SampledBytes bytesOf(Device& device, SharedResources& shared, SceneViews& views, const Settings& settings) {
+    const PreparedView view(device, shared, views.at(viewRequest(settings)), settings);
+    PassList passes(device, 1, 1);
+    const PixelBytes bytes = pixelBytes(passes, functionsOf(settings.path).add(passes, view.inputs));
+    return {settings.msaa, bytes.geometry, bytes.all};
+}
+
+}  // namespace
 
 std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::vector<Settings>& settings) {
     SharedResources shared(device, views.scene());
@@ -18,16 +30,19 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
         const PreparedView view(device, shared, views.at(viewRequest(s)), s);
         const PathFunctions& path = functionsOf(s.path);
         PassList passes(device, 1, 1);
-        path.add(passes, view.inputs);
+        const PixelBytes bytes = pixelBytes(passes, path.add(passes, view.inputs));
         passes.allocate();
         PathPlan plan{std::string(nameOf(s.path)),
                       passes.names(),
-                      path.bytesPerPixel(view.inputs),
+                      {{s.msaa, bytes.geometry, bytes.all}},
                       passes.sharedBytes(),
                       {}};
         for (const std::string& note : view.notes) plan.notes.push_back(note);
         plan.notes.push_back(fmt::format("{} draws in view, {} culled, {} pipelines", view.draws.items.size(),
                                          view.draws.culled, shared.pipelines.count()));
+        for (const int samples : sampleCounts(device))
+            if (samples != s.msaa)
+                plan.bytes.push_back(bytesOf(device, shared, views, withSamples(s, samples)));
         plans.push_back(std::move(plan));
     }
     return plans;

@@ -10,11 +10,18 @@
 
 namespace diptych {
 
+// What a pixel takes in images, with so many samples.
+struct SampledBytes {
+    int samples = 1;
+    std::uint32_t geometry = 0;  // PixelBytes
+    std::uint32_t all = 0;
+};
+
 // The passes of a frame and their sizes, found without drawing it.
 struct PathPlan {
     std::string path;
     std::vector<std::string> passes;
-    unsigned bytes_per_pixel = 0;  // attachments that carry geometry: G-buffer and depth; without lit
+    std::vector<SampledBytes> bytes;  // first as planned, then with other numbers of samples a pixel
     std::uint64_t shared_bytes_per_pixel =
         0;  // saved where images that are never needed together share memory
     std::vector<std::string> notes;

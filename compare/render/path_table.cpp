@@ -14,13 +14,12 @@ namespace {
 // The paths, one row each.
 const PathFunctions paths[] = {
     {Path::deferred, [](FrameInputs&, const Settings&) { return std::vector<std::string>{}; }, addDeferred,
-     addDeferredCapture, [](const FrameInputs& inputs) { return inputs.gbuffer.bytesPerSample() + 4; },
+     addDeferredCapture,
      [](Shader fragment) {
          return fragment == Shader::gbuffer_frag || fragment == Shader::deferred_shade_frag ||
                 fragment == Shader::deferred_light_batch_frag || fragment == Shader::deferred_capture_frag;
      }},
     {Path::forward_plus, prepareForwardPlus, addForwardPlus, addForwardPlusCapture,
-     [](const FrameInputs&) { return std::uint32_t{4}; },
      [](Shader fragment) {
          return fragment == Shader::forward_shade_frag || fragment == Shader::forward_light_batch_frag ||
                 fragment == Shader::forward_capture_frag;
@@ -28,6 +27,14 @@ const PathFunctions paths[] = {
 };
 
 }  // namespace
+
+PixelBytes pixelBytes(const PassList& passes, const FrameImages& images) {
+    std::uint64_t geometry = passes.pixelBytes(images.depth);
+    for (const ImageRef image : images.gbuffer)
+        if (image.valid()) geometry += passes.pixelBytes(image);
+    if (images.groups.valid()) geometry += passes.pixelBytes(images.groups);
+    return {static_cast<std::uint32_t>(geometry), static_cast<std::uint32_t>(passes.pixelBytes())};
+}
 
 const PathFunctions& functionsOf(Path path) {
     for (const PathFunctions& functions : paths)

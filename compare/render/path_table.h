@@ -20,9 +20,15 @@ struct PathFunctions {
     FrameImages (*add)(PassList&, const FrameInputs&);
     std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, const FrameImages&,
                                           const CaptureRequest&);
-    std::uint32_t (*bytesPerPixel)(const FrameInputs&);
     bool (*draws)(Shader fragment);  // whether only this path draws with it
 };
+// What a pixel takes in a frame's images of the picture's size, bytes; each sample of it by itself.
+struct PixelBytes {
+    std::uint32_t geometry = 0;  // depth, and what deferred keeps of surfaces
+    std::uint32_t all = 0;       // light too; as if no two images shared memory
+};
+PixelBytes pixelBytes(const PassList& passes, const FrameImages& images);
+
 // Throws std::logic_error for the reference, which no device draws.
 const PathFunctions& functionsOf(Path path);
 

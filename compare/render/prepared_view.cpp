@@ -207,13 +207,15 @@ void readCounters(PreparedView& view, FrameCounters& counters) {
 }
 
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared) {
+    const PixelBytes pixel = pixelBytes(prepared.passes, prepared.images);
+    const std::uint64_t pixels = std::uint64_t{prepared.passes.width()} * prepared.passes.height();
     return {prepared.passes.imageBytes() + shared.materials.imageBytes() + prepared.view.shadow.imageBytes() +
                 prepared.view.environment.imageBytes(),
             shared.geometry.bytes() + shared.posings.bytes() + prepared.view.posing->bytes() +
                 prepared.view.materials.bufferBytes() + prepared.view.buffers.bytes() +
                 prepared.view.shadow.bytes() + prepared.view.environment.bytes() +
                 prepared.view.haze.bytes() + prepared.view.fragments.bytes(),
-            prepared.path.bytesPerPixel(prepared.view.inputs)};
+            pixel.geometry, pixel.all * pixels};
 }
 
 std::vector<Image> readImages(PassList& passes, std::span<const PassList::ReadBack> requests) {

@@ -31,7 +31,8 @@ struct PassTime {
 
 struct FrameBytes {
     std::uint64_t images = 0, buffers = 0;  // device memory of the path and the scene
-    std::uint64_t gbuffer_per_pixel = 0;    // deferred: attachments and depth; forward+: depth
+    std::uint64_t gbuffer_per_pixel = 0;    // deferred: attachments and depth; forward+: depth; all samples
+    std::uint64_t picture_images = 0;       // of `images`: those of the picture's size, light's too
 };
 
 // Pages of --shadows clipmap: requested = resident + fallback.

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "shared/material/gbuffer_layout.h"
 
-#include "shared/vulkan/resources.h"
-
 namespace diptych {
 
 #define DIPTYCH_GBUFFER_NAME(number, name, kind, what) what,
 const std::array<const char*, gpu::GBUFFER_ATTACHMENTS> gbufferAttachmentNames{
     GBUFFER_BINDINGS(DIPTYCH_GBUFFER_NAME)};
 #undef DIPTYCH_GBUFFER_NAME
-
-std::uint32_t GBufferLayout::bytesPerSample() const {
-    std::uint32_t bytes = 0;
-    for (const VkFormat format : formats)
-        if (format != VK_FORMAT_UNDEFINED) bytes += bytesPerTexel(format);
-    return bytes;
-}
 
 void GBufferLayout::specialise(Variant& variant) const {
     variant.set(gpu::FEATURE_gbuffer_encoding, encoding)

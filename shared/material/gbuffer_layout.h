@@ -19,7 +19,6 @@ struct GBufferLayout {
     bool wide_material_id = false;                             // more materials than the packed bits can name
     std::array<VkFormat, gpu::GBUFFER_ATTACHMENTS> formats{};  // undefined: not there
 
-    std::uint32_t bytesPerSample() const;  // without depth
     void specialise(Variant& variant) const;
 };
 

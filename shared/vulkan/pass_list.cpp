@@ -47,6 +47,7 @@ ImageRef PassList::image(const ImageDeclaration& declared) {
     auto resource = std::make_unique<Resource>();
     const bool own = declared.extent.width == 0;
     resource->life = declared.life;
+    resource->has_size = !own;
     resource->image.emplace(
         device_,
         GpuImageInfo{declared.name, declared.format, own ? width_ : declared.extent.width,
@@ -236,6 +237,18 @@ std::vector<std::string> PassList::names() const {
     std::vector<std::string> names;
     for (const Span& span : spans(0, size())) names.push_back(passes_[span.first]->name_);
     return names;
+}
+
+std::uint64_t PassList::pixelBytes(ImageRef image) const {
+    const GpuImageInfo& info = resource(image).image->info();
+    return std::uint64_t{bytesPerTexel(info.format)} * static_cast<std::uint64_t>(info.samples) * info.layers;
+}
+
+std::uint64_t PassList::pixelBytes() const {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < resources_.size(); ++i)
+        if (resources_[i]->image && !resources_[i]->has_size) bytes += pixelBytes(ImageRef{i});
+    return bytes;
 }
 
 std::uint64_t PassList::imageBytes() const {

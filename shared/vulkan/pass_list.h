@@ -102,6 +102,10 @@ public:
 
     // One name for passes of the same name that follow each other.
     std::vector<std::string> names() const;
+    // What a pixel of the image takes, all its samples and layers, bytes; and what one takes in all images of
+    // the list's size together, as if none shared memory.
+    std::uint64_t pixelBytes(ImageRef image) const;
+    std::uint64_t pixelBytes() const;
     // Texels of all images, as if none shared memory; and what sharing saves of that, once the list has run
     // or been allocated.
     std::uint64_t imageBytes() const;

@@ -17,6 +17,7 @@ struct PassResource {
     std::optional<GpuImage> image;
     const GpuBuffer* buffer = nullptr;
     Life life = Life::kept;
+    bool has_size = false;  // by its declaration, not the list's
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, OwnedImageView> views;
     // Of a transient, once it has memory: its first and last pass, and whose the memory is before.
     std::size_t first = 0, last = 0;

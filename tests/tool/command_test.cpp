@@ -223,7 +223,21 @@ TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     ASSERT_EQ(scene["paths"].size(), 2u);
     // depth alone against depth and a G-buffer
     EXPECT_GT(scene["paths"][0]["bytes_per_pixel"], scene["paths"][1]["bytes_per_pixel"]);
-    EXPECT_NE(runTool(folder, "plan").out.find("bytes per pixel"), std::string::npos);
+    const std::string words = runTool(folder, "plan builtin:triangle").out;
+    EXPECT_NE(words.find("4 bytes per pixel, 20 with light; 16 and 96 with --msaa 4"), std::string::npos)
+        << words;
+    // A sample of forward+ has a depth of 4 bytes and light of 16, and a pixel of several light of its own.
+    const Json samples = scene["paths"][1]["samples"];
+    ASSERT_GE(samples.size(), 2u);
+    EXPECT_EQ(samples[0]["image_bytes_per_pixel"], 20);
+    EXPECT_EQ(scene["paths"][0]["samples"][0]["bytes_per_pixel"], 28) << "five words, of normals two; depth";
+    for (const Json& of : samples) {
+        const int count = of["samples"];
+        EXPECT_EQ(of["bytes_per_pixel"], 4 * count);
+        EXPECT_EQ(of["bytes_per_sample"], 4);
+        EXPECT_EQ(of["image_bytes_per_pixel"], 20 * count + (count > 1 ? 16 : 0));
+    }
+    EXPECT_EQ(samples[1]["samples"], 4);
 }
 
 // The paths share pipelines, but what one is said to need does not depend on which others are asked for.

@@ -2,6 +2,8 @@
 // Which attachments a scene's materials need, and no others: each costs bandwidth at every pixel.
 #include "shared/material/gbuffer_layout.h"
 
+#include "shared/vulkan/resources.h"
+
 #include <gtest/gtest.h>
 
 namespace diptych {
@@ -14,7 +16,10 @@ Requirements noneNeeded() {
 }
 
 std::uint32_t bytesOf(GBufferEncoding encoding, const Requirements& needs) {
-    return gbufferLayout(encoding, needs).bytesPerSample();
+    std::uint32_t bytes = 0;
+    for (const VkFormat format : gbufferLayout(encoding, needs).formats)
+        if (format != VK_FORMAT_UNDEFINED) bytes += bytesPerTexel(format);
+    return bytes;
 }
 
 TEST(GBufferLayout, HoldsWhatTheMaterialsNeed) {
