@@ -26,8 +26,8 @@ struct BenchRow {
     std::vector<PassTime> passes;  // medians of the profiled frames
     FrameBytes bytes;
     FrameCounters counters;
-    std::vector<std::string> notes;                 // what a reader must know about this frame
-    std::optional<Transparency> transparency = {};  // where several were asked for
+    std::vector<std::string> notes;  // what a reader must know about this frame
+    ModeParts parts = {};
 };
 
 // The names of passes that make light lists begin with this.

@@ -3,6 +3,8 @@
 
 #include "shared/scene/builtin/builtin.h"
 
+#include "compare/render/sample_counts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -116,13 +118,53 @@ std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
     return counts;
 }
 
+BenchTable benchTableOf(const std::string& word) {
+    if (word == "modes") return BenchTable::modes;
+    if (word == "msaa") return BenchTable::msaa;
+    throw std::runtime_error(fmt::format("--table {}: takes modes or msaa", word));
+}
+
+namespace {
+
+// Its columns, and the options that its rows leave no room for.
+constexpr int tableSamples[] = {1, 4, 8};
+void checkSampleTable(const BenchOptions& options) {
+    if (options.table != BenchTable::msaa) return;
+    if (options.assign.size() > 1)
+        throw std::runtime_error("--table msaa: is of one --assign; run it once for each");
+    if (!options.transparencies.empty())
+        throw std::runtime_error(
+            "--transparencies: --table msaa has rows without blended surfaces and with --transparency");
+    if (!options.frames) throw std::runtime_error("--kernels only: times no frame of --table msaa");
+}
+
+std::vector<Assignment> assignmentsOf(const Settings& given, const BenchOptions& options) {
+    if (!options.assign.empty()) return options.assign;
+    return options.table == BenchTable::msaa ? std::vector{given.assign} : all<Assignment>();
+}
+
+std::vector<Transparency> transparenciesOf(const Settings& given, const BenchOptions& options) {
+    if (options.table == BenchTable::msaa && given.transparency != Transparency::off)
+        return {Transparency::off, given.transparency};
+    return options.transparencies.empty() ? std::vector{given.transparency} : options.transparencies;
+}
+
+std::vector<Settings> bySamples(const Settings& settings, const BenchOptions& options) {
+    if (options.table != BenchTable::msaa) return {settings};
+    std::vector<Settings> columns;
+    for (const int samples : tableSamples) columns.push_back(withSamples(settings, samples));
+    return columns;
+}
+
+}  // namespace
+
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options) {
+    checkSampleTable(options);
     const std::vector<Path> paths =
         options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
-    const std::vector<Assignment> assignments = options.assign.empty() ? all<Assignment>() : options.assign;
+    const std::vector<Assignment> assignments = assignmentsOf(given, options);
     const std::vector<Size> sizes = options.sizes.empty() ? std::vector{given.size} : options.sizes;
-    const std::vector<Transparency> transparencies =
-        options.transparencies.empty() ? std::vector{given.transparency} : options.transparencies;
+    const std::vector<Transparency> transparencies = transparenciesOf(given, options);
     std::vector<std::optional<std::uint32_t>> counts(options.light_counts.begin(),
                                                      options.light_counts.end());
     if (counts.empty()) counts.emplace_back();
@@ -147,10 +189,11 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
                         settings.assign = assign;
                         settings.size = size;
                         settings.transparency = transparency;
-                        if (const auto problem = settings.problem())
-                            skip({path, assign, std::nullopt, std::nullopt, std::nullopt, *problem});
-                        else
-                            group.settings.push_back(settings);
+                        for (const Settings& sampled : bySamples(settings, options))
+                            if (const auto problem = sampled.problem())
+                                skip({path, assign, std::nullopt, std::nullopt, {}, *problem});
+                            else
+                                group.settings.push_back(sampled);
                     }
         if (!group.settings.empty()) cases.groups.push_back(std::move(group));
     }
@@ -169,31 +212,41 @@ std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, doubl
     return ms1 + slope * (static_cast<double>(lights) - static_cast<double>(n1));
 }
 
+ModeParts partsOf(const BenchOptions& options, const Settings& settings) {
+    const bool by_samples = options.table == BenchTable::msaa;
+    ModeParts parts;
+    if (by_samples || options.transparencies.size() > 1) parts.transparency = settings.transparency;
+    if (by_samples) parts.samples = settings.msaa;
+    return parts;
+}
+
 namespace {
-std::string ending(std::optional<Transparency> transparency) {
-    return transparency ? fmt::format(", {}", nameOf(*transparency)) : "";
+std::string ending(const ModeParts& parts) {
+    std::string words;
+    if (parts.transparency) words += fmt::format(", {}", nameOf(*parts.transparency));
+    if (parts.samples) words += fmt::format(", {} sample{}", *parts.samples, *parts.samples == 1 ? "" : "s");
+    return words;
 }
 }  // namespace
 
-std::string modeName(Path path, Assignment assign, std::optional<Transparency> transparency) {
-    return fmt::format("{}, {}{}", nameOf(path), nameOf(assign), ending(transparency));
+std::string modeName(Path path, Assignment assign, const ModeParts& parts) {
+    return fmt::format("{}, {}{}", nameOf(path), nameOf(assign), ending(parts));
 }
 
 bool drawsAnotherPicture(Assignment assign) {
     return assign == Assignment::per_object;
 }
 
-std::string assignLabel(Assignment assign, std::optional<Transparency> transparency) {
-    return fmt::format("{}{}{}", nameOf(assign), drawsAnotherPicture(assign) ? " *" : "",
-                       ending(transparency));
+std::string assignLabel(Assignment assign, const ModeParts& parts) {
+    return fmt::format("{}{}{}", nameOf(assign), drawsAnotherPicture(assign) ? " *" : "", ending(parts));
 }
 
-std::string modeLabel(Path path, Assignment assign, std::optional<Transparency> transparency) {
-    return fmt::format("{}, {}", nameOf(path), assignLabel(assign, transparency));
+std::string modeLabel(Path path, Assignment assign, const ModeParts& parts) {
+    return fmt::format("{}, {}", nameOf(path), assignLabel(assign, parts));
 }
 
 std::string skipName(const BenchSkip& skip) {
-    std::string name = modeName(skip.path, skip.assign, skip.transparency);
+    std::string name = modeName(skip.path, skip.assign, skip.parts);
     if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);
     if (skip.lights) name += fmt::format(", {} lights", *skip.lights);
     return name;

@@ -13,8 +13,12 @@
 
 namespace diptych::bench {
 
+// What the rows are: every mode, or the paths with and without blended surfaces by samples a pixel.
+enum class BenchTable { modes, msaa };
+
 // As asked for; an empty list is what its comment says.
 struct BenchOptions {
+    BenchTable table = BenchTable::modes;
     std::vector<Path> paths;                   // both
     std::vector<Assignment> assign;            // all
     std::vector<Size> sizes;                   // --size
@@ -31,6 +35,15 @@ std::vector<Size> benchSizes(const std::string& words);
 std::vector<Transparency> benchTransparencies(const std::string& words);
 std::vector<std::uint32_t> benchLightCounts(const std::string& words);  // each once, ascending
 
+BenchTable benchTableOf(const std::string& word);
+
+// What of a mode is named because several were asked for.
+struct ModeParts {
+    std::optional<Transparency> transparency = {};
+    std::optional<int> samples = {};  // a pixel
+    bool operator==(const ModeParts&) const = default;
+};
+
 // Settings of one scene that are timed in turn, so that a device that slows down does so for all alike.
 struct BenchGroup {
     std::optional<std::uint32_t> lights;  // as asked for
@@ -43,7 +56,7 @@ struct BenchSkip {
     Assignment assign = Assignment::every;
     std::optional<Size> size;             // nothing: none
     std::optional<std::uint32_t> lights;  // nothing: none
-    std::optional<Transparency> transparency;
+    ModeParts parts;
     std::string reason;
 };
 
@@ -55,6 +68,8 @@ struct BenchCases {
 // Light counts are put into a built-in scene that takes ?lights=N, into a `--lights` whose name holds {}, or
 // else into a seeded rig of point lights. Throws std::runtime_error where both a count and other lights were
 // asked for, and where nothing is left to time.
+// Of BenchTable::msaa: each path without blended surfaces and with them, with 1, 4 and 8 samples a pixel, by
+// one assignment.
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options);
 
 // What a frame will take with `lights`, ms: on the line through the last two of (lights, ms), ascending, and
@@ -62,13 +77,15 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
 std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, double>> measured,
                                   std::uint32_t lights);
 
-// "forward_plus, clustered"; with a transparency "forward_plus, clustered, list"
-std::string modeName(Path path, Assignment assign, std::optional<Transparency> transparency = {});
+// "forward_plus, clustered"; with all parts "forward_plus, clustered, list, 4 samples"
+std::string modeName(Path path, Assignment assign, const ModeParts& parts = {});
+// The parts of the Settings that these options have several of.
+ModeParts partsOf(const BenchOptions& options, const Settings& settings);
 // Whether the assignment shades fewer lights a pixel than there are, so that its time is of another picture.
 bool drawsAnotherPicture(Assignment assign);
 // Names with a star where that is so, and what the star means.
-std::string assignLabel(Assignment assign, std::optional<Transparency> transparency = {});
-std::string modeLabel(Path path, Assignment assign, std::optional<Transparency> transparency = {});
+std::string assignLabel(Assignment assign, const ModeParts& parts = {});
+std::string modeLabel(Path path, Assignment assign, const ModeParts& parts = {});
 inline constexpr const char* starMeans =
     "* draws another picture: only some of the lights are shaded per pixel, the others by object";
 // "forward_plus, every, 640x360, 1024 lights"

@@ -25,8 +25,7 @@ double confidenceOf(int n, int k) {
 }
 
 bool comparable(const BenchRow& a, const BenchRow& b) {
-    return a.settings.size == b.settings.size && a.counters.lights == b.counters.lights &&
-           a.transparency == b.transparency;
+    return a.settings.size == b.settings.size && a.counters.lights == b.counters.lights && a.parts == b.parts;
 }
 
 void findPass(Conclusion& c) {
@@ -70,8 +69,7 @@ PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<dou
 std::string Conclusion::inWords() const {
     const Settings &a = faster->settings, &b = slower->settings;
     const auto mode = [this](const Settings& s) {
-        return fmt::format("{} ({}{})", nameOf(s.path), nameOf(s.assign),
-                           faster->transparency ? fmt::format(", {}", nameOf(*faster->transparency)) : "");
+        return fmt::format("{} ({})", nameOf(s.path), assignLabel(s.assign, faster->parts));
     };
     std::string words = fmt::format(
         "{}x{}, {} lights: {} takes {} ms, {} takes {:.2f} times as long: the median ratio of {} pairs of "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
+#include "compare/bench/sample_table.h"
 #include "compare/bench/style.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
@@ -64,9 +65,9 @@ std::string rows(const Bench& bench) {
         out += "<tr>" + numberCell(fmt::format("{}", row.counters.lights)) +
                numberCell(fmt::format("{}x{}", row.settings.size.width, row.settings.size.height)) +
                cell(std::string(nameOf(row.settings.path))) +
-               cell(assignLabel(row.settings.assign, row.transparency)) +
-               numberCell(msText(row.time.median)) + numberCell(msText(row.time.min)) +
-               numberCell(msText(row.time.max)) + numberCell(fmt::format("{:.3g}", assignMs(row))) +
+               cell(assignLabel(row.settings.assign, row.parts)) + numberCell(msText(row.time.median)) +
+               numberCell(msText(row.time.min)) + numberCell(msText(row.time.max)) +
+               numberCell(fmt::format("{:.3g}", assignMs(row))) +
                numberCell(fmt::format("{:.1f} %", 100 * assignShare(row))) +
                numberCell(bytes(row.bytes.images + row.bytes.buffers)) + wholeCell(passes) +
                wholeCell(fmt::format("{}", fmt::join(ownNotes(row, common), "; "))) + "</tr>\n";
@@ -141,12 +142,12 @@ std::string benchHtml(const Bench& bench) {
         "<style>{1}{2}{3}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
         "table</a><header><p class=\"brand\">Diptych</p><h1>Times side by "
         "side: {0}</h1><p class=\"soft\">{4} rows of {5} frames each on {6} ({7})</p></header>\n"
-        "{8}{9}<div id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
+        "{8}{15}{9}<div id=\"rows\">{10}</div>{11}{12}{13}<script>{14}</script></body></html>\n",
         markup(bench.scene), page::style, plotStyle, benchStyle, bench.rows.size(), bench.runs,
         markup(bench.device.name), markup(bench.device.driver), conclusions(bench),
         bench.rows.empty() ? ""
                            : "<div class=\"box drawn\">" + benchPlot(bench, PlotPlace::page) + "</div>\n",
-        rows(bench), kernels(bench), skips(bench), how(bench), page::tables);
+        rows(bench), kernels(bench), skips(bench), how(bench), page::tables, sampleTablesHtml(bench));
 }
 
 }  // namespace diptych::bench

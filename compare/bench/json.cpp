@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
+#include "compare/bench/sample_table.h"
 #include "compare/files/our_files.h"
 
 #include <nlohmann/json.hpp>
@@ -22,10 +23,11 @@ Json jsonOf(const Size& size) {
 Json jsonOf(const BenchRow& row) {
     Json passes = Json::array();
     for (const PassTime& pass : row.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
-    return {{"name", modeName(row.settings.path, row.settings.assign, row.transparency)},
+    return {{"name", modeName(row.settings.path, row.settings.assign, row.parts)},
             {"path", nameOf(row.settings.path)},
             {"assign", nameOf(row.settings.assign)},
             {"transparency", nameOf(row.settings.transparency)},
+            {"samples", row.settings.msaa},
             {"same_picture", !drawsAnotherPicture(row.settings.assign)},
             {"scene", row.scene},
             {"camera", row.camera},
@@ -45,7 +47,8 @@ Json jsonOf(const BenchRow& row) {
             {"bytes",
              {{"images", row.bytes.images},
               {"buffers", row.bytes.buffers},
-              {"gbuffer_per_pixel", row.bytes.gbuffer_per_pixel}}},
+              {"gbuffer_per_pixel", row.bytes.gbuffer_per_pixel},
+              {"picture_images", row.bytes.picture_images}}},
             {"counters",
              {{"nonfinite_pixels", row.counters.nonfinite_pixels},
               {"overflowed_lists", row.counters.overflowed_lists},
@@ -76,8 +79,8 @@ Json jsonOf(const KernelReport& kernels) {
 Json jsonOf(const Conclusion& c) {
     return {{"size", jsonOf(c.faster->settings.size)},
             {"lights", c.faster->counters.lights},
-            {"faster", modeName(c.faster->settings.path, c.faster->settings.assign, c.faster->transparency)},
-            {"slower", modeName(c.slower->settings.path, c.slower->settings.assign, c.slower->transparency)},
+            {"faster", modeName(c.faster->settings.path, c.faster->settings.assign, c.faster->parts)},
+            {"slower", modeName(c.slower->settings.path, c.slower->settings.assign, c.slower->parts)},
             {"ratio", c.ratio.median},
             {"interval", {c.ratio.low, c.ratio.high}},
             {"confidence", c.ratio.confidence},
@@ -106,6 +109,7 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
         {"max_ms", bench.options.max_ms},
         {"conclusions", conclusions},
         {"frames", rows},
+        {"msaa_tables", sampleTablesJson(bench)},
         {"skipped", skips},
         {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
         {"files", files}};

@@ -3,6 +3,7 @@
 #include "compare/page/text.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/renderer.h"
+#include "compare/render/sample_counts.h"
 
 #include <fmt/format.h>
 
@@ -22,19 +23,14 @@ constexpr int fewestProfiled = 3;
 // A first frame slower than this many times --max-ms is not drawn again, although drivers compile during it.
 constexpr double compiling = 4;
 
-// Named only where there are several.
-std::optional<Transparency> transparencyOf(const Bench& bench, const Settings& settings) {
-    if (bench.options.transparencies.size() < 2) return std::nullopt;
-    return settings.transparency;
-}
-
 BenchSkip skipOf(const Bench& bench, const Settings& settings, const BenchGroup& group, std::string reason) {
-    return {settings.path,    settings.assign, settings.size, group.lights, transparencyOf(bench, settings),
+    return {settings.path,    settings.assign, settings.size, group.lights, partsOf(bench.options, settings),
             std::move(reason)};
 }
 
 bool isMode(const Settings& a, const Settings& b) {
-    return a.path == b.path && a.assign == b.assign && a.size == b.size && a.transparency == b.transparency;
+    return a.path == b.path && a.assign == b.assign && a.size == b.size && a.transparency == b.transparency &&
+           a.msaa == b.msaa;
 }
 
 // Why the Settings need not be tried with so many lights, judging by the times with fewer; empty if they must
@@ -43,8 +39,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     if (!group.lights) return {};
     for (const BenchSkip& skip : bench.skips)
         if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
-            skip.transparency == transparencyOf(bench, settings) && skip.lights &&
-            *skip.lights < *group.lights)
+            skip.parts == partsOf(bench.options, settings) && skip.lights && *skip.lights < *group.lights)
             return fmt::format("over --max-ms {:.6g} with {} lights already", bench.options.max_ms,
                                *skip.lights);
     std::vector<std::pair<std::uint32_t, double>> measured;
@@ -55,6 +50,29 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     if (!predicted || *predicted <= bench.options.max_ms) return {};
     return fmt::format("would take {} ms by what {} and {} lights took; --max-ms {:.6g}", msText(*predicted),
                        measured[measured.size() - 2].first, measured.back().first, bench.options.max_ms);
+}
+
+// Why such a frame is another's, or none, on this device; empty where it is one of its own.
+std::string leftOut(const Settings& settings, const Requirements& needs, std::span<const int> samples) {
+    if (std::ranges::find(samples, settings.msaa) == samples.end())
+        return fmt::format("the device draws no {} samples a pixel", settings.msaa);
+    if (!needs.alpha_blend && settings.transparency != Transparency::off)
+        return "no surface of the scene blends";
+    return {};
+}
+
+// Of --table msaa what the scene has and the device draws; the others become skips.
+std::vector<Settings> tableRows(Device& device, const BenchGroup& group, const Requirements& needs,
+                                Bench& bench) {
+    if (bench.options.table != BenchTable::msaa) return group.settings;
+    const std::vector<int> samples = sampleCounts(device);
+    std::vector<Settings> rows;
+    for (const Settings& settings : group.settings)
+        if (std::string reason = leftOut(settings, needs, samples); reason.empty())
+            rows.push_back(settings);
+        else
+            bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
+    return rows;
 }
 
 }  // namespace
@@ -100,14 +118,16 @@ std::vector<Size> sizesOf(const Bench& bench) {
 
 void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
                   const Stage& progress) {
+    SceneViews views(scene);
+    const Requirements needs = views.at(viewRequest(group.settings.front())).needs;
     std::vector<Settings> tried;
-    for (const Settings& settings : group.settings)
+    for (const Settings& settings : tableRows(device, group, needs, bench))
         if (std::string reason = hopeless(bench, group, settings); reason.empty())
             tried.push_back(settings);
         else
             bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
     if (tried.empty()) return;
-    Renderer renderer(device, scene);
+    Renderer renderer(device, views);
     PreparedFrames frames = renderer.prepare(tried);
     const int profiled = std::max(bench.runs, fewestProfiled);
     const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);
@@ -115,7 +135,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
     const auto step = [&](std::size_t i, const std::string& what) {
         progress.at(
             done++ / steps,
-            fmt::format("{} {}", modeName(tried[i].path, tried[i].assign, transparencyOf(bench, tried[i])),
+            fmt::format("{} {}", modeName(tried[i].path, tried[i].assign, partsOf(bench.options, tried[i])),
                         what));
     };
     std::vector<std::size_t> timed;  // of `frames`
@@ -144,7 +164,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
                      frame.bytes,
                      frame.counters,
                      frame.notes,
-                     transparencyOf(bench, tried[i])};
+                     partsOf(bench.options, tried[i])};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
         frames.readCounters(i, row.counters);
         bench.rows.push_back(std::move(row));

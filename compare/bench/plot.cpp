@@ -18,7 +18,7 @@ constexpr double panel = 406, top = 60, bottom = 62;
 struct Series {
     Path path;
     Assignment assign;
-    std::optional<Transparency> transparency;
+    ModeParts parts;
     std::vector<const BenchRow*> rows;  // by lights, ascending
 };
 
@@ -27,13 +27,12 @@ std::vector<Series> seriesOf(const Bench& bench, const Size& size) {
     for (const BenchRow& row : bench.rows) {
         if (row.settings.size != size) continue;
         const auto known = std::ranges::find_if(all, [&](const Series& s) {
-            return s.path == row.settings.path && s.assign == row.settings.assign &&
-                   s.transparency == row.transparency;
+            return s.path == row.settings.path && s.assign == row.settings.assign && s.parts == row.parts;
         });
         if (known != all.end())
             known->rows.push_back(&row);
         else
-            all.push_back({row.settings.path, row.settings.assign, row.transparency, {&row}});
+            all.push_back({row.settings.path, row.settings.assign, row.parts, {&row}});
     }
     for (Series& series : all)
         std::ranges::stable_sort(series.rows, {}, [](const BenchRow* row) { return row->counters.lights; });
@@ -78,20 +77,19 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
         for (const BenchRow* r : series.rows) {
             const double px = x(static_cast<double>(r->counters.lights)), py = y(r->time.median);
             line += fmt::format("{}{} {}", line.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
-            marks +=
-                fmt::format("<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
-                            markup(fmt::format("{}, {} lights: {} ms ({} to {})",
-                                               modeLabel(series.path, series.assign, series.transparency),
-                                               r->counters.lights, msText(r->time.median),
-                                               msText(r->time.min), msText(r->time.max))),
-                            svgNumber(px), svgNumber(y(r->time.min)), svgNumber(y(r->time.max)),
-                            markAt(series.path, px, py));
+            marks += fmt::format(
+                "<g><title>{}</title><path class=\"bar\" d=\"M{} {}V{}\"/>{}</g>",
+                markup(fmt::format("{}, {} lights: {} ms ({} to {})",
+                                   modeLabel(series.path, series.assign, series.parts), r->counters.lights,
+                                   msText(r->time.median), msText(r->time.min), msText(r->time.max))),
+                svgNumber(px), svgNumber(y(r->time.min)), svgNumber(y(r->time.max)),
+                markAt(series.path, px, py));
         }
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));
         const auto [lx, ly] = legend.next();
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}", svgNumber(lx),
                                            svgNumber(ly), markAt(series.path, lx + 12, ly)) +
-                                   legend.words(modeLabel(series.path, series.assign, series.transparency)));
+                                   legend.words(modeLabel(series.path, series.assign, series.parts)));
     }
     return {out, legend.end()};
 }

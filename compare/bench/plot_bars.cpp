@@ -93,7 +93,7 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
                  "passes of a profiled frame, one after the other, ms");
     double y = above + headHeight + rowHeight - barHeight - 8;
     for (const BenchRow* row : rows) {
-        const std::string label = modeLabel(row->settings.path, row->settings.assign, row->transparency);
+        const std::string label = modeLabel(row->settings.path, row->settings.assign, row->parts);
         drawing.text("tick", plotLeft, y - 6, fmt::format("{}: {} ms", label, msText(row->time.median)));
         double from = 0;
         for (const PassTime& pass : row->passes) {

@@ -2,6 +2,7 @@
 // The benchmark on a terminal.
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
+#include "compare/bench/sample_table.h"
 
 #include <fmt/format.h>
 
@@ -19,12 +20,11 @@ std::string benchTable(const Bench& bench, std::size_t first) {
         std::string passes;
         for (const PassTime& pass : row.passes)
             passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
-        out += fmt::format("{:>8}  {:>9}  {:<12}  {:<12}  {:>8}  {:>8}  {:>8}  {:>9.3g}  {:>5.1f}%  {}\n",
-                           row.counters.lights,
-                           fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
-                           nameOf(row.settings.path), assignLabel(row.settings.assign, row.transparency),
-                           msText(row.time.median), msText(row.time.min), msText(row.time.max), assignMs(row),
-                           100 * assignShare(row), passes);
+        out += fmt::format(
+            "{:>8}  {:>9}  {:<12}  {:<12}  {:>8}  {:>8}  {:>8}  {:>9.3g}  {:>5.1f}%  {}\n",
+            row.counters.lights, fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
+            nameOf(row.settings.path), assignLabel(row.settings.assign, row.parts), msText(row.time.median),
+            msText(row.time.min), msText(row.time.max), assignMs(row), 100 * assignShare(row), passes);
     }
     return out;
 }
@@ -51,17 +51,18 @@ std::string benchEnd(const Bench& bench) {
     for (const BenchRow& row : bench.rows)
         if (row.counters.nonfinite_pixels > 0)
             out += fmt::format("{}, {} lights: {} pixels are not finite\n",
-                               modeName(row.settings.path, row.settings.assign, row.transparency),
+                               modeName(row.settings.path, row.settings.assign, row.parts),
                                row.counters.lights, row.counters.nonfinite_pixels);
     for (const BenchRow& row : bench.rows)
         if (row.counters.unsorted.fragments > 0)
-            out += fmt::format(
-                "{}, {} lights: {} blended fragments of {} pixels found no room in their list\n",
-                modeName(row.settings.path, row.settings.assign, row.transparency), row.counters.lights,
-                row.counters.unsorted.fragments, row.counters.unsorted.pixels);
+            out +=
+                fmt::format("{}, {} lights: {} blended fragments of {} pixels found no room in their list\n",
+                            modeName(row.settings.path, row.settings.assign, row.parts), row.counters.lights,
+                            row.counters.unsorted.fragments, row.counters.unsorted.pixels);
     if (bench.kernels) out += kernelTable(*bench.kernels);
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
+    if (bench.options.table == BenchTable::msaa) out += "\n" + sampleTablesText(bench);
     // Last, where it is read first.
     for (const Conclusion& conclusion : conclusionsOf(bench)) out += conclusion.inWords() + "\n";
     return out;

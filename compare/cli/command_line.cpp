@@ -173,7 +173,8 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
         throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", parsed.max_ms));
     if (parsed.kernels != "on" && parsed.kernels != "off" && parsed.kernels != "only")
         throw std::runtime_error(fmt::format("--kernels {}: takes on, off or only", parsed.kernels));
-    bench.kernels = parsed.kernels != "off";
+    bench.table = benchTableOf(parsed.bench_table);
+    bench.kernels = parsed.kernels != "off" && bench.table == BenchTable::modes;
     bench.frames = parsed.kernels != "only";
 }
 

@@ -244,6 +244,10 @@ void addReport(CLI::App& app, Options& options, ParsedOptions& parsed) {
 // What is timed; every list is separated by commas.
 void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("What is timed");
+    app.add_option("--table", parsed.bench_table,
+                   "every mode; or each path without blended surfaces and with them by samples a pixel, "
+                   "with its memory (modes)")
+        ->type_name("modes|msaa");
     app.add_option("--paths", parsed.bench_paths, "the paths (deferred,forward_plus)")->type_name("PATH,...");
     app.add_option("--assign", parsed.bench_assign, "the assignments (all that can be drawn)")
         ->type_name(acceptedValues("assign") + ",...");

@@ -32,8 +32,8 @@ struct ParsedOptions {
     std::vector<std::string> not_built;  // options that parse but cannot be done
     std::optional<int> frames;
     std::optional<double> fps;
-    std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, light_counts, kernels = "on",
-                                                                                            keep = "all";
+    std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, light_counts;
+    std::string bench_table = "modes", kernels = "on", keep = "all";
     double max_ms = 2000;
 };
 

@@ -82,6 +82,40 @@ TEST(Bench, KernelsAlone) {
     EXPECT_NE(ran.out.find("times the CPU's"), std::string::npos);
 }
 
+// Each number of samples that the device draws, without blended surfaces and, where there are some, with
+// them.
+TEST(Bench, BySamplesAPixel) {
+    const Folder folder;
+    const auto table = [&](const std::string& scene) {
+        const Ran ran = runTool(folder, "bench " + scene +
+                                            " --table msaa --paths forward_plus --size 33x17 --runs 1 "
+                                            "--shadows off --max-ms 1e6 -q --force -o b");
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        const Json bench = readJson(folder / "b/bench.json");
+        EXPECT_EQ(bench["msaa_tables"].size(), 1u);
+        return bench["msaa_tables"][0];
+    };
+    const Json glass = table("builtin:glass");
+    ASSERT_EQ(glass["rows"].size(), 2u);
+    EXPECT_EQ(glass["rows"][0]["transparency"], "off");
+    EXPECT_EQ(glass["rows"][1]["transparency"], "sorted");
+    EXPECT_EQ(glass["columns"][0], 1);
+    EXPECT_EQ(glass["columns"][1], 4);
+    for (const Json& row : glass["rows"])
+        for (const Json& cell : row["cells"]) {
+            const int samples = cell["samples"];
+            EXPECT_EQ(cell["bytes_per_pixel"], 4 * samples) << "depth";
+            // And light, with several samples of each and as one.
+            const int image = (4 + 16) * samples + (samples > 1 ? 16 : 0);
+            EXPECT_DOUBLE_EQ(cell["image_mib"].get<double>() * (1 << 20), 33.0 * 17 * image);
+            EXPECT_GT(cell["lighting_ms"].get<double>(), 0);
+            EXPECT_LE(cell["ms"]["min"], cell["ms"]["median"]);
+        }
+    const Json solid = table("builtin:triangle");
+    ASSERT_EQ(solid["rows"].size(), 1u) << "nothing blends";
+    EXPECT_EQ(solid["rows"][0]["cells"].size(), solid["columns"].size());
+}
+
 TEST(Bench, WhatItCannotDoIsNamed) {
     const Folder folder;
     EXPECT_TRUE(runTool(folder, "bench --runs 0").failedOver("--runs 0"));

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/sample_table.h"
+
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych::bench {
+namespace {
+
+constexpr double mebibyte = 1 << 20;
+// Of the paper's deferred renderer, bytes a sample; and the picture whose memory it states.
+constexpr std::uint64_t paperBytes = 32, paperPixels = 1920 * 1080;
+
+double mebibytes(std::uint64_t bytes) {
+    return static_cast<double>(bytes) / mebibyte;
+}
+
+bool isOf(const SampleTable& table, const BenchRow& row) {
+    return table.size == row.settings.size && table.scene == row.scene && table.lights == row.counters.lights;
+}
+
+SampleTable::Line& lineOf(SampleTable& table, const Settings& settings) {
+    const auto found = std::ranges::find_if(table.lines, [&](const SampleTable::Line& line) {
+        return line.path == settings.path && line.transparency == settings.transparency;
+    });
+    if (found != table.lines.end()) return *found;
+    return table.lines.emplace_back(SampleTable::Line{settings.path, settings.transparency, {}});
+}
+
+// "12.3 (12.1 to 14)"
+std::string timeInWords(const FrameTime& time) {
+    return fmt::format("{} ({} to {})", msText(time.median), msText(time.min), msText(time.max));
+}
+
+std::string title(const SampleTable& table) {
+    return fmt::format("{}, {}x{}, {} lights", table.scene, table.size.width, table.size.height,
+                       table.lights);
+}
+
+std::string columnName(int samples) {
+    return fmt::format("{} sample{}", samples, samples == 1 ? "" : "s");
+}
+
+// What each column of a cell is headed by, and says.
+struct CellPart {
+    const char* name;
+    int width;
+    std::string (*text)(const BenchRow&);
+};
+const CellPart cellParts[] = {
+    {"ms (least to most)", 24, [](const BenchRow& row) { return timeInWords(row.time); }},
+    {"lighting ms", 11, [](const BenchRow& row) { return fmt::format("{:.3g}", lightingMs(row)); }},
+    {"MiB", 7,
+     [](const BenchRow& row) { return fmt::format("{:.4g}", mebibytes(row.bytes.picture_images)); }},
+    {"B/pixel", 7, [](const BenchRow& row) { return fmt::format("{}", row.bytes.gbuffer_per_pixel); }},
+    {"B/sample", 8, [](const BenchRow& row) { return fmt::format("{}", bytesPerSample(row)); }}};
+
+constexpr int nameWidth = 32;
+
+}  // namespace
+
+std::string SampleTable::Line::name() const {
+    return transparency == Transparency::off
+               ? fmt::format("{}, opaque only", nameOf(path))
+               : fmt::format("{}, transparency {}", nameOf(path), nameOf(transparency));
+}
+
+std::vector<SampleTable> sampleTables(const Bench& bench) {
+    std::vector<SampleTable> tables;
+    if (bench.options.table != BenchTable::msaa) return tables;
+    for (const BenchRow& row : bench.rows) {
+        const bool known =
+            std::ranges::any_of(tables, [&](const SampleTable& table) { return isOf(table, row); });
+        if (!known) tables.push_back({row.settings.size, row.scene, row.counters.lights, {}, {}});
+    }
+    for (SampleTable& table : tables) {
+        for (const BenchRow& row : bench.rows)
+            if (isOf(table, row) && std::ranges::count(table.columns, row.settings.msaa) == 0)
+                table.columns.push_back(row.settings.msaa);
+        std::ranges::sort(table.columns);
+        for (const BenchRow& row : bench.rows) {
+            if (!isOf(table, row)) continue;
+            SampleTable::Line& line = lineOf(table, row.settings);
+            line.cells.resize(table.columns.size(), nullptr);
+            const auto column = std::ranges::find(table.columns, row.settings.msaa) - table.columns.begin();
+            line.cells[static_cast<std::size_t>(column)] = &row;
+        }
+    }
+    return tables;
+}
+
+double lightingMs(const BenchRow& row) {
+    double ms = 0;
+    for (const PassTime& pass : row.passes)
+        if (pass.name.starts_with("shade")) ms += pass.ms;
+    return ms;
+}
+
+std::uint64_t bytesPerSample(const BenchRow& row) {
+    return row.bytes.gbuffer_per_pixel / static_cast<std::uint64_t>(row.settings.msaa);
+}
+
+std::vector<std::string> memoryInWords(const SampleTable& table) {
+    std::vector<std::string> lines;
+    std::vector<Path> told;
+    for (const SampleTable::Line& line : table.lines) {
+        if (std::ranges::count(told, line.path) > 0) continue;
+        told.push_back(line.path);
+        std::vector<std::string> samples, bytes, ours, theirs;
+        for (const BenchRow* const row : line.cells) {
+            if (!row) continue;
+            const auto count = static_cast<std::uint64_t>(row->settings.msaa);
+            samples.push_back(fmt::format("{}", count));
+            bytes.push_back(fmt::format("{}", bytesPerSample(*row)));
+            ours.push_back(fmt::format("{:.0f}", mebibytes(row->bytes.gbuffer_per_pixel * paperPixels)));
+            theirs.push_back(fmt::format("{:.0f}", mebibytes(paperBytes * count * paperPixels)));
+        }
+        const std::string paper =
+            line.path == Path::deferred
+                ? fmt::format("; Billeter, Olsson and Assarsson's keeps {} B a sample, {} MiB", paperBytes,
+                              fmt::join(theirs, ", "))
+                : "";
+        lines.push_back(fmt::format("{} keeps {} B a sample of {} with {} a pixel: {} MiB at 1920x1080{}",
+                                    nameOf(line.path), fmt::join(bytes, ", "),
+                                    line.path == Path::deferred ? "G-buffer and depth" : "depth",
+                                    fmt::join(samples, ", "), fmt::join(ours, ", "), paper));
+    }
+    return lines;
+}
+
+std::string sampleTablesText(const Bench& bench) {
+    std::string out;
+    for (const SampleTable& table : sampleTables(bench)) {
+        out += fmt::format("{}\n{:<{}}", title(table), "", nameWidth);
+        int width = 0;
+        for (const CellPart& part : cellParts) width += part.width + 2;
+        for (const int samples : table.columns) out += fmt::format("{:^{}}", columnName(samples), width);
+        out += fmt::format("\n{:<{}}", "", nameWidth);
+        for (std::size_t column = 0; column < table.columns.size(); ++column)
+            for (const CellPart& part : cellParts) out += fmt::format("{:>{}}", part.name, part.width + 2);
+        for (const SampleTable::Line& line : table.lines) {
+            out += fmt::format("\n{:<{}}", line.name(), nameWidth);
+            for (const BenchRow* const row : line.cells)
+                for (const CellPart& part : cellParts)
+                    out += fmt::format("{:>{}}", row ? part.text(*row) : "-", part.width + 2);
+        }
+        out += "\n";
+        for (const std::string& words : memoryInWords(table)) out += words + "\n";
+    }
+    return out;
+}
+
+std::string sampleTablesHtml(const Bench& bench) {
+    std::string out;
+    for (const SampleTable& table : sampleTables(bench)) {
+        out += fmt::format(
+            "<h2>Samples a pixel: {}</h2>\n<div class=\"box scroll rows\"><table><thead><tr><th></th>",
+            page::markup(title(table)));
+        for (const int samples : table.columns)
+            out += fmt::format("<th class=\"n\" colspan=\"{}\">{}</th>", std::size(cellParts),
+                               columnName(samples));
+        out += "</tr><tr><th></th>";
+        for (std::size_t column = 0; column < table.columns.size(); ++column)
+            for (const CellPart& part : cellParts) out += fmt::format("<th class=\"n\">{}</th>", part.name);
+        out += "</tr></thead>\n<tbody>";
+        for (const SampleTable::Line& line : table.lines) {
+            out += fmt::format("<tr><td>{}</td>", page::markup(line.name()));
+            for (const BenchRow* const row : line.cells)
+                for (const CellPart& part : cellParts)
+                    out += fmt::format("<td class=\"n\">{}</td>", row ? page::markup(part.text(*row)) : "");
+            out += "</tr>\n";
+        }
+        out += "</tbody></table></div>\n";
+        for (const std::string& words : memoryInWords(table))
+            out += "<p class=\"soft\">" + page::markup(words) + "</p>\n";
+    }
+    return out;
+}
+
+nlohmann::ordered_json sampleTablesJson(const Bench& bench) {
+    using Json = nlohmann::ordered_json;
+    Json all = Json::array();
+    for (const SampleTable& table : sampleTables(bench)) {
+        Json lines = Json::array();
+        for (const SampleTable::Line& line : table.lines) {
+            Json cells = Json::array();
+            for (const BenchRow* const row : line.cells)
+                if (row)
+                    cells.push_back(
+                        {{"samples", row->settings.msaa},
+                         {"ms",
+                          {{"median", row->time.median}, {"min", row->time.min}, {"max", row->time.max}}},
+                         {"lighting_ms", lightingMs(*row)},
+                         {"image_mib", mebibytes(row->bytes.picture_images)},
+                         {"bytes_per_pixel", row->bytes.gbuffer_per_pixel},
+                         {"bytes_per_sample", bytesPerSample(*row)}});
+            lines.push_back({{"name", line.name()},
+                             {"path", nameOf(line.path)},
+                             {"transparency", nameOf(line.transparency)},
+                             {"cells", cells}});
+        }
+        all.push_back({{"scene", table.scene},
+                       {"size", {table.size.width, table.size.height}},
+                       {"lights", table.lights},
+                       {"columns", table.columns},
+                       {"rows", lines},
+                       {"memory", memoryInWords(table)}});
+    }
+    return all;
+}
+
+}  // namespace diptych::bench

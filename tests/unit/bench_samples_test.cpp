@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// The benchmark's table by samples a pixel, of made-up times.
+#include "compare/bench/conclusion.h"
+#include "compare/bench/sample_table.h"
+#include "compare/cli/command_line.h"
+#include "compare/render/sample_counts.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+using namespace bench;
+
+BenchOptions sampleOptions(std::vector<std::string> words = {}) {
+    words.insert(words.begin(), {"bench", "builtin:glass", "--table", "msaa"});
+    return cli::parseCommandLine(words).bench;
+}
+
+std::string refusal(const std::vector<std::string>& words) {
+    try {
+        makeBenchCases("builtin:glass", Settings(), sampleOptions(words));
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(BenchSamples, EachPathWithoutBlendedSurfacesAndWithThem) {
+    const BenchCases cases = makeBenchCases("builtin:glass", Settings(), sampleOptions());
+    ASSERT_EQ(cases.groups.size(), 1u);
+    std::set<std::tuple<Path, Transparency, int>> rows;
+    for (const Settings& s : cases.groups[0].settings) {
+        rows.insert({s.path, s.transparency, s.msaa});
+        EXPECT_EQ(s.assign, Settings().assign);
+    }
+    EXPECT_EQ(cases.groups[0].settings.size(), 12u);
+    EXPECT_EQ(rows.size(), 12u) << "2 paths, 2 of blending, 3 of samples";
+    EXPECT_TRUE(rows.contains({Path::deferred, Transparency::off, 8}));
+    Settings given;
+    given.transparency = Transparency::off;
+    EXPECT_EQ(makeBenchCases("builtin:glass", given, sampleOptions()).groups[0].settings.size(), 6u);
+    const BenchOptions one = sampleOptions({"--paths", "forward_plus", "--assign", "tiled"});
+    const BenchCases tiled = makeBenchCases("builtin:glass", Settings(), one);
+    EXPECT_EQ(tiled.groups[0].settings.size(), 6u);
+    for (const Settings& s : tiled.groups[0].settings) {
+        EXPECT_EQ(s.path, Path::forward_plus);
+        EXPECT_EQ(s.assign, Assignment::tiled);
+    }
+    EXPECT_FALSE(one.kernels);
+}
+
+// What several samples alone give a meaning is asked for once, and a pixel of one sample is drawn without.
+TEST(BenchSamples, WhatSamplesAreForIsLeftToThem) {
+    Settings given;
+    given.msaa_shading = MsaaShading::sample;
+    given.msaa_edges = MsaaEdges::all;
+    given.resolve = Resolve::tonemapped;
+    given.pixel_lights = 3;  // no meaning either, but not for want of samples
+    for (const int samples : {1, 4, 8}) {
+        const Settings sampled = withSamples(given, samples);
+        EXPECT_EQ(sampled.msaa, samples);
+        EXPECT_EQ(sampled.msaa_shading == MsaaShading::sample, samples > 1);
+        EXPECT_EQ(sampled.msaa_edges == MsaaEdges::all, samples > 1);
+        EXPECT_EQ(sampled.resolve == Resolve::tonemapped, samples > 1);
+        EXPECT_EQ(sampled.pixel_lights, 3);
+    }
+    given.pixel_lights = Settings().pixel_lights;
+    const BenchCases cases = makeBenchCases("builtin:glass", given, sampleOptions());
+    EXPECT_FALSE(cases.groups[0].settings.empty());
+    for (const Settings& s : cases.groups[0].settings)
+        EXPECT_EQ(s.msaa_shading == MsaaShading::sample, s.msaa > 1);
+}
+
+TEST(BenchSamples, WhatTheTableHasNoRowForIsRefused) {
+    EXPECT_TRUE(refusal({"--assign", "tiled,clustered"}).starts_with("--table msaa: is of one --assign"));
+    EXPECT_TRUE(refusal({"--transparencies", "sorted"}).starts_with("--transparencies: "));
+    EXPECT_TRUE(refusal({"--kernels", "only"}).starts_with("--kernels only: "));
+    EXPECT_TRUE(refusal({"--paths", "deferred", "--assign", "per_object"}).starts_with("nothing to time"));
+    EXPECT_EQ(refusal({}), "");
+    EXPECT_THROW(benchTableOf("aa"), std::runtime_error);
+}
+
+BenchRow sampledRow(Path path, Transparency transparency, int samples, double ms, std::uint64_t bytes) {
+    BenchRow made;
+    made.settings.path = path;
+    made.settings.transparency = transparency;
+    made.settings.msaa = samples;
+    made.settings.size = {64, 48};
+    made.scene = "builtin:glass";
+    made.counters.lights = 4;
+    made.time = {ms, ms - 1, ms + 2, 3};
+    made.ms = {ms, ms - 1, ms + 2};
+    made.passes = {{"shade earlier lights", 1}, {"assign lights", 10}, {"shade", ms / 2}};
+    made.bytes.gbuffer_per_pixel = bytes;
+    made.bytes.picture_images = (bytes + 16) * 64 * 48;
+    BenchOptions options;
+    options.table = BenchTable::msaa;
+    made.parts = partsOf(options, made.settings);
+    return made;
+}
+
+// Deferred with blending and 4 samples took too long.
+Bench sampledBench() {
+    Bench bench;
+    bench.scene = "builtin:glass";
+    bench.device = {"llvmpipe", "Mesa", "cpu"};
+    bench.runs = 3;
+    bench.options.table = BenchTable::msaa;
+    for (const int samples : {1, 4}) {
+        const auto n = static_cast<std::uint64_t>(samples);
+        for (const Transparency transparency : {Transparency::off, Transparency::sorted}) {
+            const double ms = 10 * samples + (transparency == Transparency::off ? 0 : 5);
+            if (samples == 1 || transparency == Transparency::off)
+                bench.rows.push_back(sampledRow(Path::deferred, transparency, samples, 2 * ms, 32 * n));
+            bench.rows.push_back(sampledRow(Path::forward_plus, transparency, samples, ms, 4 * n));
+        }
+    }
+    return bench;
+}
+
+TEST(BenchSamples, LinesArePathsAndColumnsSamples) {
+    const Bench bench = sampledBench();
+    const std::vector<SampleTable> tables = sampleTables(bench);
+    ASSERT_EQ(tables.size(), 1u);
+    const SampleTable& table = tables[0];
+    EXPECT_EQ(table.columns, (std::vector{1, 4}));
+    ASSERT_EQ(table.lines.size(), 4u);
+    EXPECT_EQ(table.lines[0].name(), "deferred, opaque only");
+    EXPECT_EQ(table.lines[3].name(), "forward_plus, transparency sorted");
+    EXPECT_EQ(table.lines[1].cells[1]->time.median, 40);
+    EXPECT_EQ(table.lines[2].name(), "deferred, transparency sorted");
+    EXPECT_EQ(table.lines[2].cells, (std::vector<const BenchRow*>{&bench.rows[2], nullptr}));
+    EXPECT_EQ(lightingMs(*table.lines[1].cells[1]), 1 + 20.0);
+    EXPECT_EQ(bytesPerSample(*table.lines[0].cells[1]), 32u);
+    Bench modes = bench;
+    modes.options.table = BenchTable::modes;
+    EXPECT_TRUE(sampleTables(modes).empty());
+    EXPECT_EQ(sampleTablesText(modes), "");
+}
+
+// 32 bytes a sample are what the paper states: 63, 253 and 506 MiB at 1920x1080.
+TEST(BenchSamples, MemoryStandsBesideThePapers) {
+    const std::vector<std::string> words = memoryInWords(sampleTables(sampledBench())[0]);
+    ASSERT_EQ(words.size(), 2u);
+    EXPECT_EQ(words[0],
+              "deferred keeps 32, 32 B a sample of G-buffer and depth with 1, 4 a pixel: 63, 253 MiB at "
+              "1920x1080; Billeter, Olsson and Assarsson's keeps 32 B a sample, 63, 253 MiB");
+    EXPECT_EQ(words[1],
+              "forward_plus keeps 4, 4 B a sample of depth with 1, 4 a pixel: 8, 32 MiB at 1920x1080");
+    Bench eight;
+    eight.options.table = BenchTable::msaa;
+    eight.rows = {sampledRow(Path::deferred, Transparency::off, 8, 9, 8 * 32)};
+    EXPECT_NE(memoryInWords(sampleTables(eight)[0])[0].find("506 MiB at 1920x1080"), std::string::npos);
+}
+
+TEST(BenchSamples, TextPageAndJsonHaveTheTable) {
+    const Bench bench = sampledBench();
+    const std::string text = benchEnd(bench), page = benchHtml(bench);
+    for (const char* words : {"deferred, opaque only", "40 (39 to 42)", "4 samples", "B/sample"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+    }
+    const auto json = nlohmann::json::parse(benchJson(bench, {}));
+    const auto& table = json["msaa_tables"][0];
+    EXPECT_EQ(table["columns"], (nlohmann::json{1, 4}));
+    EXPECT_EQ(table["rows"][1]["name"], "forward_plus, opaque only");
+    const auto& cell = table["rows"][1]["cells"][1];
+    EXPECT_EQ(cell["samples"], 4);
+    EXPECT_EQ(cell["ms"]["median"], 40.0);
+    EXPECT_EQ(cell["bytes_per_pixel"], 16);
+    EXPECT_EQ(cell["bytes_per_sample"], 4);
+    EXPECT_DOUBLE_EQ(cell["image_mib"].get<double>(), 32.0 * 64 * 48 / (1 << 20));
+    EXPECT_EQ(table["rows"][2]["cells"].size(), 1u);
+    EXPECT_EQ(json["frames"][3]["name"], "forward_plus, clustered, sorted, 1 sample");
+}
+
+// Times of other samples are of another picture.
+TEST(BenchSamples, ConclusionsCompareOneNumberOfSamples) {
+    const Bench bench = sampledBench();
+    const std::vector<Conclusion> all = conclusionsOf(bench);
+    ASSERT_EQ(all.size(), 3u);
+    for (const Conclusion& c : all) {
+        EXPECT_EQ(c.faster->settings.msaa, c.slower->settings.msaa);
+        EXPECT_EQ(c.faster->settings.transparency, c.slower->settings.transparency);
+        EXPECT_EQ(c.faster->settings.path, Path::forward_plus);
+    }
+    EXPECT_NE(all[2].inWords().find("forward_plus (clustered, off, 4 samples)"), std::string::npos)
+        << all[2].inWords();
+}
+
+}  // namespace
+}  // namespace diptych
