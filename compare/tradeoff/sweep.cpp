@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 namespace diptych::tradeoff {
 namespace {
@@ -47,6 +48,11 @@ bool isCrossedWithEach(std::string_view option) {
                                [&](const SweepPair& pair) { return pair.b == each && pair.a == option; });
 }
 
+// What specular anti-aliasing is told.
+auto filterOf(const Settings& s) {
+    return std::tuple(s.spec_aa, s.spec_aa_variance, s.spec_aa_limit, s.spec_aa_normals);
+}
+
 class SweepBuilder {
 public:
     explicit SweepBuilder(const Settings& given) : given_(given) {}
@@ -65,6 +71,10 @@ public:
             return skip(tried,
                         "is tried where the command line asks for light between microfacets: give "
                         "--multiscatter energy");
+        // Against the surfaces that one sample a pixel shows, what is filtered is an error and nothing else.
+        if (given_.reference_mode == ReferenceMode::surface && filterOf(requested) != filterOf(given_))
+            return skip(tried,
+                        "is tried against samples of the scene: give --reference-mode scene and --spp");
         const Settings row = effectiveSettings(requested);
         if (row.msaa > 1 && row.resolve != given_.resolve)
             return skip(tried,

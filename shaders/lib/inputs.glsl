@@ -86,6 +86,15 @@ vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
 #define shaded_irradiance_behind v_irradiance_behind
 #endif
 
+// Inputs at the pixel's middle, for differences from pixel to pixel. With several samples lavapipe has them
+// 0.625 pixels off where no offset is said, and half a pixel with one of 0: at every pixel alike.
+#define AT_MIDDLE(name) (multisampled() ? interpolateAtOffset(name, vec2(0.0)) : name)
+#define middle_normal AT_MIDDLE(v_normal)
+#if INPUTS >= 2
+#define middle_texcoord AT_MIDDLE(v_texcoord)
+#define middle_tangent AT_MIDDLE(v_tangent)
+#endif
+
 // In pixels, like gl_FragCoord.xy, and the reversed depth there. gl_FragCoord is at the pixel's middle, or at
 // the sample where each has a fragment of its own; depth is linear over a triangle.
 vec2 shadedPixel() {

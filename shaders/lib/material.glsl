@@ -10,6 +10,7 @@
 #include "shaders/lib/material_factors.glsl"
 #include "shaders/lib/object_lights.glsl"
 #include "shaders/lib/position.glsl"
+#include "shaders/lib/specular_aa.glsl"
 #include "shaders/lib/surface.glsl"
 
 layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
@@ -70,11 +71,14 @@ vec3 triangleNormal(vec3 towards) {
     return dot(unit, towards) < 0.0 ? -unit : unit;
 }
 
-// In tangent space, scaled, not of unit length.
-vec3 mappedNormal() {
-    vec3 t = slotTexel(normal_texture, SLOT_normal).xyz * 2.0 - 1.0;
-    t.xy *= material.normal_scale;
+// Of a texel: in tangent space, scaled, not of unit length.
+vec3 mappedNormal(vec4 texel, float scale) {
+    vec3 t = texel.xyz * 2.0 - 1.0;
+    t.xy *= scale;
     return t;
+}
+vec3 mappedNormal() {
+    return mappedNormal(slotTexel(normal_texture, SLOT_normal), material.normal_scale);
 }
 
 // `v` as a unit vector, or 0 where it has no direction.
@@ -83,22 +87,54 @@ vec3 directionOf(vec3 v) {
     return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
 }
 
-// glTF 2.0: tangent space is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as MikkTSpace
-// defines it; on the back face of a double-sided material the result is negated. `triangle`, the triangle's
-// normal, replaces a normal that vanished, flattened by the node's scale or by interpolation; only variants
-// where that can happen check for it.
+// `t` of tangent space, which is (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as
+// MikkTSpace defines it (glTF 2.0).
+vec3 fromTangentSpace(vec3 t, vec3 n, vec4 tangent) {
+    vec3 bitangent = tangent.w * crossProduct(n, tangent.xyz);
+    return t.x * tangent.xyz + t.y * bitangent + t.z * n;
+}
+
+// On the back face of a double-sided material the result is negated. `triangle`, the triangle's normal,
+// replaces a normal that vanished, flattened by the node's scale or by interpolation; only variants where
+// that can happen check for it.
 vec3 shadingNormal(vec3 triangle) {
     vec3 n = shaded_normal;
-    if (on(feature_normal_texture)) {
-        vec3 t = mappedNormal();
-        vec4 tangent = shaded_tangent;
-        vec3 bitangent = tangent.w * crossProduct(n, tangent.xyz);
-        n = t.x * tangent.xyz + t.y * bitangent + t.z * n;
-    }
+    if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
     float length2 = dot(n, n);
     if (on(feature_vanishing_normals) && !(length2 > 0.0)) return triangle;
     vec3 unit = n * inversesqrt(length2);
     return on(feature_double_sided) && !gl_FrontFacing ? -unit : unit;
+}
+
+// The value in the pixels of a quad that the triangle covers, in all four. The others, whose differences make
+// derivatives, read 0 from the material buffer on lavapipe: there it is taken from a neighbour.
+float overQuad(float value) {
+    uvec2 odd = uvec2(gl_FragCoord.xy) & 1u;
+    float dx = dFdxFine(value);
+    float in_row = value != 0.0 ? value : (odd.x != 0 ? -dx : dx);
+    float dy = dFdyFine(in_row);
+    return in_row != 0.0 ? in_row : (odd.y != 0 ? -dy : dy);
+}
+
+// Specular anti-aliasing by what the normal does from pixel to pixel: at their middles, because the places
+// where they are shaded are not a pixel apart. Which face is seen makes no difference to its changes.
+float filteredRoughness(float roughness) {
+    vec3 n = middle_normal;
+#if INPUTS >= 2
+    if (feature_specular_aa == SPECULAR_AA_MAPPED && on(feature_normal_texture)) {
+        vec2 at = middle_texcoord;
+#if INPUTS >= 3
+        if (on(feature_texture_transform) || on(feature_second_texcoord))
+            at = AT_MIDDLE(v_slot_texcoords[SLOT_normal]);
+#endif
+        float scale = overQuad(material.normal_scale);
+        n = fromTangentSpace(mappedNormal(texture(normal_texture, at), scale), n, middle_tangent);
+    }
+#endif
+    vec3 unit = directionOf(n);
+    float w = gl_FragCoord.w;
+    float rounded = roundedChange(w, gl_FragCoord.xy, dFdxFine(w), dFdyFine(w));
+    return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded);
 }
 
 Surface surfaceFromMaterial(vec4 base_color) {
@@ -144,6 +180,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
         s.roughness *= texel.g;
         s.metallic *= texel.b;
     }
+    if (on(feature_specular_aa)) s.roughness = filteredRoughness(s.roughness);
     s.occlusion = 1.0;
     if (on(feature_occlusion_texture)) {
         float texel = slotTexel(occlusion_texture, SLOT_occlusion).r;

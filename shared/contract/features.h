@@ -106,7 +106,11 @@
     /* an alpha mask covers as many samples as its alpha */                                                 \
     X(59, alpha_to_coverage,          frame,   0, PASSES_DRAW)                                              \
     /* the mean of a pixel's samples is weighted by what a tone curve leaves of them */                     \
-    X(60, tonemapped_resolve,         frame,   0, PASS_SAMPLES)
+    X(60, tonemapped_resolve,         frame,   0, PASS_SAMPLES)                                             \
+    /* SPECULAR_AA_* of material.h, and the two numbers of shaders/lib/specular_aa.glsl, bits of float32 */  \
+    X(61, specular_aa,                frame,   0, PASSES_SURFACE)                                           \
+    X(62, specular_aa_variance,       frame,   0, PASSES_SURFACE)                                           \
+    X(63, specular_aa_limit,          frame,   0, PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

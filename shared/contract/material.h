@@ -33,6 +33,11 @@ CONTRACT_CONST(uint, BINDING_MATERIAL, SLOT_COUNT);  // of SET_MATERIAL, after t
 CONTRACT_CONST(uint, TRANSMISSION_COVERED, 1);
 CONTRACT_CONST(uint, TRANSMISSION_WHOLE, 2);
 
+// Whose changes from pixel to pixel FEATURE_specular_aa filters: the interpolated normal's, or those of the
+// normal that a normal map has turned.
+CONTRACT_CONST(uint, SPECULAR_AA_GEOMETRY, 1);
+CONTRACT_CONST(uint, SPECULAR_AA_MAPPED, 2);
+
 // KHR_texture_transform of one slot: uv' = (dot(u.xy, uv) + u.z, dot(v.xy, uv) + v.z).
 struct TextureTransform {
     vec3 u;

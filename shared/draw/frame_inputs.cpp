@@ -2,7 +2,10 @@
 #include "shared/draw/frame_inputs.h"
 
 #include "shared/contract/gbuffer.h"
+#include "shared/contract/material.h"
 #include "shared/contract/multiscatter.h"
+
+#include <bit>
 
 namespace diptych {
 namespace {
@@ -18,6 +21,19 @@ gpu::uint multiscatterOf(Multiscatter multiscatter) {
             return gpu::MULTISCATTER_FDEZ;
     }
     return gpu::MULTISCATTER_OFF;
+}
+
+// Numbers that shaders take as specialization constants, which are integers.
+gpu::uint bitsOf(float value) {
+    return std::bit_cast<gpu::uint>(value);
+}
+
+void addSpecularAa(Variant& variant, const Settings& settings) {
+    if (!settings.spec_aa) return;
+    const bool mapped = settings.spec_aa_normals == SpecularNormals::mapped;
+    variant.set(gpu::FEATURE_specular_aa, mapped ? gpu::SPECULAR_AA_MAPPED : gpu::SPECULAR_AA_GEOMETRY)
+        .set(gpu::FEATURE_specular_aa_variance, bitsOf(settings.spec_aa_variance))
+        .set(gpu::FEATURE_specular_aa_limit, bitsOf(settings.spec_aa_limit));
 }
 
 }  // namespace
@@ -50,6 +66,7 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_samples, settings.msaa > 1 ? static_cast<gpu::uint>(settings.msaa) : 0)
         .set(gpu::FEATURE_tonemapped_resolve, settings.resolve == Resolve::tonemapped)
         .set(gpu::FEATURE_orthographic, view.camera.orthographic);
+    addSpecularAa(variant, settings);
     gbuffer.specialise(variant);
     return variant;
 }

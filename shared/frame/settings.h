@@ -220,6 +220,9 @@ inline bool hasReferenceSamples(const Settings& s) {
 }
 inline constexpr std::string_view needs_spec_aa = "has no meaning without --spec-aa on";
 inline constexpr std::string_view unfiltered = "the reference takes samples where a roughness is filtered";
+constexpr bool shadesCaptures(const Settings& s) {
+    return s.reference_mode == ReferenceMode::surface;
+}
 inline bool hasSpecAa(const Settings& s) {
     return s.spec_aa;
 }
@@ -604,8 +607,7 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "spec-aa",
                 .help = "specular anti-aliasing: roughness that grows with what the normal does in a pixel",
                 .off = "off",
-                .default_only = {row::not_built},
-                .ignored = {.reference = row::unfiltered},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
                 .sweep = "on"},
           &Settings::spec_aa);
     visit(Field{.option = "spec-aa-variance",
@@ -615,7 +617,7 @@ void Settings::rows(Visit&& visit) {
                               return s.spec_aa_variance >= 0 && s.spec_aa_variance <= 100;
                           }},
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
-                .ignored = {.reference = row::unfiltered},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
                 .sweep = "0.05,0.5",
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_variance);
@@ -624,14 +626,14 @@ void Settings::rows(Visit&& visit) {
                 .valid = {"is 0 to 1",
                           [](const Settings& s) { return s.spec_aa_limit >= 0 && s.spec_aa_limit <= 1; }},
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
-                .ignored = {.reference = row::unfiltered},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
                 .sweep = "0.5",
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_limit);
     visit(Field{.option = "spec-aa-normals",
                 .help = "whose changes are filtered: the interpolated normal, or the normal map's too",
                 .default_only = {row::needs_spec_aa, row::hasSpecAa},
-                .ignored = {.reference = row::unfiltered},
+                .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures},
                 .sweep = "mapped",
                 .sweep_with = "spec-aa"},
           &Settings::spec_aa_normals);

@@ -419,7 +419,11 @@ TEST(CommandLine, HelpShowsTheSettingsThatTheCommandCanDraw) {
                                    "msaa",
                                    "msaa-shading",
                                    "msaa-edges",
-                                   "resolve"})
+                                   "resolve",
+                                   "spec-aa",
+                                   "spec-aa-variance",
+                                   "spec-aa-limit",
+                                   "spec-aa-normals"})
             EXPECT_TRUE(shows(command, option)) << command << " " << option;
     }
     for (const char* option : {"env", "ibl-intensity", "shadows", "time", "animation", "gbuffer", "spp"})

@@ -230,7 +230,9 @@ TEST(Settings, TheReferenceFollowsWhatItsRowsSayAndNothingElse) {
             SCOPED_TRACE(std::string(field.option) + " " + value);
             Settings changed;
             changed.set(field.option, value);
-            const bool follows = field.option != "path" && field.ignored.reference.empty() &&
+            Settings told = changed;
+            told.path = Path::reference;
+            const bool follows = field.option != "path" && ignoredBecause(told, field.option).empty() &&
                                  (field.one_for_reference.empty() ||
                                   (value == field.off) != (Settings().valueOf(field.option) == field.off));
             EXPECT_EQ(referenceSettings(changed) == reference, !follows);
@@ -257,8 +259,26 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.lights = asked.lights;
     expected.shadows = Shadows::off;
     expected.seed = asked.seed;
+    expected.spec_aa = true;
+    expected.spec_aa_variance = asked.spec_aa_variance;
+    expected.spec_aa_limit = asked.spec_aa_limit;
+    expected.spec_aa_normals = asked.spec_aa_normals;
     EXPECT_EQ(surfaceSettings(asked), expected);
     EXPECT_EQ(surfaceSettings(asked).problem().value_or("none"), "none");
+}
+
+// Surfaces are captured as both paths make them; samples of the scene need no filter.
+TEST(Settings, TheReferenceFollowsTheFilterOfRoughnessWhereItShadesCaptures) {
+    Settings asked;
+    asked.spec_aa = true;
+    asked.spec_aa_variance = 0.5f;
+    EXPECT_EQ(referenceSettings(asked).spec_aa_variance, 0.5f);
+    EXPECT_TRUE(surfaceSettings(asked).spec_aa);
+    asked.reference_mode = ReferenceMode::scene;
+    EXPECT_FALSE(referenceSettings(asked).spec_aa);
+    EXPECT_EQ(referenceSettings(asked).spec_aa_variance, Settings().spec_aa_variance);
+    asked.path = Path::reference;
+    EXPECT_EQ(ignoredBecause(asked, "spec-aa"), "the reference takes samples where a roughness is filtered");
 }
 
 TEST(Settings, AbsentKeysKeepTheBase) {
@@ -414,6 +434,11 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         {"evsm-min-variance", "0.1"},
         {"msaa", "4"},
         {"msaa", "2"},
+        {"spec-aa-variance", "0.5"},
+        {"spec-aa-variance", "-1"},
+        {"spec-aa-limit", "0.5"},
+        {"spec-aa-limit", "1.5"},
+        {"spec-aa-normals", "mapped"},
         {"haze-density", "2"},
         {"haze-density", "-1"},
         {"haze-density", "2000000"},

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace diptych {
 
@@ -250,6 +251,24 @@ TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
     const SweepRows asked = usualSweep(given);
     EXPECT_EQ(tried(asked), (std::set{0, 8, 32}));
     EXPECT_GT(truthFor(given, asked.rows).haze_march_steps, 0);
+}
+
+// Against one sample a pixel, filtered roughness is an error whatever it is good for.
+TEST(TradeoffSpecularAa, IsSweptAgainstSamplesOfTheSceneAlone) {
+    const auto tried = [](const SweepRows& sweep) {
+        std::set<std::pair<bool, SpecularNormals>> values;
+        for (const Settings& row : sweep.rows) values.emplace(row.spec_aa, row.spec_aa_normals);
+        return values;
+    };
+    using enum SpecularNormals;
+    Settings given;
+    EXPECT_EQ(tried(usualSweep(given)), (std::set{std::pair(false, geometry)}));
+    given.spec_aa = true;
+    EXPECT_EQ(tried(usualSweep(given)), (std::set{std::pair(true, geometry)}));
+    given.spec_aa = false;
+    given.reference_mode = ReferenceMode::scene;
+    EXPECT_EQ(tried(usualSweep(given)),
+              (std::set{std::pair(false, geometry), std::pair(true, geometry), std::pair(true, mapped)}));
 }
 
 }  // namespace
