@@ -44,9 +44,10 @@ Variant lightingVariant(const FrameInputs& inputs) {
     return variant;
 }
 
-// A full-screen pass over the G-buffer. Its triangle lies at the smallest depth that can be drawn, so a depth
-// test of LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded. With several samples
-// a pixel the depth is that of addGroups(), and there is a triangle for each group that a pixel may have.
+// A full-screen pass over the G-buffer. Its triangle lies at the smallest depth that can be drawn, so a
+// depth test of LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded. With
+// several samples a pixel the depth is that of addGroups(), and there is a triangle for each group that a
+// pixel may have.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                          Shader fragment, Variant variant, const std::vector<VkFormat>& colors,
                          const LightBatch& batch) {
@@ -66,8 +67,7 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
                                                                  .depth_write = false,
                                                                  .samples = inputs.samples});
-    pass.record(
-        recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, inputs.samples));
+    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, inputs.samples));
 }
 
 gpu::uint edgesOf(MsaaEdges edges) {
@@ -84,14 +84,11 @@ gpu::uint edgesOf(MsaaEdges edges) {
     return gpu::EDGES_EXACT;
 }
 
-// What lighting reads of a frame: its G-buffer and depth; with several samples a pixel in the depth's place which
-// samples are shaded as one.
-FrameImages addGroups(PassList& passes, const FrameInputs& inputs, const FrameImages& frame, Life life) {
-    if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return frame;
-    FrameImages grouped = frame;
-    grouped.depth = passes.image(
-        {.name = "groups of samples", .format = depthFormat, .samples = inputs.samples, .life = life});
-    Pass& pass = passes.draw("group samples").depth(grouped.depth, Load::clear);
+// Which samples of a pixel are shaded as one.
+void addGroups(PassList& passes, const FrameInputs& inputs, FrameImages& frame) {
+    if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return;
+    frame.groups = sampledImage(passes, inputs, "groups of samples", depthFormat);
+    Pass& pass = passes.draw("group samples").depth(frame.groups, Load::clear);
     for (const ImageRef image : frame.gbuffer)
         if (image.valid()) pass.samples(image, inFragment);
     pass.samples(frame.depth, inFragment);
@@ -106,7 +103,14 @@ FrameImages addGroups(PassList& passes, const FrameInputs& inputs, const FrameIm
                                                                  .depth_write = true,
                                                                  .samples = inputs.samples});
     pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), {}));
-    return grouped;
+}
+
+// What lighting reads of a frame: its G-buffer and depth, or with several samples a pixel in the depth's
+// place which of them are shaded as one.
+FrameImages forLighting(const FrameImages& frame) {
+    FrameImages read = frame;
+    if (frame.groups.valid()) read.depth = frame.groups;
+    return read;
 }
 
 // Draws the scene into the depth and the attachments. `captured`: with what only channels need.
@@ -139,7 +143,8 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     }
     addGBuffer(passes, inputs, images, false);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
-    const FrameImages shaded = addGroups(passes, inputs, images, Life::kept);
+    addGroups(passes, inputs, images);
+    const FrameImages shaded = forLighting(images);
     const LightBatch last = addEarlierLighting(passes, inputs, shaded);
     const ImageRef lit = sampledImage(passes, inputs, "lit", litFormat);
     Pass& shade = passes.draw("shade").color(lit, Load::clear);
@@ -159,7 +164,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     if (std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
         request.modes.end())
         addGBuffer(passes, inputs, frame, true);
-    const FrameImages shaded = addGroups(passes, inputs, frame, Life::kept);
+    const FrameImages shaded = forLighting(frame);
     const LightBatch last = addEarlierLighting(passes, inputs, shaded);
     for (const CaptureGroup& group : captureGroups(request.modes, mostCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);

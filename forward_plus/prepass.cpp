@@ -67,7 +67,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
     const Queries queries(inputs.device);
-    const ImageRef depth = passes.image("depth", depthFormat);
+    const ImageRef depth = sampledImage(passes, inputs, "depth", depthFormat);
     const auto draws = recordDraws(inputs, depthKey);
     inputs.posing.read(passes, passes.draw("count fragments"))
         .depth(depth, Load::clear)
@@ -84,16 +84,17 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
                                                                  .colors = {},
                                                                  .depth = depthFormat,
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                                                 .depth_write = false});
+                                                                 .depth_write = false,
+                                                                 .samples = inputs.samples});
     passes.draw("count pixels").depthTest(depth).record([&](VkCommandBuffer commands) {
         queries.begin(commands, 1);
         recordTriangle(commands, pipeline);
         queries.end(commands, 1);
     });
     passes.run();
-    const auto [fragments, covered] = queries.results();
-    overdraw.fragments = fragments * part * part;
-    overdraw.covered = covered * part * part;
+    const auto [fragments, covered] = queries.results();  // in samples
+    overdraw.fragments = fragments * part * part / inputs.samples;
+    overdraw.covered = covered * part * part / inputs.samples;
     return overdraw;
 }
 

@@ -7,27 +7,16 @@
 #include <string>
 
 namespace diptych {
-namespace {
-
-VkSampleCountFlags countsOf(const Device& device, VkFormat format) {
-    const VkImageUsageFlags target = format == depthFormat ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                                           : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    VkImageFormatProperties properties{};
-    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
-        device.physical(), format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL,
-        target | VK_IMAGE_USAGE_SAMPLED_BIT, 0, &properties);
-    return result == VK_SUCCESS ? properties.sampleCounts : VkSampleCountFlags{VK_SAMPLE_COUNT_1_BIT};
-}
-
-}  // namespace
-
 std::vector<int> sampleCounts(const Device& device) {
     std::vector<int> counts{1};
     VkSampleCountFlags all = ~VkSampleCountFlags{0};
     // Of the G-buffer's words whatever its encoding.
     for (const VkFormat format :
          {litFormat, depthFormat, VK_FORMAT_R32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32G32B32A32_UINT})
-        all &= countsOf(device, format);
+        all &= device.sampleCounts(
+            format,
+            VK_IMAGE_USAGE_SAMPLED_BIT | (format == depthFormat ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                                : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT));
     for (const int samples : {4, 8})
         if ((all & static_cast<VkSampleCountFlags>(samples)) != 0) counts.push_back(samples);
     return counts;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The Surface that deferred lighting shades at a fragment. With several samples a pixel (SAMPLES) a draw shades one
-// group of samples of each pixel, its number in the push constants, and covers these samples alone: SET_GBUFFER's
-// depth is then the image of groups, which the draw is tested against.
+// The Surface that deferred lighting shades at a fragment. With several samples a pixel (SAMPLES) a draw
+// shades one group of samples of each pixel, its number in the push constants, and covers these samples
+// alone: SET_GBUFFER's depth is then the image of groups, which the draw is tested against.
 #ifndef DEFERRED_GLSL
 #define DEFERRED_GLSL
 

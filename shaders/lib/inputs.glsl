@@ -58,8 +58,9 @@ UNREAD(vec3, v_irradiance_behind)
 #ifdef STAGE_frag
 // From the pixel's middle.
 vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
-// Inputs where the fragment is shaded, and at the pixel's middle. With several samples an input is never read but
-// at an offset: Mesa 22.3 gives a plain read that follows one at an offset what that one got.
+// Inputs where the fragment is shaded, and at the pixel's middle, for differences from pixel to pixel. With
+// several samples an input is never read but at an offset: Mesa 22.3 gives a plain read that follows one at
+// an offset what that one got.
 #define SHADED(name) (multisampled() ? interpolateAtOffset(name, shadedOffset()) : name)
 #define MIDDLE(name) (multisampled() ? interpolateAtOffset(name, vec2(0.0)) : name)
 #define shaded_normal SHADED(v_normal)
@@ -73,6 +74,7 @@ vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
 #endif
 #if INPUTS >= 2
 #define shaded_tangent SHADED(v_tangent)
+#define middle_tangent MIDDLE(v_tangent)
 #else
 #define shaded_tangent v_tangent
 #endif
@@ -84,15 +86,6 @@ vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
 #define shaded_color v_color
 #define shaded_irradiance v_irradiance
 #define shaded_irradiance_behind v_irradiance_behind
-#endif
-
-// Inputs at the pixel's middle, for differences from pixel to pixel. With several samples lavapipe has them
-// 0.625 pixels off where no offset is said, and half a pixel with one of 0: at every pixel alike.
-#define AT_MIDDLE(name) (multisampled() ? interpolateAtOffset(name, vec2(0.0)) : name)
-#define middle_normal AT_MIDDLE(v_normal)
-#if INPUTS >= 2
-#define middle_texcoord AT_MIDDLE(v_texcoord)
-#define middle_tangent AT_MIDDLE(v_tangent)
 #endif
 
 // In pixels, like gl_FragCoord.xy, and the reversed depth there. gl_FragCoord is at the pixel's middle, or at

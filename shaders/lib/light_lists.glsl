@@ -54,9 +54,9 @@ struct PixelLights {
     LightListHead packets;
 };
 
-// The list of a pixel at a view depth, m. With several samples a pixel a triangle that is hidden in some of them
-// may be shaded farther away than the farthest surface that is seen in the tile: there the list is that of all
-// lights, which follows the tiles' ones.
+// The list of a pixel at a view depth, m. With several samples a pixel a triangle that is hidden in some of
+// them may be shaded farther away than the farthest surface that is seen in the tile: there the list is that
+// of all lights, which follows the tiles' ones.
 uint listAt(vec2 pixel, float depth) {
     uint list = cellOf(pixel, depth);
     if (feature_light_lists == LISTS_TILED && feature_samples > 1) {
@@ -92,7 +92,8 @@ uint lightCount(PixelLights lights) {
 bool listOverflowed(PixelLights lights) {
     bool tooFar = feature_light_lists == LISTS_TILED && feature_samples > 1 &&
                   lights.list == grid.tiles.x * grid.tiles.y;
-    return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u && !tooFar;
+    return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u &&
+           !tooFar;
 }
 
 // Of the packets [begin, end) of a list those that this draw walks: all of them, or those of its light batch.

@@ -34,13 +34,16 @@ vec2 slotTexcoord(uint slot) {
 
 // A slot's texture. With several samples a pixel the mip level is that of coordinates at the pixel's middle:
 // where they are shaded, neighbouring pixels are not a pixel apart.
+vec2 middleTexcoord(uint slot) {
+#if INPUTS >= 3
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) return MIDDLE(v_slot_texcoords[slot]);
+#endif
+    return middle_texcoord;
+}
 vec4 slotTexel(sampler2D map, uint slot) {
     if (!multisampled()) return texture(map, slotTexcoord(slot));
-    vec2 middle = middle_texcoord;
-#if INPUTS >= 3
-    if (on(feature_texture_transform) || on(feature_second_texcoord)) middle = MIDDLE(v_slot_texcoords[slot]);
-#endif
-    return textureGrad(map, slotTexcoord(slot), dFdx(middle), dFdy(middle));
+    vec2 middle = middleTexcoord(slot);
+    return textureGrad(map, slotTexcoord(slot), dFdxFine(middle), dFdyFine(middle));
 }
 
 vec4 baseColor() {
@@ -122,11 +125,7 @@ float filteredRoughness(float roughness) {
     vec3 n = middle_normal;
 #if INPUTS >= 2
     if (feature_specular_aa == SPECULAR_AA_MAPPED && on(feature_normal_texture)) {
-        vec2 at = middle_texcoord;
-#if INPUTS >= 3
-        if (on(feature_texture_transform) || on(feature_second_texcoord))
-            at = AT_MIDDLE(v_slot_texcoords[SLOT_normal]);
-#endif
+        vec2 at = middleTexcoord(SLOT_normal);
         float scale = overQuad(material.normal_scale);
         n = fromTangentSpace(mappedNormal(texture(normal_texture, at), scale), n, middle_tangent);
     }

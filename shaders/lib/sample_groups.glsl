@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Samples of a pixel that deferred lighting shades as one, as a number that fits into a depth
-// (shared/contract/samples.h): sample i is in one of the groups that samples 0 to i begin, or nothing is drawn
-// there, which are i + 2 cases: digits of a number, the last sample's the least.
+// (shared/contract/samples.h): sample i is in one of the groups that samples 0 to i begin, or nothing is
+// drawn there, which are i + 2 cases: digits of a number, the last sample's the least.
 #ifndef SAMPLE_GROUPS_GLSL
 #define SAMPLE_GROUPS_GLSL
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where in its pixel a fragment is shaded that covers several samples: at the mean of their places, which lies
-// within its triangle. A triangle's coverage says so (gl_SampleMaskIn) whatever depth tests leave of it, so that
-// every pass that draws it shades at one place; lavapipe's centroid follows the samples that survive.
+// Where in its pixel a fragment is shaded that covers several samples: at the mean of their places, which
+// lies within its triangle. A triangle's coverage says so (gl_SampleMaskIn) whatever depth tests leave of it,
+// so that every pass that draws it shades at one place; lavapipe's centroid follows the samples that survive.
 #ifndef SAMPLES_GLSL
 #define SAMPLES_GLSL
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whether two samples of a pixel may be shaded as one although they are of different triangles: as on a fine mesh,
-// where each triangle covers a part of a pixel and its neighbours look the same. Normals are what a lobe's width
-// makes of them: a highlight of roughness r is r^2 wide.
+// Whether two samples of a pixel may be shaded as one although they are of different triangles: as on a fine
+// mesh, where each triangle covers a part of a pixel and its neighbours look the same. Normals are what a
+// lobe's width makes of them: a highlight of roughness r is r^2 wide.
 #ifndef SIMILAR_GLSL
 #define SIMILAR_GLSL
 

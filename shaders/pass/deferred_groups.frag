@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Which samples of a pixel deferred lighting shades as one: sample_edges. A sample joins the first group whose
-// first sample it is like. The depth of every sample of the pixel says so (lib/sample_groups.glsl).
+// Which samples of a pixel deferred lighting shades as one: sample_edges. A sample joins the first group
+// whose first sample it is like. The depth of every sample of the pixel says so (lib/sample_groups.glsl).
 #define FLAT_VIEW
 #define SAMPLES 1
 #include "shaders/lib/gbuffer_read.glsl"
@@ -23,7 +23,8 @@ bool sameBits(Sample a, Sample b) {
 
 bool shadedAlike(Sample a, Sample b) {
     if (feature_sample_edges == EDGES_ALL) return false;
-    if (feature_sample_edges == EDGES_SIMILAR) return sameBits(a, b) || areSimilar(ivec2(gl_FragCoord.xy), a.texel, b.texel);
+    if (feature_sample_edges == EDGES_SIMILAR)
+        return sameBits(a, b) || areSimilar(ivec2(gl_FragCoord.xy), a.texel, b.texel);
     return sameBits(a, b);
 }
 

@@ -121,8 +121,8 @@ void writeTable(std::ofstream& out, const std::vector<Module>& modules) {
            "    static constexpr ShaderModule modules[] = {\n";
     for (const Module& m : modules)
         out << "        {\"" << m.name << "\", Shader::" << m.shader << ", " << m.number << ", "
-            << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.samples << ", " << m.inputs << ", " << m.symbol()
-            << "},\n";
+            << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.samples << ", " << m.inputs
+            << ", " << m.symbol() << "},\n";
     out << "    };\n    return modules;\n}\n\n}  // namespace diptych\n";
 }
 

@@ -103,14 +103,12 @@
     X(57, samples,                    frame,   0, PASSES_DRAW | PASS_LIGHTING | PASS_LISTS | PASS_SAMPLES)  \
     /* EDGES_* of samples.h */                                                                              \
     X(58, sample_edges,               pass,    0, PASS_LIGHTING)                                            \
-    /* an alpha mask covers as many samples as its alpha */                                                 \
-    X(59, alpha_to_coverage,          frame,   0, PASSES_DRAW)                                              \
     /* the mean of a pixel's samples is weighted by what a tone curve leaves of them */                     \
-    X(60, tonemapped_resolve,         frame,   0, PASS_SAMPLES)                                             \
+    X(59, tonemapped_resolve,         frame,   0, PASS_SAMPLES)                                             \
     /* SPECULAR_AA_* of material.h, and the two numbers of shaders/lib/specular_aa.glsl, bits of float32 */  \
-    X(61, specular_aa,                frame,   0, PASSES_SURFACE)                                           \
-    X(62, specular_aa_variance,       frame,   0, PASSES_SURFACE)                                           \
-    X(63, specular_aa_limit,          frame,   0, PASSES_SURFACE)
+    X(60, specular_aa,                frame,   0, PASSES_SURFACE)                                           \
+    X(61, specular_aa_variance,       frame,   0, PASSES_SURFACE)                                           \
+    X(62, specular_aa_limit,          frame,   0, PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -16,12 +16,13 @@
 //   shaded    RG32 bits of the depth, samples: where the surface is shaded (several samples a pixel alone)
 //   bytes     12 to 24, + 4 depth          16 to 28, + 4 depth             64 to 96, + 4 depth
 //
-// sqrt: the square root is stored and squared again: 0.04, the usual F0, is exactly 51/255.
-// emission exists where the scene emits (full: always, it carries the id), and is RGBA32 float where its
-// radiance leaves the range of 9.9.9.e5; lightmap, alike, where a material has one (0 of surfaces without
-// one, shaders/lib/gbuffer.glsl tells them from black); specular where a material has KHR_materials_specular,
-// _ior or _unlit. With several samples a pixel every attachment holds as many, and shaded says where in the pixel
-// the surface was made: at the mean of the places of the samples that its triangle covers, and at which depth.
+// sqrt: the square root is stored and squared again: 0.04, the usual F0, is exactly 51/255. emission exists
+// where the scene emits (full: always, it carries the id), and is RGBA32 float where its radiance leaves the
+// range of 9.9.9.e5; lightmap, alike, where a material has one (0 of surfaces without one,
+// shaders/lib/gbuffer.glsl tells them from black); specular where a material has KHR_materials_specular,
+// _ior or _unlit. With several samples a pixel every attachment holds as many, and shaded says where in the
+// pixel the surface was made: at the mean of the places of the samples that its triangle covers, and at
+// which depth.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H
 

@@ -22,10 +22,10 @@ CONTRACT_CONST(uint, EDGES_EXACT, 1);     // those of the same bits in every att
 CONTRACT_CONST(uint, EDGES_SIMILAR, 2);   // those that differ by less than is seen
 CONTRACT_CONST(uint, EDGES_COVERAGE, 3);  // exact, and all of a pixel that each of its triangles covers
 
-// Groups of samples that are shaded as one are stored as a depth: their number above GROUP_CODE_BITS bits that
-// say which sample is in which group (shaders/lib/sample_groups.glsl), over 2^GROUP_BITS. A draw at the depth of
-// one group more passes the test where there are as many: group k of a pixel is shaded by the draw at
-// (k + 1) 2^GROUP_CODE_BITS / 2^GROUP_BITS.
+// Groups of samples that are shaded as one are stored as a depth: their number above GROUP_CODE_BITS bits
+// that say which sample is in which group (shaders/lib/sample_groups.glsl), over 2^GROUP_BITS. A draw at the
+// depth of one group more passes the test where there are as many: group k of a pixel is shaded by the draw
+// at (k + 1) 2^GROUP_CODE_BITS / 2^GROUP_BITS.
 CONTRACT_CONST(uint, GROUP_CODE_BITS, 19);
 CONTRACT_CONST(uint, GROUP_BITS, 23);
 

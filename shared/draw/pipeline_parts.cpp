@@ -33,9 +33,9 @@ bool needsLights(const Variant& variant) {
 }
 
 // Some shaders exist as several modules, because a device pays for code and inputs that a variant does not
-// use: of those that draw to as many attachments the one for as many samples, with the code of lighting and of area lights or
-// without it, as the variant needs (a shader that lights nothing has none with it), and with the fewest
-// inputs that suffice.
+// use: of those that draw to as many attachments the one for as many samples, with the code of lighting and
+// of area lights or without it, as the variant needs (a shader that lights nothing has none with it), and
+// with the fewest inputs that suffice.
 const ShaderModule* moduleOf(Shader shader, std::size_t attachments, const Variant& variant, int inputs) {
     const ShaderModule* best = &plainModule(shader, static_cast<std::uint32_t>(attachments));
     const bool lights = needsLights(variant), areaLights = variant.get(gpu::FEATURE_area_lights) != 0;

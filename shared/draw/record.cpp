@@ -53,8 +53,7 @@ std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const D
             key.sample_shading = inputs.sample_shading;
         }
         if (key.fragment != Shader::none)
-            key.variant.set(gpu::FEATURE_samples,
-                            sampled ? inputs.variant.get(gpu::FEATURE_samples) : 0);
+            key.variant.set(gpu::FEATURE_samples, sampled ? inputs.variant.get(gpu::FEATURE_samples) : 0);
     }
     return inputs.pipelines.get(keys);
 }

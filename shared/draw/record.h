@@ -31,8 +31,8 @@ std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, co
 
 // One triangle that covers the screen, with the descriptor sets that are bound.
 void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
-// What records it with the sets of deferred lighting: frame, G-buffer, partial sums. `groups`: once for each of so
-// many groups of samples.
+// What records it with the sets of deferred lighting: frame, G-buffer, partial sums. `groups`: once for each
+// of so many groups of samples.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       DescriptorSets gbuffer, const LightBatch& batch,
                                                       gpu::uint groups = 1);

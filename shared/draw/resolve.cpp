@@ -68,17 +68,16 @@ void checkSamples(const FrameInputs& inputs) {
     }
     const gpu::uint most = device.profile().packets_per_draw;
     if (inputs.longest_list > most)
-        fail(fmt::format("walks {} packets of lights in a draw, and a list has {}; use --assign clustered or "
-                         "tiled, or --light-cutoff",
-                         most, inputs.longest_list));
+        fail(
+            fmt::format("walks {} packets of lights in a draw, and a list has {}; use --assign clustered or "
+                        "tiled, or --light-cutoff",
+                        most, inputs.longest_list));
 }
 
 ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life) {
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return lit;
-    const ImageRef resolved = passes.image({.name = "lit",
-                                            .format = litFormat,
-                                            .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                            .life = life});
+    const ImageRef resolved = passes.image(
+        {.name = "lit", .format = litFormat, .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT, .life = life});
     addReading(passes, inputs, Shader::sample_resolve_frag, "resolve", {lit}, {resolved});
     return resolved;
 }

@@ -145,11 +145,12 @@ template <>
 inline constexpr auto enum_names<EvsmDepth> = std::to_array<EnumName<EvsmDepth>>(
     {{EvsmDepth::from_zero, "0..1"}, {EvsmDepth::from_minus_one, "-1..1"}});
 
-// What a fragment shades with several samples a pixel: once for all that its triangle covers, or each of them.
+// What a fragment shades with several samples a pixel: once for all that its triangle covers, or each of
+// them.
 enum class MsaaShading { pixel, sample };
 template <>
-inline constexpr auto enum_names<MsaaShading> = std::to_array<EnumName<MsaaShading>>(
-    {{MsaaShading::pixel, "pixel"}, {MsaaShading::sample, "sample"}});
+inline constexpr auto enum_names<MsaaShading> =
+    std::to_array<EnumName<MsaaShading>>({{MsaaShading::pixel, "pixel"}, {MsaaShading::sample, "sample"}});
 
 // The samples of a pixel that deferred lighting shades each for itself: all; those that differ in any bit of
 // the G-buffer; those that differ by more than is seen; those of pixels that one triangle does not cover.
@@ -164,8 +165,8 @@ inline constexpr auto enum_names<MsaaEdges> =
 // The mean of a pixel's samples: of their radiance, or weighted by what a tone curve leaves of it.
 enum class Resolve { linear, tonemapped };
 template <>
-inline constexpr auto enum_names<Resolve> = std::to_array<EnumName<Resolve>>(
-    {{Resolve::linear, "linear"}, {Resolve::tonemapped, "tonemapped"}});
+inline constexpr auto enum_names<Resolve> =
+    std::to_array<EnumName<Resolve>>({{Resolve::linear, "linear"}, {Resolve::tonemapped, "tonemapped"}});
 
 // Whose changes from pixel to pixel specular anti-aliasing filters: the interpolated normal, or the one that
 // a normal map has turned.

@@ -600,7 +600,8 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "linear"},
           &Settings::resolve);
     visit(Field{.option = "alpha-to-coverage",
-                .help = "alpha masks cover as many of a pixel's samples as their alpha, sharpened at the cutoff",
+                .help = "alpha masks cover as many of a pixel's samples as their alpha, sharpened at the "
+                        "cutoff",
                 .default_only = {row::not_built},
                 .ignored = {.reference = row::own_samples}},
           &Settings::alpha_to_coverage);

@@ -44,7 +44,8 @@ std::optional<std::string> onlyTheReferenceWalks(const Settings& s) {
 }
 
 std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
-    const bool drawnOver = s.transparency == Transparency::sorted || s.transparency == Transparency::unsorted ||
+    const bool drawnOver = s.transparency == Transparency::sorted ||
+                           s.transparency == Transparency::unsorted ||
                            s.transparency == Transparency::triangles || s.transparency == Transparency::off;
     if (s.path == Path::reference || s.msaa == 1 || drawnOver) return {};
     return fmt::format(
@@ -53,8 +54,8 @@ std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
         nameOf(s.transparency), s.msaa);
 }
 
-constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths, levelsHavePages,
-                          onlyTheReferenceWalks, sumsOfLayersHaveOneSample};
+constexpr Rule rules[] = {surfacesHaveOneSample, deferredKnowsNoObjects, tilesNeedDepths,
+                          levelsHavePages,       onlyTheReferenceWalks,  sumsOfLayersHaveOneSample};
 
 // "''" of a value without any.
 std::string quotedValue(const Settings& settings, std::string_view option) {

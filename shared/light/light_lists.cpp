@@ -175,7 +175,8 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
     if (tiled) {
-        const VkPipeline bounds = kernel(Shader::light_depths_comp, variant.get(gpu::FEATURE_samples) > 1 ? 1 : 0);
+        const VkPipeline bounds =
+            kernel(Shader::light_depths_comp, variant.get(gpu::FEATURE_samples) > 1 ? 1 : 0);
         passes.compute("assign depth bounds")
             .samples(depth, inCompute)
             .uses(depths, write)

@@ -109,8 +109,8 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
     Variant variant;
     variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic))
         .set(gpu::FEATURE_samples, inputs.variant.get(gpu::FEATURE_samples));
-    const VkPipeline pipeline = inputs.pipelines.compute(Shader::clipmap_mark_comp, variant,
-                                                         layouts_.pipeline(), inputs.samples > 1);
+    const VkPipeline pipeline =
+        inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline(), inputs.samples > 1);
     sets_.image(set, gpu::BINDING_CLIPMAP_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     passes.copy(name).uses(marks, access::transferWrite).record([this](VkCommandBuffer commands) {

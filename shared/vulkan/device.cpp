@@ -230,9 +230,8 @@ bool Device::countsFragments() const {
 }
 VkSampleCountFlags Device::sampleCounts(VkFormat format, VkImageUsageFlags usage) const {
     VkImageFormatProperties properties{};
-    const VkResult found =
-        vkGetPhysicalDeviceImageFormatProperties(state_->physical, format, VK_IMAGE_TYPE_2D,
-                                                 VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
+    const VkResult found = vkGetPhysicalDeviceImageFormatProperties(
+        state_->physical, format, VK_IMAGE_TYPE_2D, VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
     return found == VK_SUCCESS ? properties.sampleCounts : 0;
 }
 

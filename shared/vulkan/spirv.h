@@ -26,9 +26,9 @@ struct ShaderModule {
 std::span<const ShaderModule> shaderModules();
 std::span<const ShaderModule> shaderModules(Shader shader);
 
-// The module with all inputs, with lights, without area lights and for one sample a pixel, that has this number, or of a shader
-// without numbers the one that there is. Throws std::logic_error for a number that a shader with numbers does
-// not have.
+// The module with all inputs, with lights, without area lights and for one sample a pixel, that has this
+// number, or of a shader without numbers the one that there is. Throws std::logic_error for a number that a
+// shader with numbers does not have.
 const ShaderModule& plainModule(Shader shader, std::uint32_t number = 0);
 
 }  // namespace diptych

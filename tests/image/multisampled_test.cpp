@@ -53,9 +53,9 @@ public:
           r_(wordsOf("multisampled_read.frag")) {}
 
     Sampled draw(const std::vector<Drawn>& drawn) {
-        const ShaderModule vertex{"multisampled.vert", Shader::none, 0, true, false, 3, v_},
-            fragment{"multisampled.frag", Shader::none, 0, true, false, 3, f_},
-            read{"multisampled_read.frag", Shader::none, 0, true, false, 3, r_};
+        const ShaderModule vertex{"multisampled.vert", Shader::none, 0, true, false, false, 3, v_},
+            fragment{"multisampled.frag", Shader::none, 0, true, false, false, 3, f_},
+            read{"multisampled_read.frag", Shader::none, 0, true, false, false, 3, r_};
         constexpr std::array types{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
         const OwnedDescriptorSetLayout setLayout = makeSetLayout(device(), types);

@@ -46,14 +46,14 @@ OverPhases overPhases(Renderer& renderer, std::size_t first, const Settings& set
     return result;
 }
 
-struct Case {
+struct Shimmer {
     const char* name;
     int samples;  // of the reference, a pixel: as many as take some seconds
     float variance;
     double energy;  // what the mean may be off by
 };
 
-class SpecularShimmer : public testing::TestWithParam<Case> {};
+class SpecularShimmer : public testing::TestWithParam<Shimmer> {};
 
 TEST_P(SpecularShimmer, HalvesAndKeepsTheLight) {
     Scene scene;
@@ -88,9 +88,9 @@ TEST_P(SpecularShimmer, HalvesAndKeepsTheLight) {
 // samples have; the filter brings 3 % more. What flickers in its highlights are those textures too: at the
 // usual variance of 1 / (2 pi) it is 1.84 times less, at a quarter, a deviation of half a pixel, 2.06 times.
 INSTANTIATE_TEST_SUITE_P(Of, SpecularShimmer,
-                         testing::Values(Case{"sheet", 1024, Settings().spec_aa_variance, 0.05},
-                                         Case{"gallery", 8, Settings().spec_aa_variance, 0.05},
-                                         Case{"helmet", 64, 0.25f, 0.07}),
+                         testing::Values(Shimmer{"sheet", 1024, Settings().spec_aa_variance, 0.05},
+                                         Shimmer{"gallery", 8, Settings().spec_aa_variance, 0.05},
+                                         Shimmer{"helmet", 64, 0.25f, 0.07}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 // The filter is in pixels: twice as many of them narrow it, and the light stays. So it does with four

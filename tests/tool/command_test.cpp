@@ -76,11 +76,12 @@ TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
     EXPECT_TRUE(runTool(folder, "diff 'a\nb.png' b.png").failedOver("a b.png: no such file"));
 }
 
-TEST(Command, WhatIsNotBuiltYetIsNamedAndExitTwo) {
+TEST(Command, WhatHasNoMeaningIsNamedAndExitTwo) {
     const Folder folder;
-    for (const std::string option : {"--alpha-to-coverage on"})
+    for (const std::string option : {"--spec-aa-limit 0.5", "--msaa-shading sample"})
         for (const std::string command : {"compare ", "render ", "plan "})
-            EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " is not built yet"));
+            EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " has no meaning"));
+    EXPECT_TRUE(runTool(folder, "render --alpha-to-coverage on").failedOver("is not built yet"));
     EXPECT_TRUE(runTool(folder, "plan --shadows off --shadow-lights 1")
                     .failedOver("--shadow-lights 1 has no meaning without --shadows"));
     EXPECT_TRUE(

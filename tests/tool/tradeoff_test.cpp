@@ -140,16 +140,17 @@ TEST(Tradeoff, WhatItCannotDoIsOneLine) {
     const Folder folder;
     folder.write("grid.json", R"({"settings": {"gbuffer": ["tiny"]}})");
     folder.write("mine/notes.txt", "mine");
-    const std::pair<const char*, const char*> bad[] = {{"--grid grid.json", "grid.json"},
-                                                       {"--grid nowhere.json", "cannot be read"},
-                                                       {"builtin:spheres", "one scene"},
-                                                       {"--runs 0", "--runs 0"},
-                                                       {"-o x.png", "-o x.png"},
-                                                       {"-o mine", "--force"},
-                                                       {"--path reference", "--path reference"},
-                                                       {"--spp 2", "--spp 2"},
-                                                       {"--grid '{\"settings\":{\"msaa_shading\":\"sample\"}}'", "--msaa-shading sample"},
-                                                       {"--camera 7", "7"}};
+    const std::pair<const char*, const char*> bad[] = {
+        {"--grid grid.json", "grid.json"},
+        {"--grid nowhere.json", "cannot be read"},
+        {"builtin:spheres", "one scene"},
+        {"--runs 0", "--runs 0"},
+        {"-o x.png", "-o x.png"},
+        {"-o mine", "--force"},
+        {"--path reference", "--path reference"},
+        {"--spp 2", "--spp 2"},
+        {"--grid '{\"settings\":{\"msaa_shading\":\"sample\"}}'", "--msaa-shading sample"},
+        {"--camera 7", "7"}};
     for (const auto& [words, fault] : bad)
         EXPECT_TRUE(
             runTool(folder, std::string("tradeoff builtin:triangle --size 16x12 ") + words).failedOver(fault))

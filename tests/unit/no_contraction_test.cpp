@@ -67,14 +67,22 @@ constexpr std::string_view oneFunction =
     "a function of one number, executed by both paths in the same function of shaders/lib: the same bits on "
     "lavapipe, and on a GPU whatever its unit for it gives";
 constexpr ExactRow exactExtended[] = {
-    {4, "FAbs", isExact},      {8, "Floor", isExact},
-    {9, "Ceil", isExact},      {10, "Fract", "in probe_rounding.frag alone, which draws no picture"},
-    {13, "Sin", oneFunction},  {14, "Cos", oneFunction},
-    {27, "Exp", oneFunction},  {28, "Log", oneFunction},
-    {29, "Exp2", oneFunction}, {30, "Log2", oneFunction},
-    {31, "Sqrt", oneFunction}, {32, "InverseSqrt", oneFunction},
-    {37, "FMin", isExact},     {40, "FMax", isExact},
+    {4, "FAbs", isExact},
+    {8, "Floor", isExact},
+    {9, "Ceil", isExact},
+    {10, "Fract", "in probe_rounding.frag alone, which draws no picture"},
+    {13, "Sin", oneFunction},
+    {14, "Cos", oneFunction},
+    {27, "Exp", oneFunction},
+    {28, "Log", oneFunction},
+    {29, "Exp2", oneFunction},
+    {30, "Log2", oneFunction},
+    {31, "Sqrt", oneFunction},
+    {32, "InverseSqrt", oneFunction},
+    {37, "FMin", isExact},
+    {40, "FMax", isExact},
     {43, "FClamp", isExact},
+    {78, "InterpolateAtOffset", "as any input is interpolated, at a place that both paths compute alike"},
 };
 
 const ExactRow* exactRowOf(const SpirvModule::Operation& operation) {

@@ -387,6 +387,9 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"haze", "on"},
         {"sort", "off"},
         {"msaa", "1"},
+        {"msaa", "4"},
+        {"msaa", "8"},
+        {"spec-aa", "on"},
         {"spp", "1"},
         {"ibl-intensity", "1"},
         {"env", "sky.exr"},
@@ -399,7 +402,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
     }
 }
 
-TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
+TEST(Settings, WhatHasNoMeaningIsNamedWithItsValue) {
     const std::pair<const char*, const char*> rest[] = {
         {"size", "0x5"},
         {"size", "5x16385"},
@@ -432,8 +435,11 @@ TEST(Settings, WhatIsNotBuiltIsNamedWithItsValue) {
         {"evsm-negative-exponent", "5"},
         {"evsm-bleed", "0.2"},
         {"evsm-min-variance", "0.1"},
-        {"msaa", "4"},
         {"msaa", "2"},
+        {"msaa-shading", "sample"},
+        {"msaa-edges", "all"},
+        {"resolve", "tonemapped"},
+        {"alpha-to-coverage", "on"},
         {"spec-aa-variance", "0.5"},
         {"spec-aa-variance", "-1"},
         {"spec-aa-limit", "0.5"},

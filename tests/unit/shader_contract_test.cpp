@@ -63,6 +63,7 @@ constexpr ModuleKind moduleKinds[] = {
     {"transparency_", gpu::PASS_FORWARD},
     {"compose_", gpu::PASS_FORWARD},
     {"deferred_", gpu::PASS_LIGHTING},
+    {"sample_", gpu::PASS_SAMPLES},
     {"light_", gpu::PASS_LISTS},
     {"shadow_", gpu::PASS_SHADOWS},
     {"pose.comp", gpu::PASS_POSING},
@@ -111,7 +112,7 @@ struct PassName {
 constexpr PassName passNames[] = {{gpu::PASS_DEPTH, "depth"},       {gpu::PASS_FORWARD, "forward"},
                                   {gpu::PASS_GBUFFER, "G-buffer"},  {gpu::PASS_LIGHTING, "deferred lighting"},
                                   {gpu::PASS_LISTS, "light lists"}, {gpu::PASS_SHADOWS, "shadow maps"},
-                                  {gpu::PASS_POSING, "posing"}};
+                                  {gpu::PASS_POSING, "posing"},     {gpu::PASS_SAMPLES, "samples"}};
 
 // The depth pass of alpha-masked materials shares surface.vert with shading passes. Outputs of it that
 // depend on features of shading do not matter there, since depth_mask.frag does not read them.
@@ -172,7 +173,8 @@ TEST(ShaderContract, MasksAreTheColumnsOfTheTable) {
     constexpr FeatureMask depth = featuresReadBy(gpu::PASS_DEPTH), item = featuresSetBy(FeatureSource::item);
     static_assert(depth.has(gpu::FEATURE_alpha_mask) && !depth.has(gpu::FEATURE_ambient));
     static_assert(item.has(gpu::FEATURE_unlit) && !item.has(gpu::FEATURE_captured));
-    static_assert((depth & item) == depth, "a depth pass depends on the item alone");
+    static_assert((depth & item).with(gpu::FEATURE_samples) == depth,
+                  "a depth pass depends on the item and a pixel's samples alone");
     static_assert(featuresNeedingInputs(3).has(gpu::FEATURE_vertex_color) &&
                   !featuresNeedingInputs(3).has(gpu::FEATURE_normal_texture));
     gpu::uint next = 0;
@@ -262,7 +264,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 21u + 2 + 8 + 5 + 13 + 9);
+    EXPECT_EQ(bindingTables().size(), 21u + 2 + 9 + 5 + 13 + 9);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 

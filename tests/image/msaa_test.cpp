@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// Several samples a pixel: deferred lighting shades what forward+ does, whichever samples it shades as one,
+// and both resolve alike.
+#include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
+#include "tests/image/square.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+Settings sampled(Size size, MsaaShading shading = MsaaShading::pixel) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = size;
+    settings.msaa = 4;
+    settings.msaa_shading = shading;
+    return settings;
+}
+
+Frame litOf(Renderer& renderer, Settings settings, Path path) {
+    return drawnBy(path, renderer, std::move(settings), {lit});
+}
+
+// forward+ against deferred that shades every sample and deferred that shades those of one surface once.
+void expectTheSame(Renderer& renderer, const Settings& settings, const std::string& what) {
+    const Frame forward = litOf(renderer, settings, Path::forward_plus);
+    EXPECT_EQ(forward.counters.unreproduced_pixels, 0u) << what;
+    for (const MsaaEdges edges : {MsaaEdges::exact, MsaaEdges::all}) {
+        Settings other = settings;
+        other.msaa_edges = edges;
+        const Frame deferred = litOf(renderer, other, Path::deferred);
+        EXPECT_EQ(differingPixels(forward.channels.at(lit), deferred.channels.at(lit)), 0u)
+            << what << " " << nameOf(edges);
+        EXPECT_EQ(deferred.counters.unreproduced_pixels, 0u) << what << " " << nameOf(edges);
+    }
+}
+
+constexpr std::array shadings{MsaaShading::pixel, MsaaShading::sample};
+
+class MsaaBuiltin : public testing::TestWithParam<const char*> {};
+
+TEST_P(MsaaBuiltin, BothPathsAreBitEqual) {
+    UploadedScene& scene = uploaded(GetParam());
+    for (const MsaaShading shading : shadings)
+        expectTheSame(scene.renderer, sampled({96, 54}, shading), std::string(nameOf(shading)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Msaa, MsaaBuiltin,
+                         testing::Values("builtin:gallery", "builtin:emission", "builtin:sixteen_bits",
+                                         "builtin:glass", "builtin:cutout", "builtin:lightmaps",
+                                         "builtin:areas", "builtin:motion", "builtin:ortho",
+                                         "builtin:many_materials"),
+                         [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });
+
+class MsaaAsset : public testing::TestWithParam<std::string> {};
+
+TEST_P(MsaaAsset, BothPathsAreBitEqual) {
+    const std::filesystem::path file = assets() / GetParam();
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
+    Settings settings = sampled({64, 36});
+    settings.lights = "point:12,spot:4";
+    expectTheSame(uploaded(file.string()).renderer, settings, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Msaa, MsaaAsset,
+                         testing::Values("flight_helmet/FlightHelmet.gltf", "sponza/Sponza.gltf",
+                                         "cesium_man/CesiumMan.gltf", "tree/scene.gltf",
+                                         "features/alpha_mask/01_alpha_mask.gltf",
+                                         "features/glass_table/glass_table.glb"),
+                         [](const auto& scene) {
+                             return testName(std::filesystem::path(scene.param).stem().string());
+                         });
+
+// Every channel is the first sample's, of both paths.
+TEST(Msaa, EveryChannelIsTheSameInBothPaths) {
+    for (const MsaaShading shading : shadings) {
+        const std::vector<Frame> frames =
+            bothPaths(uploaded("builtin:gallery").renderer, sampled({96, 54}, shading));
+        expectSameChannels(frames[0], frames[1]);
+        for (const Frame& frame : frames) EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
+    }
+}
+
+TEST(Msaa, WithShadowsHazeAndAnEnvironment) {
+    Settings settings = sampled({64, 36});
+    settings.shadows = Shadows::pcf;
+    settings.shadow_lights = 2;
+    settings.haze = true;
+    settings.haze_density = 50;
+    settings.ambient = {0.1f, 0.2f, 0.3f};
+    for (const MsaaShading shading : shadings) {
+        settings.msaa_shading = shading;
+        expectTheSame(uploaded("builtin:gallery").renderer, settings, std::string(nameOf(shading)));
+    }
+    for (const Shadows technique : {Shadows::evsm, Shadows::clipmap}) {
+        settings.shadows = technique;
+        settings.shadow_fit = technique == Shadows::evsm ? ShadowFit::depth : ShadowFit::view;
+        expectTheSame(uploaded("builtin:gallery").renderer, settings, std::string(nameOf(technique)));
+    }
+}
+
+// Light is lost nowhere: what a triangle that is partly hidden is shaded with may lie farther away than all
+// that is seen in its tile. Slanted and thin triangles before and behind each other make many such pixels.
+TEST(Msaa, ListsHoldEveryLightOfAPixel) {
+    Scene scene = square();
+    const Primitive leaf = scene.meshes[0].primitives[0];
+    scene.nodes.clear();
+    for (int i = 0; i < 60; ++i) {
+        const double turn = 83.0 * i;
+        const glm::dmat4 at =
+            glm::translate(glm::dmat4(1.0), glm::dvec3(std::sin(1.7 * i), std::cos(2.3 * i), -0.35 * i - 1));
+        scene.nodes.push_back({"leaf", -1,
+                               glm::rotate(glm::rotate(at, glm::radians(turn), glm::dvec3(1, 0.3, 0)), turn,
+                                           glm::dvec3(0, 0, 1)) *
+                                   glm::scale(glm::dmat4(1.0), glm::dvec3(0.6, 0.08, 1)),
+                               0});
+    }
+    scene.materials[0].double_sided = true;
+    scene.cameras[0].far = 100;
+    Renderer renderer(device(), scene, pipelines());
+    for (const MsaaShading shading : shadings) {
+        Settings settings = sampled({64, 64}, shading);
+        settings.lights = "point:200,spot:50";
+        settings.assign = Assignment::every;
+        const Frame every = litOf(renderer, settings, Path::forward_plus);
+        for (const Assignment assign : {Assignment::tiled, Assignment::clustered})
+            for (const Path path : drawn_paths) {
+                settings.assign = assign;
+                settings.prepass = Switch::on;
+                const Frame listed = litOf(renderer, settings, path);
+                EXPECT_EQ(differingPixels(every.channels.at(lit), listed.channels.at(lit)), 0u)
+                    << nameOf(assign) << " " << nameOf(path) << " " << nameOf(shading);
+            }
+    }
+}
+
+TEST(Msaa, PicturesOfAnySize) {
+    for (const Size size : {Size{1, 1}, Size{33, 17}, Size{4097, 3}})
+        expectTheSame(uploaded("builtin:cutout").renderer, sampled(size), "");
+}
+
+// A packed G-buffer differs by its encoding alone, as with one sample.
+TEST(Msaa, PackedDiffersByItsEncodingAlone) {
+    for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::compact}) {
+        Settings settings = sampled({96, 54});
+        settings.gbuffer = encoding;
+        const std::vector<Frame> frames = bothPaths(uploaded("builtin:gallery").renderer, settings, {lit});
+        EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].through_gbuffer.at(lit)), 0u)
+            << nameOf(encoding);
+    }
+}
+
+// A triangle of one radiance, which no light reaches, before a black background: of each pixel k of 4 samples
+// are covered.
+TEST(Msaa, ResolvesAsItSays) {
+    Scene scene = square();
+    scene.meshes[0].primitives[0].indices = {0, 1, 2};
+    // Its long edge crosses samples of a pixel at one to four places.
+    scene.nodes[0].parent_from_node = glm::rotate(glm::dmat4(1.0), glm::radians(17.0), glm::dvec3(0, 0, 1));
+    constexpr glm::vec3 light(0.75, 0.5, 0.125);
+    scene.materials[0].unlit = true;
+    scene.materials[0].base_color = glm::vec4(light, 1);
+    Renderer renderer(device(), scene, pipelines());
+    for (const Resolve resolve : {Resolve::linear, Resolve::tonemapped}) {
+        Settings settings = sampled({31, 17});
+        settings.resolve = resolve;
+        std::array<int, 5> seen{};
+        for (const Path path : drawn_paths) {
+            const Frame frame = litOf(renderer, settings, path);
+            const Image& image = frame.channels.at(lit);
+            for (int y = 0; y < image.height; ++y)
+                for (int x = 0; x < image.width; ++x) {
+                    bool known = false;
+                    for (int k = 0; k <= 4; ++k) {
+                        const double weight = resolve == Resolve::linear ? 1 : 1 / (1.0 + double{light.x}),
+                                     share = k * weight / (k * weight + 4 - k);
+                        bool same = true;
+                        for (int c = 0; c < 3; ++c)
+                            same = same && std::abs(double{image.at(x, y, c)} - share * double{light[c]}) <
+                                               1e-6 * double{light[c]};
+                        known |= same;
+                        seen.at(static_cast<std::size_t>(k)) += same;
+                    }
+                    EXPECT_TRUE(known) << x << "," << y << " " << image.at(x, y, 0) << " " << nameOf(resolve);
+                }
+        }
+        for (int k = 0; k <= 4; ++k) EXPECT_GT(seen.at(static_cast<std::size_t>(k)), 0) << k;
+    }
+}
+
+// Two squares that cross: every pixel of the line is covered by both, and only what is behind which differs
+// from sample to sample.
+TEST(Msaa, CoverageMissesWhatInterpenetrates) {
+    Scene scene = square();
+    scene.nodes.push_back(
+        {"crossing", -1, glm::rotate(glm::dmat4(1.0), glm::radians(30.0), glm::dvec3(0.2, 1, 0)), 0});
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.materials.push_back({});
+    scene.materials[0].emissive = {1, 0, 0};
+    scene.materials[1].emissive = {0, 1, 0};
+    scene.meshes[1].primitives[0].material = 1;
+    scene.nodes[1].mesh = 1;
+    Renderer renderer(device(), scene, pipelines());
+    const Frame forward = litOf(renderer, sampled({32, 32}), Path::forward_plus);
+    const Image& truth = forward.channels.at(lit);
+    const float most = *std::max_element(truth.data.begin(), truth.data.end());
+    // By more than a 1/255 of what is brightest. Triangles of one square are similar: shaded as one they
+    // differ by what lies between the two places.
+    const auto differing = [&](MsaaEdges edges) {
+        Settings settings = sampled({32, 32});
+        settings.msaa_edges = edges;
+        const Frame frame = litOf(renderer, settings, Path::deferred);
+        const Image& image = frame.channels.at(lit);
+        int count = 0;
+        for (std::size_t i = 0; i < truth.data.size(); ++i)
+            count += std::abs(image.data[i] - truth.data[i]) > most / 255;
+        return count;
+    };
+    EXPECT_EQ(differing(MsaaEdges::exact), 0);
+    EXPECT_EQ(differing(MsaaEdges::similar), 0) << "they are of two materials";
+    EXPECT_GT(differing(MsaaEdges::coverage), 5);
+}
+
+TEST(Msaa, WhatIsNotDrawnWithSeveralSamplesIsNamed) {
+    Settings settings = sampled({8, 8});
+    settings.transparency = Transparency::weighted;
+    EXPECT_NE(settings.problem().value_or("").find("--transparency weighted with --msaa 4"),
+              std::string::npos);
+    settings.transparency = Transparency::triangles;
+    EXPECT_FALSE(settings.problem());
+}
+
+}  // namespace
+}  // namespace diptych::tests
