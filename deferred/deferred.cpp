@@ -152,6 +152,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
                         {litFormat}, last);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
+    images.lit_samples = lit;
     images.lit = addResolve(passes, inputs, lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;

@@ -79,6 +79,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     addShading(passes.draw("shade").color(lit, Load::clear), last, forwardKey);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
+    images.lit_samples = lit;
     images.lit = addResolve(passes, inputs, lit);
     inputs.shadow.addMarks(passes, inputs, images.depth);
     return images;

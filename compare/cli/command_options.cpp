@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_options.h"
 
-#include "compare/cli/settings_help.h"
 
 #include <fmt/format.h>
 
@@ -215,9 +214,6 @@ void hideGroup(CLI::App& app, const std::string& group) {
 void hideUnread(CLI::App& app, const std::string& command) {
     hideGroup(app, later_group);
     if (command != "render") hide(app, {"--frames", "--fps"});
-    if (command != "devices" && command != "diff")
-        for (const Field& field : settingFields())
-            if (!isDrawnBy(command, field)) hide(app, {("--" + std::string(field.option)).c_str()});
     if (command == "compare") {
         hide(app, {"--debug", "--heat"});
         app.get_option("--path")->description("which path --update-baseline writes (that of the file)");

@@ -3,6 +3,7 @@
 
 #include "compare/files/our_files.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/frame/made_channels.h"
 
 #include <fmt/format.h>
 
@@ -39,14 +40,8 @@ std::vector<std::string> earlierIn(const std::filesystem::path& folder) {
 
 void checkChannels(const Options& options) {
     const auto check = [&](const DebugMode& mode, const char* option) {
-        if (mode.maker == MadeBy::paths_only && options.settings.path == Path::reference)
-            throw std::runtime_error(fmt::format(
-                "{} {}: the reference evaluates every light; --path forward_plus and deferred show it",
-                option, mode.name));
-        if (mode.maker == MadeBy::forward_only && options.settings.path == Path::deferred)
-            throw std::runtime_error(fmt::format(
-                "{} {}: the deferred path's G-buffer does not carry it; --path forward_plus makes it", option,
-                mode.name));
+        if (const std::string_view why = notMadeBecause(options.settings, mode); !why.empty())
+            throw std::runtime_error(fmt::format("{} {}: {}", option, mode.name, why));
     };
     for (const int channel : options.channels) check(debugMode(channel), "--channels");
     check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");

@@ -41,7 +41,8 @@ bool isRadiance(const DebugMode& mode) {
 }
 bool isNormalised(const DebugMode& mode) {
     if (mode.shown != Shown::usual) return mode.shown == Shown::normalised;
-    return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position || isHeat(mode);
+    return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position ||
+           mode.number == gpu::DEBUG_shaded_samples || isHeat(mode);
 }
 
 Rgb8 display(Color radiance, const Exposure& exposure) {
@@ -166,6 +167,8 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
         if (!(low <= high)) low = high = 0;
         if (isHeat(mode))
             return {0, heatTop(high), exposure, fmt::format("heat, 0 to {:g} lights", heatTop(high))};
+        if (mode.number == gpu::DEBUG_shaded_samples)
+            return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} a pixel", high)};
         const std::string range =
             fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::usual ? " m" : "");
         if (low == high) high = low + 1;

@@ -17,6 +17,7 @@
 #include "compare/reference/shadow_edge.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/frame/made_channels.h"
 #include "shared/scene/model/axes.h"
 #include "shared/scene/model/luminance.h"
 #include "shared/scene/motion/bounds.h"
@@ -489,7 +490,7 @@ public:
           across_((request.view.width + tileSide - 1) / tileSide),
           down_((request.view.height + tileSide - 1) / tileSide) {
         for (const DebugMode& mode : debugModes()) {
-            if (mode.maker == MadeBy::paths_only) continue;
+            if (!isMadeByReference(mode)) continue;
             const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.number);
             Image& image = picture_.channels[mode.number];
             if (copied) {
@@ -626,7 +627,7 @@ private:
 std::vector<int> surfaceChannels() {
     std::vector<int> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isShaded(mode.number) && mode.maker != MadeBy::paths_only) modes.push_back(mode.number);
+        if (!isShaded(mode.number) && isMadeByReference(mode)) modes.push_back(mode.number);
     return modes;
 }
 

@@ -146,6 +146,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .samples = static_cast<VkSampleCountFlagBits>(settings.msaa),
           .sample_shading = settings.msaa_shading == MsaaShading::sample,
           .edges = settings.msaa_edges,
+          .alpha_to_coverage = settings.alpha_to_coverage,
       } {
     shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
                    castingSun(scene.lights, lights, settings));

@@ -9,6 +9,7 @@
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/frame/made_channels.h"
 
 #include <fmt/format.h>
 
@@ -83,8 +84,7 @@ private:
         CaptureRequest request;
         request.modes = {lit};
         for (const int mode : options_.channels)
-            if (mode != lit &&
-                (settings_.path == Path::forward_plus || debugMode(mode).maker != MadeBy::forward_only))
+            if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty())
                 request.modes.push_back(mode);
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)

@@ -22,7 +22,9 @@ void writePicture(const std::filesystem::path& file, const Frame& frame, const D
     if (!frame.channels.contains(shown.number))
         throw std::runtime_error(
             fmt::format("--debug {}: the {} path does not make it{}", shown.name, frame.name,
-                        shown.maker == MadeBy::forward_only ? "; forward_plus does" : ""));
+                        shown.maker == MadeBy::forward_only    ? "; forward_plus does"
+                        : shown.maker == MadeBy::deferred_only ? "; deferred does, with several samples"
+                                                               : ""));
     const auto lit = frame.channels.find(gpu::DEBUG_lit);
     const Exposure exposure =
         exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));

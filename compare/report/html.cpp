@@ -210,7 +210,7 @@ std::string overview(const Comparison& comparison, std::size_t index) {
         out += fmt::format("<tr><td><a href=\"#{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
                            cardId(index, *channel->mode), breakable(channel->mode->name),
                            judgedBelow(*channel), metricAndUnit(*channel->mode));
-        if (channel->verdict == Verdict::forward_only)
+        if (!isCompared(channel->verdict))
             out +=
                 "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
                 "optional\">"

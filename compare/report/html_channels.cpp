@@ -38,7 +38,7 @@ public:
 
     std::string html() const {
         const DebugMode& mode = *channel_.mode;
-        const bool compared = channel_.verdict != Verdict::forward_only;
+        const bool compared = isCompared(channel_.verdict);
         const bool open = compared && (channel_.verdict == Verdict::fail || channel_.stats.different > 0);
         std::string out = fmt::format(
             "<details class=\"box card {0}\" id=\"{1}\"{2}><summary><h3>{3}</h3><span class=\"soft\">{4} "

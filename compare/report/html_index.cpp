@@ -24,8 +24,7 @@ const ChannelDiff* worstOf(const Comparison& comparison) {
     const ChannelDiff* worst = nullptr;
     for (const bool failing : {true, false}) {
         for (const ChannelDiff& channel : comparison.channels) {
-            if ((channel.verdict == Verdict::fail) != failing || channel.verdict == Verdict::forward_only)
-                continue;
+            if ((channel.verdict == Verdict::fail) != failing || !isCompared(channel.verdict)) continue;
             if (!failing && channel.unexplained_pixels) continue;  // their largest error equals the tolerance
             if (!worst || usedShare(channel) > usedShare(*worst)) worst = &channel;
         }

@@ -30,7 +30,7 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
               {"name", channel.mode->name},
               {"metric", nameOf(channel.mode->metric)}};
     const ChannelStats& s = channel.stats;
-    const bool compared = channel.verdict != Verdict::forward_only, anywhere = compared && s.worst_x >= 0;
+    const bool compared = isCompared(channel.verdict), anywhere = compared && s.worst_x >= 0;
     const std::pair<const char*, double> statistics[] = {
         {"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p999", s.p999}};
     for (const auto& [name, value] : statistics) json[name] = compared ? finiteOrNull(value) : Json(nullptr);

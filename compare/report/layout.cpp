@@ -71,7 +71,7 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
     if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) <= mostPixelsOfValues)
         pictures.values = files + ".values.js";
     pictures.scale = scaleFor(mode, exposure, shown);
-    if (channel.verdict != Verdict::forward_only && channel.stats.different > 0) {
+    if (isCompared(channel.verdict) && channel.stats.different > 0) {
         pictures.differ = true;
         pictures.difference = files + ".difference.png";
         pictures.error_limit = errorLimit(channel);

@@ -21,8 +21,7 @@ using TableRow = std::array<std::string, 9>;
 TableRow rowOf(const ChannelDiff& channel) {
     const std::string verdict(channel.verdict == Verdict::fail ? "FAIL" : nameOf(channel.verdict));
     const std::string name(channel.mode->name), metric(nameOf(channel.mode->metric));
-    if (channel.verdict == Verdict::forward_only)
-        return {name, metric, "-", "-", "-", "-", "-", "-", verdict};
+    if (!isCompared(channel.verdict)) return {name, metric, "-", "-", "-", "-", "-", "-", verdict};
     const ChannelStats& s = channel.stats;
     TableRow row{name, metric, number(s.max), number(s.mean), number(s.p999), "nothing", "-", "-", verdict};
     if (const auto& c = channel.criterion) {

@@ -184,7 +184,7 @@ std::string verdictLine(const Report& report) {
     for (const Comparison& comparison : report.comparisons) {
         for (const std::string& failure : comparison.failures) addOnce(others, failure);
         for (const ChannelDiff& channel : comparison.channels) {
-            ++(channel.verdict == Verdict::forward_only ? alone_on_a_side : compared);
+            ++(isCompared(channel.verdict) ? compared : alone_on_a_side);
             if (channel.verdict == Verdict::fail) addOnce(channels, std::string(channel.mode->name));
         }
         failing += !comparison.passed();

@@ -55,6 +55,7 @@ std::vector<std::string> head(const std::vector<std::string>& passes) {
         for (const char* which : {"", "_min", "_max"}) names.push_back(std::string(figure.name) + which);
     for (const ErrorFigure& figure : errorFigures) names.push_back("front_" + std::string(figure.name));
     for (const ShadowFigure& figure : shadowFigures) names.push_back("shadow_" + std::string(figure.name));
+    for (const SampleFigure& figure : sampleFigures) names.push_back("samples_" + std::string(figure.name));
     for (const char* name : {"image_bytes", "buffer_bytes", "gbuffer_bytes_per_pixel"})
         names.emplace_back(name);
     for (const std::string& pass : passes) names.push_back("ms: " + pass);
@@ -86,6 +87,9 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
         const std::optional<ShadowErrors> shadow = shadowOf(row);
         for (std::size_t f = 0; f < shadowFigures.size(); ++f)
             fields.push_back(shadow ? digits((*shadow)[f]) : "");
+        const std::optional<SampleShares> samples = samplesOf(row);
+        for (std::size_t f = 0; f < sampleFigures.size(); ++f)
+            fields.push_back(samples ? digits((*samples)[f]) : "");
         const FrameBytes bytes = bytesOf(row);
         for (const std::uint64_t count : {bytes.images, bytes.buffers, bytes.gbuffer_per_pixel})
             fields.push_back(fmt::format("{}", count));

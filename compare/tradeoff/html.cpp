@@ -5,6 +5,7 @@
 #include "compare/page/text.h"
 #include "compare/tradeoff/page/page.h"
 #include "compare/tradeoff/plot.h"
+#include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/shadow_rows.h"
 
 #include <fmt/format.h>
@@ -208,8 +209,8 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         "<style>{}{}{}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
         "table</a>{}{}{}{}{}{}{}<script>{}{}</script>\n</body></html>\n",
         markup(tradeoff.scene), page::style, plotStyle, tradeoffStyle, header(tradeoff), switches(),
-        plots(tradeoff), table(tradeoff), shadowTableHtml(tradeoff), skips(tradeoff), how(tradeoff),
-        page::tables, tradeoffScript);
+        plots(tradeoff), table(tradeoff), shadowTableHtml(tradeoff) + inHtml(tradeoff, sampleTable(tradeoff)),
+        skips(tradeoff), how(tradeoff), page::tables, tradeoffScript);
 }
 
 }  // namespace diptych::tradeoff

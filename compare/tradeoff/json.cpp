@@ -38,7 +38,8 @@ Json frontsOf(const Tradeoff& tradeoff) {
 }  // namespace
 
 std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string>& files) {
-    Json rows = Json::array(), skips = Json::array(), figures = Json::array(), shadows = Json::array();
+    Json rows = Json::array(), skips = Json::array(), figures = Json::array(), shadows = Json::array(),
+         samples = Json::array();
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         Json json{{"row", i + 1}, {"differs", jsonOf(choicesOf(row.settings, tradeoff.given))}};
@@ -55,6 +56,8 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
         figures.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
     for (const ShadowFigure& figure : shadowFigures)
         shadows.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
+    for (const SampleFigure& figure : sampleFigures)
+        samples.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
     const SweepCost& cost = tradeoff.cost;
     const std::optional<Spread> drift = driftOf(tradeoff);
     const Json json{
@@ -73,6 +76,7 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
          {{"settings", Json::parse(toJson(tradeoff.reference))}, {"picture", tradeoff.reference_picture}}},
         {"errors", figures},
         {"shadow_figures", shadows},
+        {"sample_figures", samples},
         {"rows", rows},
         {"fronts", frontsOf(tradeoff)},
         {"skipped", skips},

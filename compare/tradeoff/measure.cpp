@@ -2,6 +2,7 @@
 #include "compare/tradeoff/measure.h"
 
 #include "compare/page/text.h"
+#include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/upsample.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
@@ -23,6 +24,7 @@ constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit), IDS = static_cast<int>(gp
 constexpr auto SEEN = static_cast<int>(gpu::DEBUG_shadow_visibility),
                DEPTH = static_cast<int>(gpu::DEBUG_depth), LEVEL = static_cast<int>(gpu::DEBUG_cascade),
                COARSER = static_cast<int>(gpu::DEBUG_page_residency);
+constexpr auto SHADED = static_cast<int>(gpu::DEBUG_shaded_samples);
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int widestThumbnail = 480;  // pixels: a card of the page
 
@@ -38,6 +40,17 @@ RenderOptions drawingOptions(const RenderOptions& options, bool shadows) {
     drawing.requested = drawing.channels;
     drawing.twice = drawing.through_gbuffer = false;
     return drawing;
+}
+
+// What the row's choice of samples is; `options`: of its Frame, which has been drawn.
+std::optional<SampleShares> choiceOfSamples(Renderer& renderer, const Frame& frame, RenderOptions options) {
+    const std::optional<Settings> exact = exactEdges(frame.settings);
+    if (!exact) return {};
+    if (*exact == frame.settings) return sampleSharesOf(frame, frame);
+    options.runs = 0;
+    options.progress = {};
+    options.on_step = {};
+    return sampleSharesOf(renderer.draw(*exact, options), frame);
 }
 
 Image8 small(Image8 image) {
@@ -126,7 +139,10 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
         drawing.progress = options.progress.part(from / all, (from + 1) / all);
         Settings seen = settings;
         seen.camera = reference.settings.camera;
-        Frame frame = renderer.draw(seen, drawing);
+        RenderOptions with_samples = drawing;
+        if (exactEdges(seen)) with_samples.channels.push_back(SHADED);
+        with_samples.requested = with_samples.channels;
+        Frame frame = renderer.draw(seen, with_samples);
         row.drawing_ms += frame.made_in_ms;
         warn(row, frame);
         CameraRow camera{cameraTitle(frame),
@@ -135,7 +151,11 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings, const Refer
                          frame.bytes,
                          {},
                          0,
-                         shadowErrorsOf(reference, frame)};
+                         shadowErrorsOf(reference, frame),
+                         choiceOfSamples(renderer, frame, with_samples)};
+        if (camera.samples && camera.samples->back() > 0)
+            row.warnings.push_back(cameraTitle(frame) +
+                                   ": pixels differ from --msaa-edges exact where as much is shaded");
         frame = upsampled(std::move(frame), reference.settings.size);
         const FrameErrors errors = errorsOf(reference, frame);
         camera.errors = errors.errors;

@@ -18,7 +18,7 @@ double mean(const TradeoffRow& row, Value&& value) {
     return row.cameras.empty() ? 0 : sum / static_cast<double>(row.cameras.size());
 }
 
-// `figures`: errorFigures or shadowFigures; what is infinite is null.
+// `figures`: errorFigures, shadowFigures or sampleFigures; what is infinite is null.
 template <class Figures, class Values>
 Json jsonOf(const Figures& figures, const Values& values) {
     Json json = Json::object();
@@ -37,8 +37,27 @@ std::array<double, std::tuple_size_v<Figures>> figuresFrom(const Figures& figure
     return values;
 }
 
-Json jsonOf(const std::optional<ShadowErrors>& shadow) {
-    return shadow ? jsonOf(shadowFigures, *shadow) : Json(nullptr);
+template <class Figures, class Values>
+Json jsonOf(const Figures& figures, const std::optional<Values>& values) {
+    return values ? jsonOf(figures, *values) : Json(nullptr);
+}
+
+template <class Figures>
+std::optional<std::array<double, std::tuple_size_v<Figures>>> figuresIfAny(const Figures& figures,
+                                                                           const Json& json) {
+    if (json.is_null()) return {};
+    return figuresFrom(figures, json);
+}
+
+// The mean over the cameras; nothing where one of them has none.
+template <class Values>
+std::optional<Values> meanOf(const TradeoffRow& row, std::optional<Values> CameraRow::*figures) {
+    const auto known = [&](const CameraRow& camera) { return (camera.*figures).has_value(); };
+    if (row.cameras.empty() || !std::ranges::all_of(row.cameras, known)) return {};
+    Values means{};
+    for (std::size_t i = 0; i < means.size(); ++i)
+        means[i] = mean(row, [&](const CameraRow& camera) { return (*(camera.*figures))[i]; });
+    return means;
 }
 
 Json jsonOf(const std::vector<PassTime>& passes) {
@@ -63,7 +82,8 @@ Json jsonOf(const CameraRow& camera) {
               {"buffers", camera.bytes.buffers},
               {"gbuffer_per_pixel", camera.bytes.gbuffer_per_pixel}}},
             {"errors", jsonOf(errorFigures, camera.errors)},
-            {"shadow", jsonOf(camera.shadow)},
+            {"shadow", jsonOf(shadowFigures, camera.shadow)},
+            {"samples", jsonOf(sampleFigures, camera.samples)},
             {"pixels", camera.pixels}};
 }
 
@@ -76,8 +96,8 @@ CameraRow cameraFrom(const Json& json) {
     for (const Json& pass : json.at("passes")) camera.passes.push_back({pass.at("name"), pass.at("ms")});
     camera.bytes = {bytes.at("images"), bytes.at("buffers"), bytes.at("gbuffer_per_pixel")};
     camera.errors = figuresFrom(errorFigures, json.at("errors"));
-    if (const Json& shadow = json.at("shadow"); !shadow.is_null())
-        camera.shadow = figuresFrom(shadowFigures, shadow);
+    camera.shadow = figuresIfAny(shadowFigures, json.at("shadow"));
+    camera.samples = figuresIfAny(sampleFigures, json.at("samples"));
     camera.pixels = json.at("pixels");
     return camera;
 }
@@ -140,12 +160,11 @@ std::uint64_t memoryOf(const TradeoffRow& row) {
 }
 
 std::optional<ShadowErrors> shadowOf(const TradeoffRow& row) {
-    const auto known = [](const CameraRow& camera) { return camera.shadow.has_value(); };
-    if (row.cameras.empty() || !std::ranges::all_of(row.cameras, known)) return {};
-    ShadowErrors errors{};
-    for (std::size_t i = 0; i < errors.size(); ++i)
-        errors[i] = mean(row, [i](const CameraRow& camera) { return (*camera.shadow)[i]; });
-    return errors;
+    return meanOf(row, &CameraRow::shadow);
+}
+
+std::optional<SampleShares> samplesOf(const TradeoffRow& row) {
+    return meanOf(row, &CameraRow::samples);
 }
 
 Json jsonOf(const TradeoffRow& row) {
@@ -161,7 +180,8 @@ Json jsonOf(const TradeoffRow& row) {
               {"buffers", bytes.buffers},
               {"gbuffer_per_pixel", bytes.gbuffer_per_pixel}}},
             {"errors", jsonOf(errorFigures, row.errors)},
-            {"shadow", jsonOf(shadowOf(row))},
+            {"shadow", jsonOf(shadowFigures, shadowOf(row))},
+            {"samples", jsonOf(sampleFigures, samplesOf(row))},
             {"cameras", cameras},
             {"drawing_ms", row.drawing_ms},
             {"picture", row.picture},

@@ -2,6 +2,7 @@
 // The measurements of one row of a sweep: one Settings.
 #pragma once
 
+#include "compare/tradeoff/sample_shares.h"
 #include "compare/tradeoff/shadow_errors.h"
 #include "shared/frame/frame.h"
 
@@ -34,6 +35,7 @@ struct CameraRow {
     Errors errors{};
     std::uint64_t pixels = 0;  // that the errors are over
     std::optional<ShadowErrors> shadow{};
+    std::optional<SampleShares> samples{};
 };
 
 struct TradeoffRow {
@@ -64,6 +66,7 @@ FrameBytes bytesOf(const TradeoffRow& row);
 std::uint64_t memoryOf(const TradeoffRow& row);
 // The mean over the cameras; nothing where one of them has none.
 std::optional<ShadowErrors> shadowOf(const TradeoffRow& row);
+std::optional<SampleShares> samplesOf(const TradeoffRow& row);
 
 // Every number with all its digits; an error that is infinite is null.
 nlohmann::ordered_json jsonOf(const TradeoffRow& row);

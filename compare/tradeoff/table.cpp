@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sweep on a terminal.
 #include "compare/page/text.h"
+#include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/shadow_rows.h"
 #include "compare/tradeoff/tradeoff.h"
 
@@ -64,6 +65,7 @@ std::string tradeoffEnd(const Tradeoff& tradeoff) {
                            numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", ")));
     }
     out += shadowTable(tradeoff);
+    out += inText(tradeoff, sampleTable(tradeoff));
     if (driftOf(tradeoff))
         out += "note: times above are of a row's first visit; those of the files are of all its frames\n";
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)

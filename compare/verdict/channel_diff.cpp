@@ -179,13 +179,15 @@ std::string_view nameOf(Verdict verdict) {
             return "fail";
         case Verdict::forward_only:
             return "forward-only";
+        case Verdict::deferred_only:
+            return "deferred-only";
     }
     return "?";
 }
 
 double usedShare(const ChannelDiff& channel) {
     constexpr double endless = std::numeric_limits<double>::infinity();
-    if (channel.verdict == Verdict::forward_only || channel.stats.max == 0) return 0;
+    if (!isCompared(channel.verdict) || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0) return endless;
     if (channel.encoding_use) return channel.encoding_use->used;
     return channel.criterion ? usedOf(*channel.criterion) : 0;

@@ -22,12 +22,16 @@
 
 namespace diptych {
 
-enum class Verdict { pass, fail, forward_only };
-std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only"
+enum class Verdict { pass, fail, forward_only, deferred_only };
+// Both Frames have the channel.
+constexpr bool isCompared(Verdict verdict) {
+    return verdict == Verdict::pass || verdict == Verdict::fail;
+}
+std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only", "deferred-only"
 
 struct ChannelDiff {
     const DebugMode* mode = nullptr;
-    ChannelStats stats;          // meaningless where forward-only
+    ChannelStats stats;          // meaningless where not compared
     std::optional<double> flip;  // mean; of colours
     Tolerance tolerance;
     std::optional<std::uint64_t>
@@ -46,7 +50,7 @@ struct ChannelDiff {
     double shown_error_top = 1;
     std::vector<std::pair<std::string, double>> figures;  // all that are defined
     std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
-    std::optional<Criterion> criterion;  // what decided; empty where forward-only, or a rule bounds nothing
+    std::optional<Criterion> criterion;  // what decided; empty where not compared, or a rule bounds nothing
 };
 
 // The share of its tolerance that a channel uses; infinite where it differs although nothing is granted.

@@ -4,6 +4,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/one_sided.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/frame/made_channels.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -224,7 +225,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     for (const DebugMode& mode : debugModes()) {
         const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
                    onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
-        const bool paths = mode.maker == MadeBy::paths_only;
+        const bool paths = !isMadeByReference(mode);
         if (onLeft || onRight) names.emplace_back(mode.name);
         if (lit_alone && mode.number != static_cast<int>(gpu::DEBUG_lit)) continue;
         if (paths && onLeft && onRight && left.settings.assign != right.settings.assign) {
@@ -239,12 +240,16 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             const Path lacking = onLeft ? right.settings.path : left.settings.path;
             if (paths && isReferenceFrame(onLeft ? right : left)) continue;
             const Rule* rule = ruleFor(options.rules, mode.name);
-            if (mode.maker == MadeBy::forward_only && lacking == Path::deferred &&
-                !(rule && namesChannels(*rule))) {
+            const bool forward_only = mode.maker == MadeBy::forward_only && lacking == Path::deferred,
+                       deferred_only = mode.maker == MadeBy::deferred_only && lacking == Path::forward_plus;
+            if ((forward_only || deferred_only) && !(rule && namesChannels(*rule))) {
                 ChannelDiff& channel = comparison.channels.emplace_back();
                 channel.mode = &mode;
-                channel.tolerance = {0, "the G-buffer does not carry it, so only forward+ shows it"};
-                channel.verdict = Verdict::forward_only;
+                channel.tolerance = {
+                    0, forward_only
+                           ? "the G-buffer does not carry it, so only forward+ shows it"
+                           : "forward+ shades each triangle as it is drawn, so only deferred shows it"};
+                channel.verdict = forward_only ? Verdict::forward_only : Verdict::deferred_only;
             } else {
                 judgeOneSided({std::string(mode.name), one}, demands, comparison.failures, comparison.notes);
             }
@@ -257,7 +262,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];
-        if (channel.verdict != Verdict::forward_only)
+        if (isCompared(channel.verdict))
             channel = diffChannel(*channel.mode, pair, options.rules, options.allow_noise);
         for (const Frame* frame : {&left, &right, pair.explaining})
             if (frame) letGo(*frame, channel.mode->number);

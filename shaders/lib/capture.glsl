@@ -23,7 +23,8 @@ uint captureMode(uint attachment) {
     return modes[attachment];
 }
 
-void capture(Surface s, float z) {
+// shaded: Surfaces that are shaded at the pixel, where it has several samples.
+void capture(Surface s, float z, uint shaded) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z);
 #if SHADES
     Radiance radiance = shade(s, lights);
@@ -33,7 +34,7 @@ void capture(Surface s, float z) {
     Radiance radiance = noRadiance();
 #endif
     for (uint i = 0; i < ATTACHMENTS; ++i)
-        out_channels[i] = debugValue(captureMode(i), s, lights, radiance, z);
+        out_channels[i] = debugValue(captureMode(i), s, lights, radiance, z, shaded);
 }
 
 #endif

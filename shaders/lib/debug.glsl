@@ -7,8 +7,9 @@
 #include "shaders/lib/radiance.glsl"
 #include "shaders/lib/shadow.glsl"
 
-// The numbers of a channel (shared/contract/debug_mode.h), never a colour map. z: the reversed depth.
-vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, float z) {
+// The numbers of a channel (shared/contract/debug_mode.h), never a colour map. z: the reversed depth. shaded:
+// Surfaces that are shaded at the pixel.
+vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, float z, uint shaded) {
     switch (mode) {
         case DEBUG_lit: return vec4(lit(radiance), 1.0);
         case DEBUG_albedo: return vec4(s.albedo, 1.0);
@@ -25,6 +26,7 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_geometric_normal: return vec4(s.geometric_normal, 1.0);
         case DEBUG_light_count: return vec4(float(lightCount(lights)));
         case DEBUG_list_overflow: return vec4(listOverflowed(lights) ? 1.0 : 0.0);
+        case DEBUG_shaded_samples: return vec4(float(shaded));
         case DEBUG_shadow_visibility: return vec4(radiance.sun_visibility);
         case DEBUG_cascade: return vec4(servingCascade(s.position));
         case DEBUG_page_residency: return vec4(pageResidency(s.position));

@@ -14,6 +14,15 @@
 layout(early_fragment_tests) in;
 #endif
 
+// Surfaces that are shaded at the fragment's pixel.
+uint shadedSurfaces() {
+#if SAMPLES
+    return groupsOf(depthAt(ivec2(gl_FragCoord.xy)));
+#else
+    return 1u;
+#endif
+}
+
 Surface deferredSurface(out float z) {
     ivec2 p = ivec2(gl_FragCoord.xy);
     int shaded = 0;

@@ -51,8 +51,9 @@ GBufferTexel texelOfGBuffer(ivec2 p, int i) {
 Surface surfaceFromGBuffer(ivec2 p, int i, out float z) {
     GBufferTexel t = texelOfGBuffer(p, i);
 #if SAMPLES
-    z = uintBitsToFloat(t.attachments[GBUFFER_SHADED].x);
-    vec2 place = placeOf(t.attachments[GBUFFER_SHADED].y);
+    uvec2 shaded = t.attachments[GBUFFER_SHADED].xy;
+    z = depthOfShaded(shaded);
+    vec2 place = placeOfShaded(shaded);
 #else
     z = depthAt(p);
     vec2 place = vec2(0.5);

@@ -80,10 +80,12 @@ vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
 #endif
 #if INPUTS >= 3
 #define shaded_color SHADED(v_color)
+#define middle_color MIDDLE(v_color)
 #define shaded_irradiance SHADED(v_irradiance)
 #define shaded_irradiance_behind SHADED(v_irradiance_behind)
 #else
 #define shaded_color v_color
+#define middle_color v_color
 #define shaded_irradiance v_irradiance
 #define shaded_irradiance_behind v_irradiance_behind
 #endif

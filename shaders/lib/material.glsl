@@ -55,10 +55,36 @@ vec4 baseColor() {
 
 // Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading. A
 // pixel in a hole goes on as a helper of its neighbours, whose mip levels and triangle normals are
-// differences to it; after `discard` they would be undefined.
-void cutOut(vec4 base_color) {
-    if (on(feature_alpha_mask) && base_color.a < material.alpha_cutoff) demote;
+// differences to it; after `discard` they would be undefined. Returns which of the samples that the triangle
+// covers are left of it.
+// COVERAGE: 1 in the modules whose masks choose samples, which alone declare gl_SampleMask: who declares it must
+// write it.
+#if COVERAGE
+// The share of a pixel where alpha reaches the cutoff, as if it changed evenly across it (Golus 2017,
+// "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). Alpha is that of the pixel's middle, so that
+// triangles which share an edge choose the same samples of its pixels. What it changes by is taken along both
+// axes together, the width over which an edge in any direction passes through a pixel, and before the factor,
+// which reads as 0 where a quad leaves its triangle (slotTexcoord).
+float sharpenedAlpha() {
+    float alpha = 1.0;
+    if (on(feature_base_color_texture)) alpha *= texture(base_color_texture, middleTexcoord(SLOT_base_color)).a;
+    if (on(feature_vertex_color)) alpha *= middle_color.a;
+    float change = material.base_color.a * (abs(dFdxFine(alpha)) + abs(dFdyFine(alpha)));
+    float above = material.base_color.a * alpha - material.alpha_cutoff;
+    return change > 0.0 ? clamp(above / change + 0.5, 0.0, 1.0) : above < 0.0 ? 0.0 : 1.0;
 }
+
+uint cutOut(vec4 base_color) {
+    uint covered = coverageOf(sharpenedAlpha());
+    gl_SampleMask[0] = int(covered);
+    return covered & uint(gl_SampleMaskIn[0]);
+}
+#else
+uint cutOut(vec4 base_color) {
+    if (on(feature_alpha_mask) && base_color.a < material.alpha_cutoff) demote;
+    return uint(gl_SampleMaskIn[0]);
+}
+#endif
 
 float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 

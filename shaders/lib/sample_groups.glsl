@@ -12,6 +12,9 @@ struct SampleGroup {
     uint mask;  // of all that are in the group
 };
 
+// How many groups the pixel has.
+uint groupsOf(float stored) { return uint(stored * float(1u << GROUP_BITS)) >> GROUP_CODE_BITS; }
+
 // Group k of the pixel whose groups are stored so. The pixel has more than k of them.
 SampleGroup sampleGroup(float stored, uint k) {
     uint code = uint(stored * float(1u << GROUP_BITS)) & ((1u << GROUP_CODE_BITS) - 1u);

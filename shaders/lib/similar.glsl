@@ -27,8 +27,8 @@ bool alikeRadiance(vec3 a, vec3 b) {
 // a, b: of two samples of pixel p.
 bool areSimilar(ivec2 p, GBufferTexel a, GBufferTexel b) {
     uvec2 at = a.attachments[GBUFFER_SHADED].xy, bt = b.attachments[GBUFFER_SHADED].xy;
-    Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + placeOf(at.y), uintBitsToFloat(at.x)));
-    Surface t = decodeGBuffer(b, positionFromDepth(vec2(p) + placeOf(bt.y), uintBitsToFloat(bt.x)));
+    Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + placeOfShaded(at), depthOfShaded(at)));
+    Surface t = decodeGBuffer(b, positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(bt)));
     vec3 between = t.position - s.position, turned = s.normal - t.normal;
     float rough = min(s.roughness, t.roughness);
     float turn = min(SIMILAR_NORMAL * rough * rough, SIMILAR_NORMAL_MOST);

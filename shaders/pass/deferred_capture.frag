@@ -11,5 +11,5 @@
 void main() {
     float z;
     Surface s = deferredSurface(z);
-    capture(s, z);
+    capture(s, z, shadedSurfaces());
 }

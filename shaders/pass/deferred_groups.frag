@@ -32,12 +32,12 @@ void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     Sample samples[MAX_SAMPLES];
     uint labels[MAX_SAMPLES], count = 0u, i = 0u;
-    bool covered = true;  // by each triangle that is seen
+    bool covered = true;  // by each triangle that is seen, whole
     do {
         samples[i].texel = texelOfGBuffer(p, int(i));
         samples[i].depth = depthAt(p, int(i));
         covered = covered &&
-                  samples[i].texel.attachments[GBUFFER_SHADED].y == (1u << feature_samples) - 1u;
+                  leftOfShaded(samples[i].texel.attachments[GBUFFER_SHADED].xy) == (1u << feature_samples) - 1u;
     } while (++i < feature_samples);
     i = 0u;
     do {

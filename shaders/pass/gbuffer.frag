@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // INPUTS: 0 to 3
+// COVERAGE: 0 to 1
 
 #include "shaders/lib/gbuffer.glsl"
 #include "shaders/lib/material.glsl"
@@ -25,10 +26,10 @@ uvec4 optionalTexel(GBufferTexel t, uint k) {
 
 void main() {
     vec4 base_color = baseColor();
-    cutOut(base_color);
+    uint left = cutOut(base_color);
     GBufferTexel t = encodeGBuffer(surfaceFromMaterial(base_color));
     if (multisampled())
-        t.attachments[GBUFFER_SHADED].xy = uvec2(floatBitsToUint(fragmentDepth()), uint(gl_SampleMaskIn[0]));
+        t.attachments[GBUFFER_SHADED].xy = shadedTexel(uint(gl_SampleMaskIn[0]), left, fragmentDepth());
     out_texel[0] = t.attachments[GBUFFER_ALBEDO];
     out_texel[1] = t.attachments[GBUFFER_NORMALS];
     out_texel[2] = t.attachments[GBUFFER_PARAMS];

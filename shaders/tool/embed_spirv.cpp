@@ -76,11 +76,12 @@ int writeLayoutChecks(std::ofstream& out, const Reflection& r) {
     return structs;
 }
 
-// A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area or .unlit][.samples][.inputsN].
+// A module by its file's name without ".spv": SHADER.STAGE[.NUMBER][.area or .unlit]
+// [.samples or .coverage][.inputsN].
 struct Module {
     std::string name, shader;
     unsigned number = 0;
-    bool area_lights = false, lights = true, samples = false;
+    bool area_lights = false, lights = true, samples = false, coverage = false;
     int inputs = 3;
     Words words;
 
@@ -89,7 +90,7 @@ struct Module {
         std::ranges::replace(symbol, '.', '_');
         return symbol;
     }
-    auto order() const { return std::tie(shader, number, lights, area_lights, samples, inputs); }
+    auto order() const { return std::tie(shader, number, lights, area_lights, samples, coverage, inputs); }
 };
 
 Module moduleOf(const std::filesystem::path& file) {
@@ -108,6 +109,8 @@ Module moduleOf(const std::filesystem::path& file) {
             module.lights = false;
         else if (part == "samples")
             module.samples = true;
+        else if (part == "coverage")
+            module.coverage = true;
         else if (part.starts_with("inputs"))
             module.inputs = std::stoi(part.substr(std::string("inputs").size()));
         else
@@ -121,8 +124,8 @@ void writeTable(std::ofstream& out, const std::vector<Module>& modules) {
            "    static constexpr ShaderModule modules[] = {\n";
     for (const Module& m : modules)
         out << "        {\"" << m.name << "\", Shader::" << m.shader << ", " << m.number << ", "
-            << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.samples << ", " << m.inputs
-            << ", " << m.symbol() << "},\n";
+            << std::boolalpha << m.lights << ", " << m.area_lights << ", " << m.samples << ", " << m.coverage
+            << ", " << m.inputs << ", " << m.symbol() << "},\n";
     out << "    };\n    return modules;\n}\n\n}  // namespace diptych\n";
 }
 

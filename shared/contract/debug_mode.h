@@ -13,8 +13,9 @@
 //   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
 //   domain  unit: vectors of length 1   share: 0 to 1   positive: 0 or more   any
-//   made by both (and the reference), forward_only where the G-buffer does not carry it, or by the two paths
-//   alone (paths_only): how they work, of which the reference knows nothing
+//   made by both (and the reference), forward_only where the G-buffer does not carry it, deferred_only where
+//   it is about the G-buffer's samples, or by the two paths alone (paths_only): how they work, of which the
+//   reference knows nothing
 // clang-format off
 #define DEBUG_MODES(X)                                                                                 \
     X(0,  lit,              3, relative, color,  any,      both,         "radiance, W/(sr m^2)")       \
@@ -32,6 +33,7 @@
     X(12, geometric_normal, 3, angular,  vector, unit,     both,         "normal of the triangle, world") \
     X(20, light_count,      1, absolute, scalar, positive, paths_only,   "lights evaluated at the pixel") \
     X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list found no room") \
+    X(22, shaded_samples,   1, absolute, scalar, positive, deferred_only, "Surfaces that deferred lighting shades at the pixel, of several samples") \
     X(30, shadow_visibility, 1, absolute, scalar, share,   both,         "share of the casting sun that is seen; 1 where none casts") \
     X(31, cascade,          1, exact,    id,     any,      paths_only,   "cascade of the sun's shadow map, or the clipmap's level that is asked for, from 0; -1 where none serves") \
     X(32, page_residency,   1, exact,    id,     any,      paths_only,   "levels by which that which serves is coarser; 0: the page is there; -1 without a clipmap") \

@@ -28,6 +28,11 @@ CONTRACT_CONST(uint, SLOT_COUNT, 0 MATERIAL_SLOTS(DIPTYCH_SLOT_ONE));
 #undef DIPTYCH_SLOT_ONE
 CONTRACT_CONST(uint, BINDING_MATERIAL, SLOT_COUNT);  // of SET_MATERIAL, after the slots: uniform Material
 
+// Values of FEATURE_alpha_mask: a fragment is drawn where its alpha reaches the cutoff, or to as many of its
+// samples as its alpha, sharpened at the cutoff, says.
+CONTRACT_CONST(uint, MASK_CUTS, 1);
+CONTRACT_CONST(uint, MASK_COVERS, 2);
+
 // KHR_materials_transmission as a surface without thickness, which is blended: FEATURE_transmission. What of
 // the base colour's alpha it covers, as of all that is blended, or all of what it is drawn on.
 CONTRACT_CONST(uint, TRANSMISSION_COVERED, 1);

@@ -16,6 +16,11 @@ CONTRACT_CONST(uint, SAMPLE_PLACES_4, 0xeaa26e26u);
 CONTRACT_CONST(uint, SAMPLE_PLACES_8_LOW, 0x359db759u);
 CONTRACT_CONST(uint, SAMPLE_PLACES_8_HIGH, 0x1ffb71d3u);
 
+// The order in which an alpha mask covers samples (MASK_COVERS of material.h), 4 bits each, the first in the
+// lowest: each next one far from those before, so that what is covered lies about the pixel's middle.
+CONTRACT_CONST(uint, COVERAGE_ORDER_4, 0x2130u);
+CONTRACT_CONST(uint, COVERAGE_ORDER_8, 0x10472563u);
+
 // Values of FEATURE_sample_edges: the samples that deferred lighting shades as one.
 CONTRACT_CONST(uint, EDGES_ALL, 0);       // none
 CONTRACT_CONST(uint, EDGES_EXACT, 1);     // those of the same bits in every attachment

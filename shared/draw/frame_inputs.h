@@ -42,11 +42,13 @@ struct FrameInputs {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  // of a pixel, in images that triangles draw to
     bool sample_shading = false;                            // a fragment a sample
     MsaaEdges edges = MsaaEdges::exact;
-    bool prepass = true;  // forward+ draws depth first; prepareForwardPlus() decides
+    bool alpha_to_coverage = false;  // alpha masks choose samples
+    bool prepass = true;             // forward+ draws depth first; prepareForwardPlus() decides
 };
 
 struct FrameImages {
     ImageRef lit;                                              // RGBA32F, linear scene-referred radiance
+    ImageRef lit_samples;                                      // of every sample, before the resolve
     ImageRef depth;                                            // D32F, reversed
     std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid where there is none
     ImageRef groups{};  // deferred, with several samples a pixel: which of them are shaded as one, as a depth

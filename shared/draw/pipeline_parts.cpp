@@ -3,6 +3,7 @@
 
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/material.h"
 #include "shared/contract/object_lights.h"
 #include "shared/frame/debug_modes.h"
 
@@ -18,6 +19,7 @@ namespace {
 // Of the lights of an object only those that are shaded at vertices need one.
 int inputsOf(const Variant& variant, int sets) {
     if ((variant.get(gpu::FEATURE_object_lights) & gpu::OBJECT_LIGHTS_VERTEX) != 0) return 3;
+    if (variant.get(gpu::FEATURE_alpha_mask) == gpu::MASK_COVERS) return 3;  // no others are compiled
     const int least = 4 - sets;
     for (int inputs = 3; inputs > least; --inputs)
         if (variant.any(featuresNeedingInputs(inputs))) return inputs;
@@ -33,15 +35,16 @@ bool needsLights(const Variant& variant) {
 }
 
 // Some shaders exist as several modules, because a device pays for code and inputs that a variant does not
-// use: of those that draw to as many attachments the one for as many samples, with the code of lighting and
-// of area lights or without it, as the variant needs (a shader that lights nothing has none with it), and
-// with the fewest inputs that suffice.
+// use: of those that draw to as many attachments the one for such alpha masks and as many samples, with the
+// code of lighting and of area lights or without it, as the variant needs (a shader that lights nothing has
+// none with it), and with the fewest inputs that suffice.
 const ShaderModule* moduleOf(Shader shader, std::size_t attachments, const Variant& variant, int inputs) {
     const ShaderModule* best = &plainModule(shader, static_cast<std::uint32_t>(attachments));
     const bool lights = needsLights(variant), areaLights = variant.get(gpu::FEATURE_area_lights) != 0;
     const bool samples = variant.get(gpu::FEATURE_samples) != 0;
+    const bool coverage = variant.get(gpu::FEATURE_alpha_mask) == gpu::MASK_COVERS;
     const auto unfit = [&](const ShaderModule& module) {
-        return std::tuple(module.samples != samples, module.lights != lights,
+        return std::tuple(module.coverage != coverage, module.samples != samples, module.lights != lights,
                           module.area_lights != areaLights, module.inputs);
     };
     for (const ShaderModule& module : shaderModules(shader))

@@ -3,6 +3,7 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/material.h"
 #include "shared/draw/pipeline_keys.h"
 
 #include <memory>
@@ -51,6 +52,8 @@ std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const D
         if (sampled) {
             key.samples = inputs.samples;
             key.sample_shading = inputs.sample_shading;
+            if (inputs.alpha_to_coverage && key.variant.get(gpu::FEATURE_alpha_mask) != 0)
+                key.variant.set(gpu::FEATURE_alpha_mask, gpu::MASK_COVERS);
         }
         if (key.fragment != Shader::none)
             key.variant.set(gpu::FEATURE_samples, sampled ? inputs.variant.get(gpu::FEATURE_samples) : 0);

@@ -90,18 +90,27 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<Ca
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return;
     const auto lit = std::ranges::stable_partition(
         images, [](const CapturedImage& image) { return image.mode != static_cast<int>(gpu::DEBUG_lit); });
-    std::vector<ImageRef> sources, targets;
-    for (CapturedImage& image : images.first(images.size() - lit.size())) {
-        sources.push_back(image.image);
-        targets.push_back(passes.image({.name = "first sample",
-                                        .format = passes.format(image.image),
-                                        .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                        .life = Life::transient}));
-        image.image = targets.back();
-        image.pass = passes.size();
-    }
-    if (!sources.empty())
-        addReading(passes, inputs, Shader::sample_first_frag, "first samples", sources, targets);
+    // A background's samples have no count.
+    const std::span<CapturedImage> channels = images.first(images.size() - lit.size());
+    const auto counts = std::ranges::stable_partition(channels, [](const CapturedImage& image) {
+        return image.mode != static_cast<int>(gpu::DEBUG_shaded_samples);
+    });
+    const auto read = [&](std::span<CapturedImage> some, Shader fragment, const char* name) {
+        if (some.empty()) return;
+        std::vector<ImageRef> sources, targets;
+        for (CapturedImage& image : some) {
+            sources.push_back(image.image);
+            targets.push_back(passes.image({.name = name,
+                                            .format = passes.format(image.image),
+                                            .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                            .life = Life::transient}));
+            image.image = targets.back();
+            image.pass = passes.size();
+        }
+        addReading(passes, inputs, fragment, name, sources, targets);
+    };
+    read(channels.first(channels.size() - counts.size()), Shader::sample_first_frag, "first samples");
+    read(std::span(counts.begin(), counts.end()), Shader::sample_most_frag, "most of samples");
     for (CapturedImage& image : lit) {
         image.image = addResolve(passes, inputs, image.image, Life::transient);
         image.pass = passes.size() - 1;

@@ -17,7 +17,7 @@ enum class Metric { relative, absolute, angular, exact };
 enum class ChannelKind { color, vector, scalar, id };
 // What its numbers are: vectors of length 1, 0 to 1, 0 or more, or any.
 enum class Domain { unit, share, positive, any };
-enum class MadeBy { both, forward_only, paths_only };
+enum class MadeBy { both, forward_only, deferred_only, paths_only };
 
 // How a channel is shown as a picture; usual: as its kind and metric determine.
 enum class Shown { usual, radiance, display, normalised };

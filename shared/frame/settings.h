@@ -131,7 +131,7 @@ struct ValidValues {
 
 // Why no value but the default can be rendered; empty where every one can.
 struct DefaultOnly {
-    std::string_view because = {};              // "is not built yet"
+    std::string_view because = {};              // "has no meaning without --haze on"
     bool (*unless)(const Settings&) = nullptr;  // what lifts it; nullptr: nothing
 };
 
@@ -164,7 +164,6 @@ struct Field {
 // What several rows say.
 namespace row {
 
-inline constexpr std::string_view not_built = "is not built yet";
 inline constexpr std::string_view needs_evsm = "has no meaning without --shadows evsm or evsm4";
 inline constexpr std::string_view needs_evsm4 = "has no meaning without --shadows evsm4";
 inline constexpr std::string_view needs_clipmap = "has no meaning without --shadows clipmap";
@@ -602,8 +601,14 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "alpha-to-coverage",
                 .help = "alpha masks cover as many of a pixel's samples as their alpha, sharpened at the "
                         "cutoff",
-                .default_only = {row::not_built},
-                .ignored = {.reference = row::own_samples}},
+                .default_only = {"has no meaning but with --msaa 4 and --msaa-shading pixel: one sample is "
+                                 "covered or not",
+                                 [](const Settings& s) {
+                                     return row::hasMsaa(s) && s.msaa_shading == MsaaShading::pixel;
+                                 }},
+                .ignored = {.reference = row::own_samples},
+                .sweep = "on",
+                .sweep_with = "msaa"},
           &Settings::alpha_to_coverage);
     visit(Field{.option = "spec-aa",
                 .help = "specular anti-aliasing: roughness that grows with what the normal does in a pixel",

@@ -35,7 +35,7 @@ Variant variantOf(const Material& material) {
         if (texture.texcoord == 1) variant.set(gpu::FEATURE_second_texcoord);
         if (isTransformed(texture)) variant.set(gpu::FEATURE_texture_transform);
     }
-    if (material.alpha_mode == AlphaMode::mask) variant.set(gpu::FEATURE_alpha_mask);
+    if (material.alpha_mode == AlphaMode::mask) variant.set(gpu::FEATURE_alpha_mask, gpu::MASK_CUTS);
     if (material.double_sided) variant.set(gpu::FEATURE_double_sided);
     if (material.unlit)
         variant.set(gpu::FEATURE_unlit);

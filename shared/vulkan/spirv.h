@@ -18,17 +18,18 @@ struct ShaderModule {
     bool lights;            // false: without the code of lighting, of shaders that have it
     bool area_lights;       // with the code of area lights, of shaders that have it
     bool samples;           // of G-buffers of several samples a pixel, of shaders that read them
+    bool coverage;          // whose alpha masks choose samples, of shaders that have such masks
     int inputs;             // the set of inputs between its stage and the other, 3 being all
     std::span<const std::uint32_t> words;
 };
 
-// By shader, number, lights, area_lights, samples and inputs.
+// By shader, number, lights, area_lights, samples, coverage and inputs.
 std::span<const ShaderModule> shaderModules();
 std::span<const ShaderModule> shaderModules(Shader shader);
 
-// The module with all inputs, with lights, without area lights and for one sample a pixel, that has this
-// number, or of a shader without numbers the one that there is. Throws std::logic_error for a number that a
-// shader with numbers does not have.
+// The module with all inputs, with lights, without area lights, for one sample a pixel and without coverage,
+// that has this number, or of a shader without numbers the one that there is. Throws std::logic_error for a
+// number that a shader with numbers does not have.
 const ShaderModule& plainModule(Shader shader, std::uint32_t number = 0);
 
 }  // namespace diptych

@@ -3,12 +3,12 @@
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
+#include "tests/image/probe_words.h"
 #include "tests/image/scenes.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -18,14 +18,6 @@ namespace {
 constexpr VkFormat uintFormat = VK_FORMAT_R32G32B32A32_UINT, zFormat = VK_FORMAT_D32_SFLOAT,
                    oneFormat = VK_FORMAT_R32_SFLOAT;
 constexpr VkSampleCountFlagBits four = VK_SAMPLE_COUNT_4_BIT;
-
-std::vector<std::uint32_t> wordsOf(const std::string& name) {
-    const std::filesystem::path file = std::filesystem::path(DIPTYCH_PROBE_DIR) / (name + ".spv");
-    std::vector<std::uint32_t> words(std::filesystem::file_size(file) / 4);
-    std::ifstream(file, std::ios::binary)
-        .read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
-    return words;
-}
 
 struct Corners {
     std::array<glm::vec4, 3> corners{};
@@ -48,14 +40,14 @@ public:
         bool depth_only = false, sample_shading = false, depth_write = true;
     };
     Multisampled()
-        : v_(wordsOf("multisampled.vert")),
-          f_(wordsOf("multisampled.frag")),
-          r_(wordsOf("multisampled_read.frag")) {}
+        : v_(probeWords("multisampled.vert")),
+          f_(probeWords("multisampled.frag")),
+          r_(probeWords("multisampled_read.frag")) {}
 
     Sampled draw(const std::vector<Drawn>& drawn) {
-        const ShaderModule vertex{"multisampled.vert", Shader::none, 0, true, false, false, 3, v_},
-            fragment{"multisampled.frag", Shader::none, 0, true, false, false, 3, f_},
-            read{"multisampled_read.frag", Shader::none, 0, true, false, false, 3, r_};
+        const ShaderModule vertex{"multisampled.vert", Shader::none, 0, true, false, false, false, 3, v_},
+            fragment{"multisampled.frag", Shader::none, 0, true, false, false, false, 3, f_},
+            read{"multisampled_read.frag", Shader::none, 0, true, false, false, false, 3, r_};
         constexpr std::array types{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
         const OwnedDescriptorSetLayout setLayout = makeSetLayout(device(), types);

@@ -2,6 +2,7 @@
 // Both paths against the reference, the reference's two modes against each other, and negative controls with
 // faults on either side.
 #include "compare/verdict/pair_reports.h"
+#include "shared/frame/made_channels.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"
@@ -122,8 +123,8 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
                 traced = reference(renderer, settings, ReferenceMode::scene);
     for (const Frame* frame : {&surface, &traced})
         for (const DebugMode& mode : debugModes()) {
-            ASSERT_EQ(frame->channels.contains(mode.number), mode.maker != MadeBy::paths_only) << mode.name;
-            if (mode.maker == MadeBy::paths_only) continue;
+            ASSERT_EQ(frame->channels.contains(mode.number), isMadeByReference(mode)) << mode.name;
+            if (!isMadeByReference(mode)) continue;
             EXPECT_EQ(frame->channels.at(mode.number).components, mode.width) << mode.name;
         }
     EXPECT_EQ(nonfinite(surface), 0u);

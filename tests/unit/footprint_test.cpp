@@ -4,6 +4,7 @@
 #include "compare/verdict/footprint.h"
 #include "compare/metrics/flip.h"
 #include "compare/verdict/comparison.h"
+#include "shared/frame/made_channels.h"
 #include "tests/unit/report_maker.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ std::vector<Frame> evenFrames() {
         frame.settings.reference_mode =
             path == Path::reference ? ReferenceMode::scene : ReferenceMode::surface;
         for (const DebugMode& mode : debugModes()) {
-            if (mode.maker == MadeBy::paths_only) continue;
+            if (!isMadeByReference(mode)) continue;
             Image& image = frame.channels[mode.number] =
                 Image(side, side, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
             if (mode.domain == Domain::unit)

@@ -5,6 +5,7 @@
 #include "compare/reference/checkpoint.h"
 #include "compare/reference/pace.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/frame/made_channels.h"
 #include "tests/unit/files.h"
 
 #include <tbb/global_control.h>
@@ -58,9 +59,8 @@ TEST(ReferenceDraw, EveryKindInEveryChannel) {
         scene.lights[0].intensity = 3;
         const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
         for (const DebugMode& mode : debugModes()) {
-            ASSERT_EQ(d.picture.channels.contains(mode.number), mode.maker != MadeBy::paths_only)
-                << mode.name;
-            if (mode.maker == MadeBy::paths_only) continue;
+            ASSERT_EQ(d.picture.channels.contains(mode.number), isMadeByReference(mode)) << mode.name;
+            if (!isMadeByReference(mode)) continue;
             const Image& image = d.picture.channels.at(mode.number);
             EXPECT_EQ(image.components, mode.width) << mode.name;
             for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
@@ -105,7 +105,7 @@ TEST(ReferenceDraw, Channels) {
         EXPECT_EQ(value(mode), 0) << "there is no normal map";
     const Drawn empty = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 9}, 1, 1, 0.01));
     for (const DebugMode& mode : debugModes()) {
-        if (mode.maker == MadeBy::paths_only) continue;
+        if (!isMadeByReference(mode)) continue;
         EXPECT_EQ(empty.picture.channels.at(mode.number).data[0], mode.name == "material_id" ? -1 : 0)
             << mode.name;
     }

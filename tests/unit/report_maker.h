@@ -5,6 +5,7 @@
 #include "compare/report/report.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/frame/made_channels.h"
 
 #include <algorithm>
 #include <limits>
@@ -61,7 +62,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
         frame.time = {2, 1, 3, 5};
         frame.passes = {{"shade", 1.5}};
         for (const DebugMode& mode : debugModes()) {
-            if (path == Path::deferred && mode.maker == MadeBy::forward_only) continue;
+            if (!notMadeBecause(frame.settings, mode).empty()) continue;
             Image& image = frame.channels[mode.number] = Image(4, 3, mode.width);
             if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
             for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;

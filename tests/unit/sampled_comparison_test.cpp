@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Paths with several samples a pixel beside the reference: lit alone means the same in both.
+#include "shared/frame/made_channels.h"
 #include "tests/unit/report_maker.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ std::vector<Frame> sampledFrames(int samples) {
     reference.through_gbuffer.clear();
     reference.encoding_bound.clear();
     std::erase_if(reference.channels,
-                  [](const auto& channel) { return debugMode(channel.first).maker == MadeBy::paths_only; });
+                  [](const auto& channel) { return !isMadeByReference(debugMode(channel.first)); });
     for (Frame& frame : frames) {
         frame.settings.msaa = samples;
         for (auto& [mode, image] : frame.channels) {

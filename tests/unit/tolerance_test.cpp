@@ -37,6 +37,7 @@ struct Pair {
             if (mode.domain == Domain::unit) forward.channels[mode.number].data = {0.6f, 0, 0.8f};
             if (mode.maker != MadeBy::forward_only)
                 deferred.channels[mode.number] = forward.channels[mode.number];
+            if (mode.maker == MadeBy::deferred_only) forward.channels.erase(mode.number);
         }
     }
     Pair& encoding(GBufferEncoding e) {
@@ -310,11 +311,12 @@ TEST(Diff, EqualFramesPassAndForwardOnlyNeverCounts) {
     EXPECT_TRUE(c.passed());
     EXPECT_EQ(c.channels.size(), debugModes().size());
     EXPECT_EQ(channelOf(c, gpu::DEBUG_texcoords).verdict, Verdict::forward_only);
+    EXPECT_EQ(channelOf(c, gpu::DEBUG_shaded_samples).verdict, Verdict::deferred_only);
 }
 
 TEST(Diff, EveryChannelCanFail) {
     for (const DebugMode& mode : debugModes()) {
-        if (mode.maker == MadeBy::forward_only) continue;
+        if (mode.maker == MadeBy::forward_only || mode.maker == MadeBy::deferred_only) continue;
         Pair p;
         float& value = p.forward.channels[mode.number].data[0];
         value = mode.metric == Metric::exact ? value + 1 : -value;

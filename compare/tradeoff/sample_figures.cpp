@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/sample_figures.h"
+
+#include "shared/contract/debug_mode.h"
+
+#include <algorithm>
+
+namespace diptych::tradeoff {
+
+std::optional<Settings> exactEdges(const Settings& settings) {
+    if (settings.path != Path::deferred || settings.msaa == 1) return {};
+    Settings exact = settings;
+    exact.msaa_edges = MsaaEdges::exact;
+    return exact;
+}
+
+std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& frame) {
+    const auto find = [](const Frame& of, gpu::uint mode) {
+        const auto found = of.channels.find(static_cast<int>(mode));
+        return found == of.channels.end() ? nullptr : &found->second;
+    };
+    const Image *lit = find(frame, gpu::DEBUG_lit), *exact_lit = find(exact, gpu::DEBUG_lit),
+                *shaded = find(frame, gpu::DEBUG_shaded_samples),
+                *exact_shaded = find(exact, gpu::DEBUG_shaded_samples);
+    if (!lit || !exact_lit || !shaded || !exact_shaded || lit->pixels() != exact_lit->pixels()) return {};
+    double pixels = 0, surfaces = 0, edges = 0, differing = 0, elsewhere = 0;
+    for (std::size_t i = 0; i < lit->pixels(); ++i) {
+        const float count = shaded->pixel(i)[0];
+        if (!(count > 0)) continue;
+        ++pixels;
+        surfaces += double{count};
+        edges += count > 1;
+        const bool differs = !std::equal(lit->pixel(i), lit->pixel(i) + lit->components, exact_lit->pixel(i));
+        differing += differs;
+        elsewhere += differs && count >= exact_shaded->pixel(i)[0];
+    }
+    if (pixels == 0) return SampleShares{};
+    return SampleShares{surfaces / pixels, edges / pixels, differing / pixels, elsewhere / pixels};
+}
+
+FigureTable sampleTable(const Tradeoff& tradeoff) {
+    FigureTable table{"Samples that deferred lighting shades",
+                      "With several samples a pixel, --msaa-edges says which of them are shaded each for "
+                      "itself. Exact shades "
+                      "whatever differs in any bit of the G-buffer, and has the picture of all samples; what "
+                      "the others leave "
+                      "out, and where, is held against it.",
+                      {},
+                      {}};
+    for (const SampleFigure& figure : sampleFigures) table.columns.push_back({figure.title, figure.means});
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        if (const std::optional<SampleShares> shares = samplesOf(tradeoff.rows[i]))
+            table.rows.push_back(
+                {i, settingsInWords(tradeoff, i, "msaa-edges"), {shares->begin(), shares->end()}});
+    return table;
+}
+
+}  // namespace diptych::tradeoff

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "shared/frame/made_channels.h"
+
+namespace diptych {
+
+bool isMadeByReference(const DebugMode& mode) {
+    return mode.maker == MadeBy::both || mode.maker == MadeBy::forward_only;
+}
+
+std::string_view notMadeBecause(const Settings& settings, const DebugMode& mode) {
+    switch (mode.maker) {
+        case MadeBy::both:
+            return {};
+        case MadeBy::forward_only:
+            return settings.path == Path::deferred
+                       ? "the deferred path's G-buffer does not carry it; --path forward_plus makes it"
+                       : "";
+        case MadeBy::deferred_only:
+            if (settings.path != Path::deferred)
+                return "only deferred lighting chooses which samples it shades; --path deferred makes it";
+            return settings.msaa == 1 ? "every pixel is shaded once; use --msaa 4" : "";
+        case MadeBy::paths_only:
+            return settings.path == Path::reference
+                       ? "the reference evaluates every light; --path forward_plus and deferred show it"
+                       : "";
+    }
+    return {};
+}
+
+}  // namespace diptych

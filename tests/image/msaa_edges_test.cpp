@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// Which samples deferred lighting shades (--msaa-edges), held against lit of every sample.
+#include "compare/picture/picture.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/image/lit_samples.h"
+#include "tests/image/square.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int shaded = static_cast<int>(gpu::DEBUG_shaded_samples);
+
+Settings sampled(Size size, MsaaEdges edges) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = Path::deferred;
+    settings.size = size;
+    settings.msaa = 4;
+    settings.msaa_edges = edges;
+    return settings;
+}
+
+// Pairs of samples of one pixel that differ where each is shaded, and those of them that were shaded as one.
+struct Recall {
+    std::size_t pairs = 0, missed = 0;
+    double share() const {
+        return pairs == 0 ? 1 : 1 - static_cast<double>(missed) / static_cast<double>(pairs);
+    }
+};
+
+template <class Differ>
+Recall recallOf(const std::vector<Image>& all, const std::vector<Image>& chosen, const Differ& differ) {
+    Recall recall;
+    for (std::size_t i = 0; i < all[0].pixels(); ++i)
+        for (std::size_t s = 0; s < all.size(); ++s)
+            for (std::size_t t = 0; t < s; ++t) {
+                if (!differ(all[s].pixel(i), all[t].pixel(i))) continue;
+                ++recall.pairs;
+                recall.missed += std::equal(chosen[s].pixel(i), chosen[s].pixel(i) + 3, chosen[t].pixel(i));
+            }
+    return recall;
+}
+
+bool anyBit(const float* a, const float* b) {
+    return !std::equal(a, a + 3, b);
+}
+
+// Whether two radiances are more than a level of a display of 8 bits apart, in the picture that is made of
+// them.
+class DisplayLevel {
+public:
+    explicit DisplayLevel(const std::vector<Image>& samples) {
+        std::vector<double> luminances;
+        for (std::size_t i = 0; i < samples[0].pixels(); ++i) {
+            const float* p = samples[0].pixel(i);
+            luminances.push_back(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]);
+        }
+        const auto p95 = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() * 95 / 100);
+        std::nth_element(luminances.begin(), p95, luminances.end());
+        exposure_ = static_cast<float>(0.7 / *p95);
+    }
+    bool operator()(const float* a, const float* b) const {
+        const std::array<float, 3> x = shown(a), y = shown(b);
+        for (std::size_t c = 0; c < 3; ++c)
+            if (std::abs(srgbFromLinear(double{x.at(c)}) - srgbFromLinear(double{y.at(c)})) > 1.0 / 255)
+                return true;
+        return false;
+    }
+
+private:
+    std::array<float, 3> shown(const float* p) const {
+        return pbrNeutral({p[0] * exposure_, p[1] * exposure_, p[2] * exposure_});
+    }
+    float exposure_ = 1;
+};
+
+// Two squares that cross, of two colours: a picture in which a triangle covers every pixel whole and samples
+// of one pixel still differ.
+Scene crossing() {
+    Scene scene = square();
+    scene.nodes.push_back(
+        {"crossing", -1, glm::rotate(glm::dmat4(1.0), glm::radians(30.0), glm::dvec3(0.2, 1, 0)), 0});
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.materials.push_back({});
+    scene.materials[0].emissive = {1, 0, 0};
+    scene.materials[1].emissive = {0, 1, 0};
+    scene.meshes[1].primitives[0].material = 1;
+    scene.nodes[1].mesh = 1;
+    return scene;
+}
+
+class MsaaEdgesOf : public testing::TestWithParam<std::string> {
+protected:
+    static Scene sceneOf(const std::string& name) {
+        return loadScene(name.starts_with("builtin:") ? name : (assets() / name).string());
+    }
+};
+
+// Exact shades whatever differs. Similar finds 99.9 % of what a display would show; where it or coverage has
+// another picture, fewer Surfaces were shaded, which the channel says.
+TEST_P(MsaaEdgesOf, RecallAndWhereTheyDiffer) {
+    if (!GetParam().starts_with("builtin:") && !std::filesystem::exists(assets() / GetParam()))
+        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << assets() / GetParam()
+                     << "; the built-in scenes prove it";
+    const Size size{160, 90};
+    SampledScene scene(sceneOf(GetParam()));
+    Renderer renderer(device(), scene.scene, pipelines());
+    const std::vector<Image> all = scene.draw(sampled(size, MsaaEdges::all));
+    const DisplayLevel seen(all);
+    const Recall exact = recallOf(all, scene.draw(sampled(size, MsaaEdges::exact)), anyBit);
+    EXPECT_EQ(exact.missed, 0u);
+    EXPECT_GT(exact.pairs, 100u);
+    const Recall similar = recallOf(all, scene.draw(sampled(size, MsaaEdges::similar)), seen);
+    EXPECT_GE(similar.share(), 0.999) << similar.missed << " of " << similar.pairs;
+    RecordProperty("similar_missed", static_cast<int>(similar.missed));
+    RecordProperty("similar_pairs", static_cast<int>(similar.pairs));
+
+    const auto drawn = [&](MsaaEdges edges) {
+        return drawnBy(Path::deferred, renderer, sampled(size, edges), {lit, shaded});
+    };
+    const Frame whole = drawn(MsaaEdges::exact);
+    const Image &lit_of_whole = whole.channels.at(lit), &shaded_of_whole = whole.channels.at(shaded);
+    for (const MsaaEdges edges : {MsaaEdges::similar, MsaaEdges::coverage}) {
+        const Frame frame = drawn(edges);
+        const Image &image = frame.channels.at(lit), &counts = frame.channels.at(shaded);
+        std::size_t elsewhere = 0, more = 0;
+        for (std::size_t i = 0; i < image.pixels(); ++i) {
+            const bool fewer = counts.pixel(i)[0] < shaded_of_whole.pixel(i)[0];
+            more += counts.pixel(i)[0] > shaded_of_whole.pixel(i)[0];
+            elsewhere += anyBit(image.pixel(i), lit_of_whole.pixel(i)) && !fewer;
+        }
+        EXPECT_EQ(elsewhere, 0u) << nameOf(edges);
+        EXPECT_EQ(more, 0u) << nameOf(edges);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Msaa, MsaaEdgesOf,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:cutout",
+                                         "flight_helmet/FlightHelmet.gltf", "sponza/Sponza.gltf"),
+                         [](const auto& scene) { return testName(scene.param); });
+
+// Negative control: what finds edges by triangles that cover a part misses where two cross.
+TEST(MsaaEdges, RecallNoticesWhatIsMissed) {
+    SampledScene scene(crossing());
+    const std::vector<Image> all = scene.draw(sampled({32, 32}, MsaaEdges::all));
+    EXPECT_EQ(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::exact)), anyBit).missed, 0u);
+    const DisplayLevel seen(all);
+    EXPECT_EQ(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::similar)), seen).missed, 0u);
+    EXPECT_LT(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::coverage)), seen).share(), 0.9);
+}
+
+// On a fine mesh similar shades less than exact: that is what it is for.
+TEST(MsaaEdges, SimilarSavesOnFineMeshes) {
+    Renderer& renderer = uploaded("builtin:spheres").renderer;
+    const auto surfaces = [&](MsaaEdges edges) {
+        const Frame frame = drawnBy(Path::deferred, renderer, sampled({160, 90}, edges), {lit, shaded});
+        double sum = 0;
+        for (const float count : frame.channels.at(shaded).data) sum += double{count};
+        return sum;
+    };
+    const double all = surfaces(MsaaEdges::all), exact = surfaces(MsaaEdges::exact),
+                 similar = surfaces(MsaaEdges::similar), coverage = surfaces(MsaaEdges::coverage);
+    EXPECT_LT(exact, all);
+    EXPECT_LT(similar, 0.95 * exact);
+    EXPECT_LE(coverage, exact);
+}
+
+// A square's two triangles over the whole picture: one Surface a pixel, two on the line between them, and
+// with all as many as samples. Nothing is shaded of the background.
+TEST(MsaaEdges, TheChannelCountsSurfaces) {
+    const Scene scene = square();
+    Renderer whole(device(), scene, pipelines());
+    const auto countsOf = [](Renderer& renderer, MsaaEdges edges) {
+        std::array<int, 5> pixels{};
+        const Frame frame = drawnBy(Path::deferred, renderer, sampled({8, 8}, edges), {shaded});
+        for (const float count : frame.channels.at(shaded).data) ++pixels.at(static_cast<std::size_t>(count));
+        return pixels;
+    };
+    EXPECT_EQ(countsOf(whole, MsaaEdges::all), (std::array{0, 0, 0, 0, 64}));
+    EXPECT_EQ(countsOf(whole, MsaaEdges::exact), (std::array{0, 56, 8, 0, 0}));
+    EXPECT_EQ(countsOf(whole, MsaaEdges::coverage), (std::array{0, 56, 8, 0, 0}));
+    EXPECT_EQ(countsOf(whole, MsaaEdges::similar), (std::array{0, 64, 0, 0, 0}));
+    Scene lower = square();
+    lower.meshes[0].primitives[0].indices = {0, 1, 2};  // below the diagonal, which samples of 8 pixels cross
+    Renderer half(device(), lower, pipelines());
+    EXPECT_EQ(countsOf(half, MsaaEdges::exact), (std::array{28, 36, 0, 0, 0}));
+}
+
+// forward+ has no such channel, and with one sample a pixel nobody has.
+TEST(MsaaEdges, TheChannelIsOfDeferredWithSeveralSamples) {
+    const Scene scene = square();
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = sampled({4, 4}, MsaaEdges::exact);
+    EXPECT_TRUE(drawnBy(Path::deferred, renderer, settings).channels.contains(shaded));
+    EXPECT_FALSE(drawnBy(Path::forward_plus, renderer, settings).channels.contains(shaded));
+    settings.msaa = 1;
+    EXPECT_FALSE(drawnBy(Path::deferred, renderer, settings).channels.contains(shaded));
+}
+
+}  // namespace
+}  // namespace diptych::tests

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What deferred lighting's choice of samples saves and changes, by row of a sweep.
+#include "compare/tradeoff/sample_figures.h"
+#include "shared/contract/debug_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace diptych::tradeoff {
+namespace {
+
+Frame sampledRow(const std::vector<float>& lit, const std::vector<float>& shaded) {
+    Frame frame;
+    const auto image = [](const std::vector<float>& values) {
+        Image row(static_cast<int>(values.size()), 1, 1);
+        row.data.assign(values.begin(), values.end());
+        return row;
+    };
+    frame.channels[static_cast<int>(gpu::DEBUG_lit)] = image(lit);
+    frame.channels[static_cast<int>(gpu::DEBUG_shaded_samples)] = image(shaded);
+    return frame;
+}
+
+TEST(TradeoffSamples, AreSharesOfThePixelsThatShowASurface) {
+    const Frame exact = sampledRow({1, 2, 3, 4, 0}, {1, 4, 2, 1, 0});
+    EXPECT_EQ(sampleSharesOf(exact, exact), (SampleShares{8.0 / 4, 0.5, 0, 0}));
+    // The second pixel differs where less is shaded, the fourth where as much is.
+    const Frame similar = sampledRow({1, 2.5f, 3, 5, 9}, {1, 2, 2, 1, 0});
+    EXPECT_EQ(sampleSharesOf(exact, similar), (SampleShares{6.0 / 4, 0.5, 0.5, 0.25}));
+    const Frame background = sampledRow({0}, {0});
+    EXPECT_EQ(sampleSharesOf(background, background), SampleShares{});
+    Frame without = exact;
+    without.channels.erase(static_cast<int>(gpu::DEBUG_shaded_samples));
+    EXPECT_FALSE(sampleSharesOf(exact, without));
+}
+
+TEST(TradeoffSamples, DeferredAloneChoosesThem) {
+    Settings settings;
+    settings.path = Path::deferred;
+    EXPECT_FALSE(exactEdges(settings));
+    settings.msaa = 4;
+    settings.msaa_edges = MsaaEdges::similar;
+    ASSERT_TRUE(exactEdges(settings));
+    EXPECT_EQ(exactEdges(settings)->msaa_edges, MsaaEdges::exact);
+    settings.path = Path::forward_plus;
+    EXPECT_FALSE(exactEdges(settings));
+}
+
+TEST(TradeoffSamples, TheTableHasTheRowsThatChoose) {
+    Tradeoff tradeoff;
+    tradeoff.given.path = Path::deferred;
+    tradeoff.given.msaa = 4;
+    EXPECT_EQ(inText(tradeoff, sampleTable(tradeoff)), "");
+    for (const MsaaEdges edges : {MsaaEdges::exact, MsaaEdges::similar}) {
+        TradeoffRow row;
+        row.settings = tradeoff.given;
+        row.settings.msaa_edges = edges;
+        CameraRow camera{
+            "default view", {{12, 11, 13, 5}}, {}, {}, {}, 10, {}, SampleShares{1.25, 0.125, 0.0625, 0}};
+        if (edges == MsaaEdges::exact) camera.samples = {};
+        row.cameras = {camera};
+        tradeoff.rows.push_back(row);
+    }
+    const std::string text = inText(tradeoff, sampleTable(tradeoff)),
+                      html = inHtml(tradeoff, sampleTable(tradeoff));
+    EXPECT_NE(text.find("   2        12"), std::string::npos) << text;
+    EXPECT_NE(text.find("1.25"), std::string::npos) << text;
+    EXPECT_NE(text.find("msaa-edges similar"), std::string::npos) << text;
+    EXPECT_EQ(text.find("\n   1 "), std::string::npos) << text;
+    EXPECT_NE(html.find("<tr data-row=\"2\">"), std::string::npos) << html;
+    const TradeoffRow again = tradeoffRowFrom(jsonOf(tradeoff.rows[1]));
+    EXPECT_EQ(samplesOf(again), samplesOf(tradeoff.rows[1]));
+    EXPECT_FALSE(samplesOf(tradeoffRowFrom(jsonOf(tradeoff.rows[0]))));
+}
+
+}  // namespace
+}  // namespace diptych::tradeoff
