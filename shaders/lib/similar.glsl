@@ -7,13 +7,16 @@
 
 #include "shaders/lib/gbuffer_read.glsl"
 
-// Largest differences, of colours, shares and roughness; of radiance as a share of the larger one.
-const float SIMILAR_ATTRIBUTE = 1.0 / 255.0;
-// Sine of the angle between normals, as a share of the squared roughness; and at most.
-const float SIMILAR_NORMAL = 0.02;
-const float SIMILAR_NORMAL_MOST = 0.02;
+// Largest differences, of colours, shares and roughness; of radiance as a share of the larger one: a quarter of
+// a level of 8 bits, as what is dark may be brightly lit.
+const float SIMILAR_ATTRIBUTE = 0.25 / 255.0;
+// Sine of the angle between normals, as a share of the squared roughness.
+const float SIMILAR_NORMAL = 0.001;
 // Distance of either position from the plane of the other, as a share of the distance between them.
-const float SIMILAR_PLANE = 0.1;
+const float SIMILAR_PLANE = 0.01;
+// Distance between the positions, as a multiple of what it is on a surface that faces the viewer: at grazing
+// angles a pixel spans much of a surface, and light on it changes.
+const float SIMILAR_SPAN = 1.5;
 
 bool within(vec3 a, vec3 b, float most) {
     vec3 d = abs(a - b);
@@ -28,12 +31,14 @@ bool alikeRadiance(vec3 a, vec3 b) {
 bool areSimilar(ivec2 p, GBufferTexel a, GBufferTexel b) {
     uvec2 at = a.attachments[GBUFFER_SHADED].xy, bt = b.attachments[GBUFFER_SHADED].xy;
     Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + placeOfShaded(at), depthOfShaded(at)));
+    vec3 facing = positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(at)) - s.position;
     Surface t = decodeGBuffer(b, positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(bt)));
     vec3 between = t.position - s.position, turned = s.normal - t.normal;
     float rough = min(s.roughness, t.roughness);
-    float turn = min(SIMILAR_NORMAL * rough * rough, SIMILAR_NORMAL_MOST);
+    float turn = SIMILAR_NORMAL * rough * rough;
     float off = max(abs(dot(between, s.normal)), abs(dot(between, t.normal)));
-    bool near = off * off <= SIMILAR_PLANE * SIMILAR_PLANE * dot(between, between);
+    bool near = off * off <= SIMILAR_PLANE * SIMILAR_PLANE * dot(between, between) &&
+                dot(between, between) <= SIMILAR_SPAN * SIMILAR_SPAN * dot(facing, facing);
     return s.material_id == t.material_id && s.lightmapped == t.lightmapped && near &&
            dot(turned, turned) <= turn * turn && within(s.albedo, t.albedo, SIMILAR_ATTRIBUTE) &&
            within(vec3(s.roughness, s.metallic, s.occlusion), vec3(t.roughness, t.metallic, t.occlusion),
