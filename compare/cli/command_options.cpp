@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_options.h"
 
-
 #include <fmt/format.h>
 
 #include <initializer_list>

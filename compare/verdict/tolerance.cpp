@@ -143,6 +143,8 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_light_count:
         case gpu::DEBUG_list_overflow:
             return {0, "one list for both paths, by the same function of pixel and depth"};
+        case gpu::DEBUG_shaded_samples:
+            return {0, "the same samples of one G-buffer are shaded"};
         case gpu::DEBUG_depth:
         case gpu::DEBUG_position:
         case gpu::DEBUG_lit_haze:

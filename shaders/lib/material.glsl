@@ -57,8 +57,8 @@ vec4 baseColor() {
 // pixel in a hole goes on as a helper of its neighbours, whose mip levels and triangle normals are
 // differences to it; after `discard` they would be undefined. Returns which of the samples that the triangle
 // covers are left of it.
-// COVERAGE: 1 in the modules whose masks choose samples, which alone declare gl_SampleMask: who declares it must
-// write it.
+// COVERAGE: 1 in the modules whose masks choose samples, which alone declare gl_SampleMask: who declares it
+// must write it.
 #if COVERAGE
 // The share of a pixel where alpha reaches the cutoff, as if it changed evenly across it (Golus 2017,
 // "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). Alpha is that of the pixel's middle, so that
@@ -67,7 +67,8 @@ vec4 baseColor() {
 // which reads as 0 where a quad leaves its triangle (slotTexcoord).
 float sharpenedAlpha() {
     float alpha = 1.0;
-    if (on(feature_base_color_texture)) alpha *= texture(base_color_texture, middleTexcoord(SLOT_base_color)).a;
+    if (on(feature_base_color_texture))
+        alpha *= texture(base_color_texture, middleTexcoord(SLOT_base_color)).a;
     if (on(feature_vertex_color)) alpha *= middle_color.a;
     float change = material.base_color.a * (abs(dFdxFine(alpha)) + abs(dFdyFine(alpha)));
     float above = material.base_color.a * alpha - material.alpha_cutoff;

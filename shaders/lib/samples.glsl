@@ -26,8 +26,8 @@ vec2 placeOf(uint mask) {
     return mask != 0 ? sum / float(bitCount(mask)) : vec2(0.5);
 }
 
-// The texel of GBUFFER_SHADED, of a fragment whose triangle covers some samples, which an alpha mask leaves of
-// them, and its reversed depth.
+// The texel of GBUFFER_SHADED, of a fragment: the samples that its triangle covers, those that an alpha mask
+// leaves of them, and its reversed depth.
 uvec2 shadedTexel(uint covered, uint left, float z) {
     return uvec2(floatBitsToUint(z), covered | left << MAX_SAMPLES);
 }
@@ -35,9 +35,9 @@ float depthOfShaded(uvec2 texel) { return uintBitsToFloat(texel.x); }
 vec2 placeOfShaded(uvec2 texel) { return placeOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
 uint leftOfShaded(uvec2 texel) { return texel.y >> MAX_SAMPLES; }
 
-// The samples that a mask's alpha of 0 to 1 covers: as many as come next to it, so that what is covered is off
-// by half a sample at most. What a device makes of alphaToCoverageEnable is its own (lavapipe: ceil(4 alpha)), and it
-// reads the first attachment, of which a G-buffer's alpha are packed bits.
+// The samples that a mask's alpha of 0 to 1 covers: as many as come next to it, so that what is covered is
+// off by half a sample at most. What a device makes of alphaToCoverageEnable is its own (lavapipe: ceil(4
+// alpha)), and it reads the first attachment, of which a G-buffer's alpha are packed bits.
 uint coverageOf(float alpha) {
     uint order = feature_samples == 4 ? COVERAGE_ORDER_4 : COVERAGE_ORDER_8;
     uint count = uint(clamp(alpha, 0.0, 1.0) * float(feature_samples) + 0.5), mask = 0u, i = 0u;

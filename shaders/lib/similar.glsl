@@ -7,8 +7,8 @@
 
 #include "shaders/lib/gbuffer_read.glsl"
 
-// Largest differences, of colours, shares and roughness; of radiance as a share of the larger one: a quarter of
-// a level of 8 bits, as what is dark may be brightly lit.
+// Largest differences, of colours, shares and roughness; of radiance as a share of the larger one: a quarter
+// of a level of 8 bits, as what is dark may be brightly lit.
 const float SIMILAR_ATTRIBUTE = 0.25 / 255.0;
 // Sine of the angle between normals, as a share of the squared roughness.
 const float SIMILAR_NORMAL = 0.001;

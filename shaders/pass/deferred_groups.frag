@@ -36,8 +36,8 @@ void main() {
     do {
         samples[i].texel = texelOfGBuffer(p, int(i));
         samples[i].depth = depthAt(p, int(i));
-        covered = covered &&
-                  leftOfShaded(samples[i].texel.attachments[GBUFFER_SHADED].xy) == (1u << feature_samples) - 1u;
+        uint left = leftOfShaded(samples[i].texel.attachments[GBUFFER_SHADED].xy);
+        covered = covered && left == (1u << feature_samples) - 1u;
     } while (++i < feature_samples);
     i = 0u;
     do {

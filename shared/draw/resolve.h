@@ -23,7 +23,8 @@ ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, L
 std::size_t mostCaptured(const FrameInputs& inputs);
 
 // Puts pictures of one sample in the place of a group's `images`, as lists of passes read them back: of every
-// channel the first sample, of shaded_samples the most of any, then lit resolved. Nothing where pixels have one sample.
+// channel the first sample, of shaded_samples the most of any, then lit resolved. Nothing where pixels have
+// one sample.
 void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<CapturedImage> images);
 
 }  // namespace diptych

@@ -78,7 +78,8 @@ TEST(Command, UsageErrorsAreOneLineAndExitTwo) {
 
 TEST(Command, WhatHasNoMeaningIsNamedAndExitTwo) {
     const Folder folder;
-    for (const std::string option : {"--spec-aa-limit 0.5", "--msaa-shading sample", "--alpha-to-coverage on"})
+    for (const std::string option :
+         {"--spec-aa-limit 0.5", "--msaa-shading sample", "--alpha-to-coverage on"})
         for (const std::string command : {"compare ", "render ", "plan "})
             EXPECT_TRUE(runTool(folder, command + option).failedOver(option + " has no meaning"));
     EXPECT_TRUE(runTool(folder, "plan --shadows off --shadow-lights 1")

@@ -52,7 +52,7 @@ TEST(ReportIndex, FailingOnesComeFirst) {
         << section.substr(0, 80);
     const std::string html = nlohmann::json::parse(section.substr(17, section.size() - 20));
     EXPECT_EQ(markupFault(html, htmlVoids), "");
-    EXPECT_EQ(countOf(html, "<details class=\"box card"), debugModes().size());
+    EXPECT_EQ(countOf(html, "<details class=\"box card"), channelsOfOneSample());
     EXPECT_EQ(filesIn(out), json["files"].get<std::vector<std::string>>());
 }
 

@@ -48,6 +48,12 @@ inline std::string markupFault(const std::string& text, const std::set<std::stri
     return open.empty() ? "" : "unclosed <" + open.back() + ">";
 }
 
+// How many channels a pixel of one sample has in either path.
+inline std::size_t channelsOfOneSample() {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        debugModes(), [](const DebugMode& mode) { return mode.maker != MadeBy::deferred_only; }));
+}
+
 // Both paths of one small scene, one surface pixel among background; every channel there.
 inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
     std::vector<Frame> frames(2);

@@ -194,7 +194,7 @@ TEST(ReportValues, EachChannelHasAFileThatTheReportLists) {
     std::vector<std::string> names = json["files"];
     EXPECT_EQ(static_cast<std::size_t>(std::ranges::count_if(
                   names, [](const std::string& name) { return name.ends_with(".values.js"); })),
-              debugModes().size());
+              channelsOfOneSample());
     EXPECT_EQ(namesIn(out), names);
     // They are replaced and removed as pictures are.
     ReportOptions single;
