@@ -6,7 +6,6 @@
 #include "compare/tradeoff/figure_table.h"
 #include "shared/frame/frame.h"
 
-#include <array>
 #include <optional>
 
 namespace diptych::tradeoff {

@@ -5,8 +5,6 @@
 #include "tests/image/lit_samples.h"
 #include "tests/image/square.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -81,21 +79,6 @@ private:
     float exposure_ = 1;
 };
 
-// Two squares that cross, of two colours: a picture in which a triangle covers every pixel whole and samples
-// of one pixel still differ.
-Scene crossing() {
-    Scene scene = square();
-    scene.nodes.push_back(
-        {"crossing", -1, glm::rotate(glm::dmat4(1.0), glm::radians(30.0), glm::dvec3(0.2, 1, 0)), 0});
-    scene.meshes.push_back(scene.meshes[0]);
-    scene.materials.push_back({});
-    scene.materials[0].emissive = {1, 0, 0};
-    scene.materials[1].emissive = {0, 1, 0};
-    scene.meshes[1].primitives[0].material = 1;
-    scene.nodes[1].mesh = 1;
-    return scene;
-}
-
 class MsaaEdgesOf : public testing::TestWithParam<std::string> {
 protected:
     static Scene sceneOf(const std::string& name) {
@@ -151,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Msaa, MsaaEdgesOf,
 
 // Negative control: what finds edges by triangles that cover a part misses where two cross.
 TEST(MsaaEdges, RecallNoticesWhatIsMissed) {
-    SampledScene scene(crossing());
+    SampledScene scene(crossingSquares());
     const std::vector<Image> all = scene.draw(sampled({32, 32}, MsaaEdges::all));
     EXPECT_EQ(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::exact)), anyBit).missed, 0u);
     const DisplayLevel seen(all);

@@ -228,18 +228,8 @@ TEST(Msaa, ResolvesAsItSays) {
     }
 }
 
-// Two squares that cross: every pixel of the line is covered by both, and only what is behind which differs
-// from sample to sample.
 TEST(Msaa, CoverageMissesWhatInterpenetrates) {
-    Scene scene = square();
-    scene.nodes.push_back(
-        {"crossing", -1, glm::rotate(glm::dmat4(1.0), glm::radians(30.0), glm::dvec3(0.2, 1, 0)), 0});
-    scene.meshes.push_back(scene.meshes[0]);
-    scene.materials.push_back({});
-    scene.materials[0].emissive = {1, 0, 0};
-    scene.materials[1].emissive = {0, 1, 0};
-    scene.meshes[1].primitives[0].material = 1;
-    scene.nodes[1].mesh = 1;
+    const Scene scene = crossingSquares();
     Renderer renderer(device(), scene, pipelines());
     const Frame forward = litOf(renderer, sampled({32, 32}), Path::forward_plus);
     const Image& truth = forward.channels.at(lit);

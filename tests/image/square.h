@@ -4,6 +4,8 @@
 
 #include "tests/image/scenes.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <numbers>
 #include <string>
 #include <vector>
@@ -37,6 +39,21 @@ inline Scene square() {
     camera.near = 0.1;
     camera.world_from_camera[3] = {0, 0, 1, 1};
     scene.cameras.push_back(camera);
+    return scene;
+}
+
+// Two squares that cross, of two colours: every pixel of the line is covered by both, and only which is
+// behind the other differs from sample to sample.
+inline Scene crossingSquares() {
+    Scene scene = square();
+    scene.nodes.push_back(
+        {"crossing", -1, glm::rotate(glm::dmat4(1.0), glm::radians(30.0), glm::dvec3(0.2, 1, 0)), 0});
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.materials.push_back({});
+    scene.materials[0].emissive = {1, 0, 0};
+    scene.materials[1].emissive = {0, 1, 0};
+    scene.meshes[1].primitives[0].material = 1;
+    scene.nodes[1].mesh = 1;
     return scene;
 }
 
