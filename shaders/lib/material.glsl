@@ -61,17 +61,18 @@ vec4 baseColor() {
 // must write it.
 #if COVERAGE
 // The share of a pixel where alpha reaches the cutoff, as if it changed evenly across it (Golus 2017,
-// "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). `alpha` is that of the place which is shaded, and
-// lies within the triangle: beyond its edge a texture that repeats begins anew. What it changes by is taken
-// from pixel to pixel at their middles, along both axes together, the width over which an edge in any
+// "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). `alpha` is that of the place which is shaded,
+// and lies within the triangle: beyond its edge a texture that repeats begins anew. What it changes by is
+// taken from pixel to pixel at their middles, along both axes together, the width over which an edge in any
 // direction passes through a pixel, and before the factor, which reads as 0 where a quad leaves its triangle
-// (slotTexcoord).
+// (slotTexcoord). It is 1 at most: pixels beside the triangle may lie where a texture begins anew, and a
+// clear place then stays clear where the cutoff is above 3/8.
 float sharpenedAlpha(float alpha) {
     float middle = 1.0;
     if (on(feature_base_color_texture))
         middle *= texture(base_color_texture, middleTexcoord(SLOT_base_color)).a;
     if (on(feature_vertex_color)) middle *= middle_color.a;
-    float change = material.base_color.a * (abs(dFdxFine(middle)) + abs(dFdyFine(middle)));
+    float change = min(material.base_color.a * (abs(dFdxFine(middle)) + abs(dFdyFine(middle))), 1.0);
     float above = alpha - material.alpha_cutoff;
     return change > 0.0 ? clamp(above / change + 0.5, 0.0, 1.0) : above < 0.0 ? 0.0 : 1.0;
 }

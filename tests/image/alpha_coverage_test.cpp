@@ -120,8 +120,7 @@ TEST(AlphaCoverage, NothingIsTakenFromBeyondAnEdge) {
     scene.images = {{"ramp", 8, 1, {}}};
     for (int x = 0; x < 8; ++x)
         for (const int c : {255, 255, 255, x < 4 ? 0 : 255})
-            scene.images[0].pixels.push_back(static_cast<std::uint8_t>(c));
-    scene.textures = {{0, Sampler{}}};
+            scene.images[0].rgba.push_back(static_cast<std::uint8_t>(c));
     scene.materials[0].base_color_texture.texture = 0;
     Renderer renderer(device(), scene, pipelines());
     const Frame frame = drawnBy(Path::forward_plus, renderer, covered({64, 64}), {lit});
