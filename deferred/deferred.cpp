@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "deferred/deferred.h"
 
+#include "deferred/sample_groups.h"
+
 #include "shared/contract/debug_mode.h"
-#include "shared/contract/samples.h"
 #include "shared/draw/background.h"
 #include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"
@@ -37,20 +38,13 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
     return key;
 }
 
-Variant lightingVariant(const FrameInputs& inputs) {
-    Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_LIGHTING));
-    if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
-        variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
-    return variant;
-}
-
 // A full-screen pass over the G-buffer. Its triangle lies at the smallest depth that can be drawn, so a
 // depth test of LESS_OR_EQUAL skips every pixel that nothing was drawn to (0) before it is shaded. With
-// several samples a pixel the depth is that of addGroups(), and there is a triangle for each group that a
-// pixel may have.
+// several samples a pixel the depth is that of addGroups(), and there is a triangle for each of the first
+// `groups` groups that a pixel may have.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                          Shader fragment, Variant variant, const std::vector<VkFormat>& colors,
-                         const LightBatch& batch) {
+                         const LightBatch& batch, gpu::uint groups) {
     for (const ImageRef image : frame.gbuffer)
         if (image.valid()) pass.samples(image, inFragment);
     batch.read(pass);
@@ -67,42 +61,7 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
                                                                  .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
                                                                  .depth_write = false,
                                                                  .samples = inputs.samples});
-    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, inputs.samples));
-}
-
-gpu::uint edgesOf(MsaaEdges edges) {
-    switch (edges) {
-        case MsaaEdges::all:
-            return gpu::EDGES_ALL;
-        case MsaaEdges::exact:
-            return gpu::EDGES_EXACT;
-        case MsaaEdges::similar:
-            return gpu::EDGES_SIMILAR;
-        case MsaaEdges::coverage:
-            return gpu::EDGES_COVERAGE;
-    }
-    return gpu::EDGES_EXACT;
-}
-
-// Which samples of a pixel are shaded as one.
-void addGroups(PassList& passes, const FrameInputs& inputs, FrameImages& frame) {
-    if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return;
-    frame.groups = sampledImage(passes, inputs, "groups of samples", depthFormat);
-    Pass& pass = passes.draw("group samples").depth(frame.groups, Load::clear);
-    for (const ImageRef image : frame.gbuffer)
-        if (image.valid()) pass.samples(image, inFragment);
-    pass.samples(frame.depth, inFragment);
-    Variant variant = lightingVariant(inputs);
-    variant.set(gpu::FEATURE_sample_edges, edgesOf(inputs.edges));
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
-                                                                 .fragment = Shader::deferred_groups_frag,
-                                                                 .variant = variant,
-                                                                 .input = NO_VERTICES,
-                                                                 .depth = depthFormat,
-                                                                 .depth_compare = VK_COMPARE_OP_ALWAYS,
-                                                                 .depth_write = true,
-                                                                 .samples = inputs.samples});
-    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), {}));
+    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, groups));
 }
 
 // What lighting reads of a frame: its G-buffer and depth, or with several samples a pixel in the depth's
@@ -125,7 +84,7 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
 LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
     return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch) {
         addDeferredLighting(passes, pass, inputs, frame, Shader::deferred_light_batch_frag,
-                            lightingVariant(inputs), {litFormat, litFormat}, batch);
+                            lightingVariant(inputs), {litFormat, litFormat}, batch, inputs.samples);
     });
 }
 
@@ -143,13 +102,18 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     }
     addGBuffer(passes, inputs, images, false);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
-    addGroups(passes, inputs, images);
+    const FurtherGroups further = addGroups(passes, inputs, images);
     const FrameImages shaded = forLighting(images);
     const LightBatch last = addEarlierLighting(passes, inputs, shaded);
-    const ImageRef lit = sampledImage(passes, inputs, "lit", litFormat);
+    const ImageRef lit =
+        passes.image({.name = "lit",
+                      .format = litFormat,
+                      .samples = inputs.samples,
+                      .usage = further.any() ? VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT} : 0});
     Pass& shade = passes.draw("shade").color(lit, Load::clear);
     addDeferredLighting(passes, shade, inputs, shaded, Shader::deferred_shade_frag, lightingVariant(inputs),
-                        {litFormat}, last);
+                        {litFormat}, last, further.any() ? 1u : static_cast<gpu::uint>(inputs.samples));
+    addFurtherGroups(passes, inputs, shaded, further, lit);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
     images.lit_samples = lit;
@@ -175,7 +139,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         Variant variant = lightingVariant(inputs);
         group.specialise(variant);
         addDeferredLighting(passes, pass, inputs, shaded, Shader::deferred_capture_frag, variant,
-                            group.formats, last);
+                            group.formats, last, inputs.samples);
         addTransparentCapture(passes, inputs, frame.depth, images);
     }
     return images;

@@ -118,6 +118,12 @@ std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings&
     inputs.prepass = settings.prepass != Switch::off;
     // Tiles are bounded by depth, so they need a pre-pass.
     if (settings.prepass != Switch::automatic || settings.assign == Assignment::tiled) return {};
+    if (inputs.samples > 1 && inputs.device.profile().shades_failed_samples) {
+        inputs.prepass = false;
+        return {
+            "--prepass auto is off: with several samples a pixel this CPU device shades what the depth test "
+            "leaves nothing of, too"};
+    }
     const PrepassChoice choice =
         choosePrepass(measureOverdraw(inputs, static_cast<std::uint32_t>(settings.size.width),
                                       static_cast<std::uint32_t>(settings.size.height)),

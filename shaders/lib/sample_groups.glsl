@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Samples of a pixel that deferred lighting shades as one, as a number that fits into a depth
+// Samples of a pixel that deferred lighting shades as one, in the bits of a depth
 // (shared/contract/samples.h): sample i is in one of the groups that samples 0 to i begin, or nothing is
-// drawn there, which are i + 2 cases: digits of a number, the last sample's the least.
+// drawn there, which are i + 2 cases in as many bits as they take: 21 of 8 samples, the first the lowest.
+// Bits rather than digits: lavapipe divides integers lane by lane.
 #ifndef SAMPLE_GROUPS_GLSL
 #define SAMPLE_GROUPS_GLSL
 
@@ -12,33 +13,37 @@ struct SampleGroup {
     uint mask;  // of all that are in the group
 };
 
-// How many groups the pixel has.
-uint groupsOf(float stored) { return uint(stored * float(1u << GROUP_BITS)) >> GROUP_CODE_BITS; }
+// Bits that the label of sample i takes.
+uint labelBits(uint i) { return uint(findMSB(i + 1u)) + 1u; }
+
+// How many groups the pixel has, which has one at least.
+uint groupsOf(float stored) { return (floatBitsToUint(stored) >> GROUP_MANTISSA_BITS) - GROUP_EXPONENT; }
 
 // Group k of the pixel whose groups are stored so. The pixel has more than k of them.
 SampleGroup sampleGroup(float stored, uint k) {
-    uint code = uint(stored * float(1u << GROUP_BITS)) & ((1u << GROUP_CODE_BITS) - 1u);
+    uint code = floatBitsToUint(stored);
     SampleGroup group = SampleGroup(0, 0u);
-    uint i = feature_samples;
+    bool found = false;
+    uint i = 0u;
     do {
-        --i;
-        uint label = code % (i + 2u);
-        code /= i + 2u;
-        if (label == k && label <= i) {
-            group.first = int(i);
-            group.mask |= 1u << i;
-        }
-    } while (i > 0u);
+        uint label = code & ((1u << labelBits(i)) - 1u);
+        code >>= labelBits(i);
+        bool inside = label == k && label <= i;
+        group.first = inside && !found ? int(i) : group.first;
+        group.mask |= inside ? 1u << i : 0u;
+        found = found || inside;
+    } while (++i < feature_samples);
     return group;
 }
 
 // labels: of sample i the number of its group, or i + 1 where nothing is drawn. count: of groups.
 float storedGroups(uint labels[MAX_SAMPLES], uint count) {
-    uint code = 0u, i = 0u;
+    uint code = 0u, bits = 0u, i = 0u;
     do {
-        code = code * (i + 2u) + labels[i];
+        code |= labels[i] << bits;
+        bits += labelBits(i);
     } while (++i < feature_samples);
-    return float((count << GROUP_CODE_BITS) | code) / float(1u << GROUP_BITS);
+    return uintBitsToFloat((GROUP_EXPONENT + count) << GROUP_MANTISSA_BITS | code);
 }
 
 #endif

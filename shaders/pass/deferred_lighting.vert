@@ -13,6 +13,6 @@ void main() {
     gl_Position = fullScreenCorner(gl_VertexIndex);
     // Where the draw of a group of samples passes the test: samples.h.
     if (multisampled())
-        gl_Position.z = float((constants.group + 1u) << GROUP_CODE_BITS) / float(1u << GROUP_BITS);
+        gl_Position.z = uintBitsToFloat((GROUP_EXPONENT + constants.group + 1u) << GROUP_MANTISSA_BITS);
     passViewThrough();
 }

@@ -27,12 +27,32 @@ CONTRACT_CONST(uint, EDGES_EXACT, 1);     // those of the same bits in every att
 CONTRACT_CONST(uint, EDGES_SIMILAR, 2);   // those that differ by less than is seen
 CONTRACT_CONST(uint, EDGES_COVERAGE, 3);  // exact, and all of a pixel that each of its triangles covers
 
-// Groups of samples that are shaded as one are stored as a depth: their number above GROUP_CODE_BITS bits
-// that say which sample is in which group (shaders/lib/sample_groups.glsl), over 2^GROUP_BITS. A draw at the
-// depth of one group more passes the test where there are as many: group k of a pixel is shaded by the draw
-// at (k + 1) 2^GROUP_CODE_BITS / 2^GROUP_BITS.
-CONTRACT_CONST(uint, GROUP_CODE_BITS, 19);
-CONTRACT_CONST(uint, GROUP_BITS, 23);
+// Groups of samples that are shaded as one are stored as a depth: which sample is in which group in the
+// mantissa (shaders/lib/sample_groups.glsl), in the exponent GROUP_EXPONENT and their number, of at most
+// MAX_SAMPLES, which leaves it below 1. A draw at the depth of one group more passes the test where there
+// are as many: group k of a pixel is shaded by the draw at the depth of exponent GROUP_EXPONENT + k + 1.
+CONTRACT_CONST(uint, GROUP_EXPONENT, 118);
+CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
+
+// Bindings of SET_GBUFFER after those of blended surfaces. Groups after a pixel's first one stand in a list, so
+// that what shades them has no fragments beside them: each in a texel, its number above twice
+// FURTHER_PIXEL_BITS bits of its pixel's y and x, in rows of FURTHER_WIDTH.
+// number  name  kind  what it holds
+// clang-format off
+#define SAMPLE_BINDINGS(X)                                                              \
+    X(14, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: how many are listed")            \
+    X(15, FURTHER_LIST, storage_image, "R32_UINT: groups after the first of their pixel") \
+    X(16, LIT_SAMPLES, storage_image, "RGBA32F: radiance of each sample, W/(sr m^2)")
+// clang-format on
+
+#define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
+SAMPLE_BINDINGS(DIPTYCH_BINDING_NUMBER)
+#undef DIPTYCH_BINDING_NUMBER
+CONTRACT_CONST(uint, FURTHER_PIXEL_BITS, 14);
+CONTRACT_CONST(uint, FURTHER_WIDTH_BITS, 12);
+CONTRACT_CONST(uint, FURTHER_WIDTH, 1 << FURTHER_WIDTH_BITS);
+// They are shaded by draws of a fragment each, FURTHER_WIDTH wide and of so many rows at most.
+CONTRACT_CONST(uint, FURTHER_ROWS, 32);
 
 CONTRACT_END
 

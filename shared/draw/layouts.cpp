@@ -4,6 +4,7 @@
 #include "shared/contract/bindings.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/samples.h"
 #include "shared/contract/transparency.h"
 
 #include <array>
@@ -16,9 +17,9 @@ namespace {
 
 constexpr auto frameTypes = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
 constexpr auto partialSumTypes = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-constexpr auto gbufferTypes = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
-                                                BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
-                                            TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
+constexpr auto gbufferTypes = bindingTypes(
+    {GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
+     TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 }  // namespace
 
@@ -70,7 +71,7 @@ void Placeholders::bindGBuffer(DescriptorSets& gbuffer, const Layouts& layouts) 
     for (gpu::uint i = 0; i < gbuffer.bindings(); ++i) {
         if (gbufferTypes[i] == binding_kind::storage_buffer)
             gbuffer.buffer(0, i, storage_.handle());
-        else
+        else if (gbufferTypes[i] == binding_kind::image)  // storage images: only where a shader declares them
             gbuffer.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 }

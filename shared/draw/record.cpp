@@ -33,6 +33,14 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
     vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
 }
 
+// Vertices that the shader makes itself.
+void recordUnculled(VkCommandBuffer commands, VkPipeline pipeline, gpu::uint vertices) {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    vkCmdDraw(commands, vertices, 1, 0, 0);
+}
+
 gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) {
     gpu::DrawConstants constants{};
     constants.draw = item.draw;
@@ -210,10 +218,20 @@ std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, co
 }
 
 void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline) {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-    vkCmdDraw(commands, 3, 1, 0, 0);
+    recordUnculled(commands, pipeline, 3);
+}
+
+std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, VkPipeline pipeline,
+                                                    std::shared_ptr<const DescriptorSets> gbuffer,
+                                                    gpu::uint vertices, gpu::uint draws) {
+    return [&inputs, pipeline, gbuffer = std::move(gbuffer), vertices, draws](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, {}, gbuffer.get());
+        gpu::DrawConstants constants{};
+        for (; constants.group < draws; ++constants.group) {
+            push(commands, inputs, constants);
+            recordUnculled(commands, pipeline, vertices);
+        }
+    };
 }
 
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,

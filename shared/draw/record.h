@@ -36,6 +36,11 @@ void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       DescriptorSets gbuffer, const LightBatch& batch,
                                                       gpu::uint groups = 1);
+// What records `vertices` of no buffer with these sets, once for each of `draws`, its number in
+// DrawConstants::group.
+std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, VkPipeline pipeline,
+                                                    std::shared_ptr<const DescriptorSets> gbuffer,
+                                                    gpu::uint vertices, gpu::uint draws);
 // The same of a shader that puts blended surfaces together.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       std::shared_ptr<const DescriptorSets> gbuffer,

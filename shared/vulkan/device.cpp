@@ -235,6 +235,10 @@ VkSampleCountFlags Device::sampleCounts(VkFormat format, VkImageUsageFlags usage
     return found == VK_SUCCESS ? properties.sampleCounts : 0;
 }
 
+bool Device::storesSamples() const {
+    return diptych::storesSamples(state_->physical);
+}
+
 bool Device::hasInt64() const {
     return diptych::hasInt64(state_->physical);
 }

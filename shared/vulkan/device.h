@@ -56,6 +56,8 @@ public:
     bool sortsFragments() const;
     // A sum of VkSampleCountFlagBits that images of a format and usage may have; 0: there are no such images.
     VkSampleCountFlags sampleCounts(VkFormat format, VkImageUsageFlags usage) const;
+    // Fragment shaders may store to a sample of an image.
+    bool storesSamples() const;
     // Whether shaders may have integers of 64 bits.
     bool hasInt64() const;
     const DeviceProfile& profile() const;

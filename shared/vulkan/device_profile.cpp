@@ -33,6 +33,7 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
             .input_sets = asSoftware ? 4 : 1,
             .packets_per_draw = asSoftware ? 65'000u : 1u << 20,
             .fetches_depth = !asSoftware,
+            .shades_failed_samples = asSoftware,
             .warm_up_ms = asSoftware ? 0.0 : 300.0,
             .longest_submit_ms = asSoftware ? std::numeric_limits<double>::infinity() : 100,
             .costs = asSoftware ? lavapipe : gpu};

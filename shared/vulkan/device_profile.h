@@ -54,6 +54,9 @@ struct DeviceProfile {
     // With a depth pre-pass, forward+ reads the depth that was stored, as deferred lighting does. Elsewhere
     // that of the fragment has the same bits, which Vulkan does not promise.
     bool fetches_depth = true;
+    // A draw to images of several samples takes as long for fragments none of whose samples pass the depth
+    // test: on lavapipe, which skips them where images have one.
+    bool shades_failed_samples = false;
     // How long a device must have worked before its clocks are up and times mean something.
     double warm_up_ms = 0;
     // A submit that takes longer may be taken for a hang. Infinite: there is no such limit.

@@ -20,6 +20,11 @@ Pass& Pass::depthTest(ImageRef image, Slice slice) {
     return *this;
 }
 
+Pass& Pass::covers(VkExtent2D extent) {
+    covered_ = extent;
+    return *this;
+}
+
 // The layout, which depends on the format, is filled in when the pass's uses are listed.
 Pass& Pass::samples(ImageRef image, VkPipelineStageFlags2 stages) {
     images_.push_back({image, {stages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT}, {}, true});

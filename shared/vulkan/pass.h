@@ -34,7 +34,8 @@ struct ImageDeclaration {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkImageUsageFlags usage = 0;  // beside attachment, sampled and, of kept images, copied from
     Life life = Life::kept;
-    bool array = false;  // shaders read it as an array, even of one layer
+    bool array = false;         // shaders read it as an array, even of one layer
+    bool with_picture = false;  // of a size of its own that grows with the list's
 };
 
 // One level of one layer, to draw to.
@@ -53,6 +54,8 @@ public:
     // Read and written. `resolved`: an image of one sample that gets the first of the samples.
     Pass& depth(ImageRef image, Load load, float clear = 0.0f, Slice slice = {}, ImageRef resolved = {});
     Pass& depthTest(ImageRef image, Slice slice = {});  // read by the test only
+    // What a draw without attachments covers; otherwise the list's size.
+    Pass& covers(VkExtent2D extent);
     // Read by texture instructions of these shaders: all levels and layers, or one part.
     Pass& samples(ImageRef image, VkPipelineStageFlags2 stages);
     Pass& samples(ImageRef image, VkPipelineStageFlags2 stages, const Part& part);
@@ -92,6 +95,7 @@ private:
     std::vector<Attachment> colors_;
     Attachment depth_;
     bool depth_writes_ = false;
+    VkExtent2D covered_{};
     std::vector<ImageUse> images_;
     std::vector<std::pair<BufferRef, Access>> buffers_;
     std::function<void()> prepare_;

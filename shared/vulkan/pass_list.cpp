@@ -48,6 +48,7 @@ ImageRef PassList::image(const ImageDeclaration& declared) {
     const bool own = declared.extent.width == 0;
     resource->life = declared.life;
     resource->has_size = !own;
+    resource->with_picture = declared.with_picture;
     resource->image.emplace(
         device_,
         GpuImageInfo{declared.name, declared.format, own ? width_ : declared.extent.width,
@@ -246,8 +247,12 @@ std::uint64_t PassList::pixelBytes(ImageRef image) const {
 
 std::uint64_t PassList::pixelBytes() const {
     std::uint64_t bytes = 0;
-    for (std::size_t i = 0; i < resources_.size(); ++i)
-        if (resources_[i]->image && !resources_[i]->has_size) bytes += pixelBytes(ImageRef{i});
+    const std::uint64_t pixels = std::uint64_t{width_} * height_;
+    for (std::size_t i = 0; i < resources_.size(); ++i) {
+        if (!resources_[i]->image) continue;
+        if (!resources_[i]->has_size) bytes += pixelBytes(ImageRef{i});
+        if (resources_[i]->with_picture) bytes += bytesOf(resources_[i]->image->info()) / pixels;
+    }
     return bytes;
 }
 

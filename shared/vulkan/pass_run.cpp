@@ -124,7 +124,7 @@ VkExtent2D PassList::extentOf(const Pass& pass) const {
     const Pass::Attachment* const any = !pass.colors_.empty()       ? &pass.colors_.front()
                                         : pass.depth_.image.valid() ? &pass.depth_
                                                                     : nullptr;
-    if (any == nullptr) return {width_, height_};
+    if (any == nullptr) return pass.covered_.width > 0 ? pass.covered_ : VkExtent2D{width_, height_};
     return diptych::extentOf(resource(any->image).image->info(), any->slice);
 }
 

@@ -6,6 +6,7 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
+#include "shared/contract/samples.h"
 #include "shared/contract/transparency.h"
 #include "shared/vulkan/binding_table.h"
 #include "shared/vulkan/check.h"
@@ -86,9 +87,9 @@ bool reducesSubgroups(VkPhysicalDevice device) {
 constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kinds) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto sums = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-    constexpr auto gbuffer = bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
-                                               BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
-                                           TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW)});
+    constexpr auto gbuffer = bindingTypes(
+        {GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
+         TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto lists = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
     const auto count = [&](std::span<const VkDescriptorType> types) {
         std::uint32_t found = 0;
@@ -148,6 +149,7 @@ std::vector<DeviceFact> facts(VkPhysicalDevice device, const VkPhysicalDevicePro
     note("blending by attachment", f.v10.features.independentBlend == VK_TRUE);
     note("indirect draws of later instances", f.v10.features.drawIndirectFirstInstance == VK_TRUE);
     note("stores in fragment shaders", f.v10.features.fragmentStoresAndAtomics == VK_TRUE);
+    note("stores to samples", f.v10.features.shaderStorageImageMultisample == VK_TRUE);
     note("64-bit atomics in fragment shaders",
          properties.apiVersion >= VK_API_VERSION_1_3 && sortsFragments(device));
     note("4 samples a pixel",
@@ -265,6 +267,12 @@ bool sortsFragments(VkPhysicalDevice device) {
            core.geometryShader == VK_TRUE && f.v12.shaderBufferInt64Atomics == VK_TRUE;
 }
 
+bool storesSamples(VkPhysicalDevice device) {
+    VkPhysicalDeviceFeatures there{};
+    vkGetPhysicalDeviceFeatures(device, &there);
+    return there.fragmentStoresAndAtomics == VK_TRUE && there.shaderStorageImageMultisample == VK_TRUE;
+}
+
 bool hasInt64(VkPhysicalDevice device) {
     VkPhysicalDeviceFeatures there{};
     vkGetPhysicalDeviceFeatures(device, &there);
@@ -288,6 +296,7 @@ VkDevice createDevice(VkPhysicalDevice physical, std::uint32_t family) {
     wanted.v10.features.independentBlend = there.independentBlend;
     wanted.v10.features.drawIndirectFirstInstance = there.drawIndirectFirstInstance;
     wanted.v10.features.fragmentStoresAndAtomics = there.fragmentStoresAndAtomics;
+    wanted.v10.features.shaderStorageImageMultisample = there.shaderStorageImageMultisample;
     wanted.v10.features.shaderInt64 = there.shaderInt64;
     if (sortsFragments(physical)) {
         wanted.v10.features.geometryShader = VK_TRUE;  // gl_PrimitiveID in fragment shaders

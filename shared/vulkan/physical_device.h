@@ -27,6 +27,8 @@ bool knowsMemoryBudget(VkPhysicalDevice device);  // VK_EXT_memory_budget
 
 // Fragment shaders may use 64-bit atomics on buffers and the number of their triangle.
 bool sortsFragments(VkPhysicalDevice device);
+// Fragment shaders may store to a sample of an image.
+bool storesSamples(VkPhysicalDevice device);
 // Whether shaders may have integers of 64 bits.
 bool hasInt64(VkPhysicalDevice device);
 

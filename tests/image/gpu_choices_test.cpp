@@ -6,7 +6,10 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/samples.h"
+#include "tests/image/lit_samples.h"
 #include "tests/image/scenes.h"
+#include "tests/image/square.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +53,48 @@ TEST_P(GpuChoices, DrawTheSamePictures) {
 INSTANTIATE_TEST_SUITE_P(Chosen, GpuChoices,
                          testing::Values("builtin:cutout", "builtin:ortho", "builtin:points"),
                          [](const auto& test) { return testName(test.param); });
+
+// Groups of samples after a pixel's first are shaded from a list, or by a draw each that the depth test
+// leaves a part of. Of a mesh finer than pixels the list takes several draws.
+TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
+    const auto lists = [](Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene,
+                          const Settings& settings) {
+        SharedResources shared(on, scene, set);
+        const SceneView view = makeSceneView(scene, viewRequest(settings));
+        return std::ranges::any_of(PreparedFrame(on, shared, view, settings).passes.declarations(),
+                                   [](const DeclaredUse& use) { return use.resource == "further groups"; });
+    };
+    const auto compared = [&](Scene scene, Size size, MsaaEdges edges) {
+        Settings settings = smallPicture(GBufferEncoding::full);
+        settings.path = Path::deferred;
+        settings.size = size;
+        settings.msaa = 4;
+        settings.msaa_edges = edges;
+        EXPECT_FALSE(lists(asGpu(), gpuPipelines(), scene, settings));
+        EXPECT_EQ(lists(device(), pipelines(), scene, settings),
+                  device().profile().shades_failed_samples && edges != MsaaEdges::all);
+        SampledScene usual(scene), chosen(std::move(scene), asGpu(), gpuPipelines());
+        const std::vector<Image> a = usual.draw(settings), b = chosen.draw(settings);
+        std::size_t further = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            std::size_t differ = 0;
+            for (std::size_t p = 0; p < a[i].pixels(); ++p) {
+                differ += !std::equal(a[i].pixel(p), a[i].pixel(p) + 3, b[i].pixel(p));
+                further += !std::equal(a[i].pixel(p), a[i].pixel(p) + 3, a[0].pixel(p));
+            }
+            EXPECT_EQ(differ, 0u) << "sample " << i;
+        }
+        EXPECT_GT(further, 0u);
+        EXPECT_EQ(asGpu().validationMessages(), 0u) << asGpu().firstValidationMessage();
+        EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
+        return further;
+    };
+    compared(loadScene("builtin:gallery"), {161, 91}, MsaaEdges::exact);
+    compared(loadScene("builtin:gallery"), {161, 91}, MsaaEdges::similar);
+    compared(loadScene("builtin:gallery"), {161, 91}, MsaaEdges::all);
+    compared(loadScene("builtin:cutout"), {4097, 3}, MsaaEdges::exact);
+    EXPECT_GT(compared(fineMesh(450), {300, 300}, MsaaEdges::exact), gpu::FURTHER_WIDTH * gpu::FURTHER_ROWS);
+}
 
 // That they are what is drawn with: each shows in the frame.
 TEST(GpuChoice, IsWhatAFrameIsMadeOf) {

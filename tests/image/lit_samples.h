@@ -14,32 +14,33 @@
 
 namespace diptych::tests {
 
-// A scene on device() whose pictures are drawn sample by sample.
+// A scene whose pictures are drawn sample by sample.
 class SampledScene {
 public:
-    explicit SampledScene(Scene drawn)
+    explicit SampledScene(Scene drawn, Device& on = device(), std::shared_ptr<PipelineSet> set = pipelines())
         : scene(std::move(drawn)),
-          shared_(device(), scene, pipelines()),
+          device_(on),
+          shared_(on, scene, std::move(set)),
           words_(probeWords("lit_sample.frag")) {}
 
     // An Image a sample: R, G, B.
     std::vector<Image> draw(const Settings& settings) {
         const SceneView seen = makeSceneView(scene, viewRequest(settings));
-        PreparedFrame frame(device(), shared_, seen, settings);
+        PreparedFrame frame(device_, shared_, seen, settings);
         PassList& passes = frame.passes;
         constexpr std::array types{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-        const OwnedDescriptorSetLayout set_layout = makeSetLayout(device(), types);
+        const OwnedDescriptorSetLayout set_layout = makeSetLayout(device_, types);
         const std::array<VkDescriptorSetLayout, 1> set_layouts{set_layout};
         const OwnedPipelineLayout layout =
-            makePipelineLayout(device(), set_layouts,
+            makePipelineLayout(device_, set_layouts,
                                VkPushConstantRange{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(std::uint32_t)});
         const ShaderModule read{"lit_sample.frag", Shader::none, 0, true, false, false, false, 3, words_};
-        Pipelines reading(device(), layout, [&](const PipelineKey&) {
+        Pipelines reading(device_, layout, [&](const PipelineKey&) {
             return PipelineParts{&plainModule(Shader::full_screen_vert), &read, {}, {}};
         });
         const VkPipeline pipeline = reading.get(PipelineKey{.colors = {litFormat}});
-        DescriptorSets sets(device(), set_layout, types, 1);
-        const OwnedSampler sampler = makeNearestSampler(device());
+        DescriptorSets sets(device_, set_layout, types, 1);
+        const OwnedSampler sampler = makeNearestSampler(device_);
         const ImageRef drawn = frame.images.lit_samples;
         std::vector<ImageRef> ones;
         for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(settings.msaa); ++sample) {
@@ -71,6 +72,7 @@ public:
     const Scene scene;
 
 private:
+    Device& device_;
     SharedResources shared_;
     std::vector<std::uint32_t> words_;
 };

@@ -142,32 +142,10 @@ TEST(MsaaEdges, RecallNoticesWhatIsMissed) {
     EXPECT_LT(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::coverage)), seen).share(), 0.9);
 }
 
-// A square of triangles that are smaller than pixels.
-Scene fineMesh() {
-    Scene scene = square();
-    constexpr int cells = 96;
-    Primitive& p = scene.meshes[0].primitives[0];
-    p = {};
-    for (int y = 0; y <= cells; ++y)
-        for (int x = 0; x <= cells; ++x)
-            p.positions.emplace_back(2.0f * static_cast<float>(x) / cells - 1,
-                                     2.0f * static_cast<float>(y) / cells - 1, 0);
-    p.normals.assign(p.positions.size(), {0, 0, 1});
-    p.tangents.assign(p.positions.size(), {1, 0, 0, 1});
-    for (auto& texcoords : p.texcoords) texcoords.assign(p.positions.size(), {0, 0});
-    for (std::uint32_t y = 0; y < cells; ++y)
-        for (std::uint32_t x = 0; x < cells; ++x) {
-            const std::uint32_t a = y * (cells + 1) + x, b = a + 1, c = a + cells + 1, d = c + 1;
-            p.indices.insert(p.indices.end(), {a, b, d, a, d, c});
-        }
-    p.material = 0;
-    return scene;
-}
-
 // On a fine mesh similar shades a pixel once where exact shades each of its triangles: that is what it is
 // for.
 TEST(MsaaEdges, SimilarSavesOnFineMeshes) {
-    const Scene scene = fineMesh();
+    const Scene scene = fineMesh(96);
     Renderer renderer(device(), scene, pipelines());
     const auto surfaces = [&](MsaaEdges edges) {
         const Frame frame = drawnBy(Path::deferred, renderer, sampled({64, 64}, edges), {lit, shaded});

@@ -42,6 +42,28 @@ inline Scene square() {
     return scene;
 }
 
+// The same square of cells x cells squares, two triangles each.
+inline Scene fineMesh(std::uint32_t cells) {
+    Scene scene = square();
+    Primitive& p = scene.meshes[0].primitives[0];
+    p = {};
+    const auto along = [&](std::uint32_t i) {
+        return 2.0f * static_cast<float>(i) / static_cast<float>(cells) - 1;
+    };
+    for (std::uint32_t y = 0; y <= cells; ++y)
+        for (std::uint32_t x = 0; x <= cells; ++x) p.positions.emplace_back(along(x), along(y), 0);
+    p.normals.assign(p.positions.size(), {0, 0, 1});
+    p.tangents.assign(p.positions.size(), {1, 0, 0, 1});
+    for (auto& texcoords : p.texcoords) texcoords.assign(p.positions.size(), {0, 0});
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t a = y * (cells + 1) + x, b = a + 1, c = a + cells + 1, d = c + 1;
+            p.indices.insert(p.indices.end(), {a, b, d, a, d, c});
+        }
+    p.material = 0;
+    return scene;
+}
+
 // Two squares that cross, of two colours: every pixel of the line is covered by both, and only which is
 // behind the other differs from sample to sample.
 inline Scene crossingSquares() {

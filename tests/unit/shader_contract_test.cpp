@@ -7,6 +7,7 @@
 #include "shared/contract/light.h"
 #include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
+#include "shared/contract/samples.h"
 #include "shared/contract/transparency.h"
 #include "shared/draw/packed_view.h"
 #include "shared/vulkan/spirv.h"
@@ -218,6 +219,7 @@ std::vector<Declared> bindingTables() {
         GBUFFER_BINDINGS(ROW)
         table("DEPTH", gpu::BINDING_DEPTH, Kind::image);
         TRANSPARENCY_BINDINGS(ROW)
+        SAMPLE_BINDINGS(ROW)
     }
     {
         const auto table = add(gpu::SET_LISTS, true);
@@ -264,7 +266,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 21u + 2 + 9 + 5 + 13 + 9);
+    EXPECT_EQ(bindingTables().size(), 21u + 2 + 9 + 5 + 3 + 13 + 9);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 

@@ -17,7 +17,7 @@ namespace diptych {
 
 class SpirvModule {
 public:
-    enum class Kind { uniform_buffer, storage_buffer, texel_buffer, image, other };
+    enum class Kind { uniform_buffer, storage_buffer, texel_buffer, image, storage_image, other };
     struct Binding {
         std::uint32_t set = 0, number = 0;
         Kind kind = Kind::other;
@@ -244,8 +244,10 @@ private:
         if (type.op == op_type_struct && to.words[1] == uniform) return Kind::uniform_buffer;
         if (type.op == op_type_struct && to.words[1] == storage) return Kind::storage_buffer;
         if (type.op == op_type_sampled_image) return Kind::image;
-        const bool texels = type.op == op_type_image && type.words[2] == dimensionBuffer;
-        return texels ? Kind::texel_buffer : Kind::other;
+        constexpr std::uint32_t withoutSampler = 2;
+        if (type.op != op_type_image) return Kind::other;
+        if (type.words[2] == dimensionBuffer) return Kind::texel_buffer;
+        return type.words[6] == withoutSampler ? Kind::storage_image : Kind::other;
     }
 
     std::vector<Instruction> all_;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Which samples of a pixel deferred lighting shades as one: sample_edges. A sample joins the first group that
+// has a sample that it is like.
+#ifndef SAMPLE_PAIRS_GLSL
+#define SAMPLE_PAIRS_GLSL
+
+#include "shaders/lib/gbuffer_read.glsl"
+#include "shaders/lib/sample_groups.glsl"
+#include "shaders/lib/similar.glsl"
+
+// Pairs of samples are bits of a set: of sample i with each before it, from bit i (i - 1) / 2 on. Inner loops
+// have a constant count: a loop about one that has not stays a loop, and its arrays in memory, which took
+// three times as long on lavapipe.
+uint pair(uint i, uint j) { return 1u << (i * (i - 1u) / 2u + j); }
+
+// The pairs of which an attachment has different bits.
+uint differingPairs(GBUFFER_IMAGE attachment, ivec2 p) {
+    uvec4 texels[MAX_SAMPLES];
+    uint differ = 0u, i = 0u;
+    do {
+        texels[i] = texelFetch(attachment, p, int(i));
+        for (uint j = 0u; j < feature_samples; ++j)
+            differ |= j < i && texels[i] != texels[j] ? pair(i, j) : 0u;
+    } while (++i < feature_samples);
+    return differ;
+}
+
+// The pairs that have different bits in any attachment that the frame has.
+uint differingPairs(ivec2 p) {
+    uint differ = differingPairs(gbuffer_albedo, p) | differingPairs(gbuffer_normals, p) |
+                  differingPairs(gbuffer_params, p) | differingPairs(gbuffer_shaded, p);
+    if (on(feature_emission) || fullGBuffer()) differ |= differingPairs(gbuffer_emission, p);
+    if (on(feature_dielectric_specular)) differ |= differingPairs(gbuffer_specular, p);
+    if (on(feature_gbuffer_wide_material_id)) differ |= differingPairs(gbuffer_ids, p);
+    if (on(feature_lightmap)) differ |= differingPairs(gbuffer_lightmap, p);
+    return differ;
+}
+
+// Those of some pairs that are not similar either.
+uint dissimilarPairs(uint pairs, ivec2 p) {
+    GBufferTexel texels[MAX_SAMPLES];
+    uint dissimilar = 0u, i = 0u;
+    do {
+        texels[i] = texelOfGBuffer(p, int(i));
+        for (uint j = 0u; j < i; ++j) dissimilar |= areSimilar(p, texels[i], texels[j]) ? 0u : pair(i, j);
+    } while (++i < feature_samples);
+    return pairs & dissimilar;
+}
+
+// Whether each triangle that is seen in the pixel covers it whole.
+bool covered(ivec2 p) {
+    bool whole = true;
+    uint i = 0u;
+    do {
+        uint left = leftOfShaded(texelFetch(gbuffer_shaded, p, int(i)).xy);
+        whole = whole && left == (1u << feature_samples) - 1u;
+    } while (++i < feature_samples);
+    return whole;
+}
+
+// The pairs that are not shaded as one.
+uint pairsApart(ivec2 p) {
+    if (feature_sample_edges == EDGES_ALL) return ~0u;
+    uint differ = differingPairs(p);
+    if (feature_sample_edges == EDGES_SIMILAR) return dissimilarPairs(differ, p);
+    if (feature_sample_edges == EDGES_COVERAGE) return covered(p) ? 0u : differ;
+    return differ;
+}
+
+// The groups of a pixel as storedGroups() has them. count: how many there are.
+float groupsAt(ivec2 p, out uint count) {
+    uint apart = pairsApart(p);
+    uint labels[MAX_SAMPLES], i = 0u;
+    count = 0u;
+    do {
+        uint label = count;
+        bool drawn = depthAt(p, int(i)) > 0.0;
+        for (uint j = 0u; j < feature_samples; ++j) {
+            bool alike = j < i && labels[j] != j + 1u && (apart & pair(i, j)) == 0u;
+            label = alike ? min(label, labels[j]) : label;
+        }
+        labels[i] = drawn ? label : i + 1u;
+        count += drawn && label == count ? 1u : 0u;
+    } while (++i < feature_samples);
+    return storedGroups(labels, count);
+}
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Shades the groups that deferred_groups_list.frag has listed, one a fragment, and stores their samples. No
+// fragment is of the pixel that it shades: nothing here reads where it is but the list.
+#define FLAT_VIEW
+#define SAMPLES 1
+#include "shaders/lib/further_groups.glsl"
+#include "shaders/lib/gbuffer_read.glsl"
+#include "shaders/lib/sample_groups.glsl"
+#include "shaders/lib/shade.glsl"
+
+layout(set = SET_GBUFFER, binding = BINDING_LIT_SAMPLES, rgba32f) writeonly uniform image2DMS lit_samples;
+
+void main() {
+    uint entry = entryAt(uvec2(gl_FragCoord.xy), constants.group);
+    bool listed = entry < imageLoad(further_count, ivec2(0)).r;
+    uint word = imageLoad(further_list, placeInList(listed ? entry : 0u)).r;
+    ivec2 p = pixelOfListed(word);
+    SampleGroup group = sampleGroup(depthAt(p), groupOfListed(word));
+    float z;
+    Surface s = surfaceFromGBuffer(p, group.first, z);
+    vec4 radiance = vec4(lit(shade(s, lightsAt(vec2(p) + 0.5, z))), 1.0);
+    uint i = 0u;
+    do {
+        if (listed && (group.mask >> i & 1u) != 0u) imageStore(lit_samples, p, int(i), radiance);
+    } while (++i < feature_samples);
+}

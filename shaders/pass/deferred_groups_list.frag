@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The same as deferred_groups.frag, and lists each pixel's groups after its first. Where in the list they
+// stand is by chance; what is shaded at a sample does not depend on it.
+#define FLAT_VIEW
+#define SAMPLES 1
+#include "shaders/lib/further_groups.glsl"
+#include "shaders/lib/sample_pairs.glsl"
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    uint count;
+    gl_FragDepth = groupsAt(p, count);
+    // A device may clip the full-screen triangle into two, which share pixels: lavapipe does.
+    bool once = (gl_SampleMaskIn[0] & 1) != 0;
+    if (once && count > 1u) {
+        uint first = imageAtomicAdd(further_count, ivec2(0), count - 1u), k = 1u;
+        do {
+            if (k < count) imageStore(further_list, placeInList(first + k - 1u), uvec4(listedGroup(p, k)));
+        } while (++k < feature_samples);
+    }
+}
