@@ -142,6 +142,18 @@ void resolveBaseline(Options& options, const ParsedOptions& parsed) {
         throw std::runtime_error("--update-baseline: --baseline FILE.exr says which file");
 }
 
+void resolveTest(Options& options, const ParsedOptions& parsed) {
+    for (const std::string& given : parsed.test) {
+        const std::size_t at = given.find('=');
+        if (at == std::string::npos || at == 0)
+            throw std::runtime_error(fmt::format("--test {}: NAME=VALUE, as gbuffer=compact", given));
+        const std::string name = given.substr(0, at);
+        if (std::ranges::none_of(settingFields(), [&](const Field& field) { return field.option == name; }))
+            throw std::runtime_error(fmt::format("--test {}: there is no Setting {}", given, name));
+        options.test.emplace_back(name, given.substr(at + 1));
+    }
+}
+
 void resolveWhatCounts(Options& options, const ParsedOptions& parsed) {
     PictureDiffOptions& diff = options.diff;
     if (!parsed.crop.empty()) options.selection.crop = diff.selection.crop = cropOf(parsed.crop);
@@ -207,6 +219,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     if (!parsed.not_built.empty()) throw std::runtime_error(parsed.not_built.front() + " is not built yet");
     options.keep = keepOf(parsed.keep);
     resolveBaseline(options, parsed);
+    resolveTest(options, parsed);
     resolveWhatCounts(options, parsed);
     resolveBench(options.bench, parsed);
 }

@@ -20,6 +20,9 @@ const Command commands[] = {
      "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference", true},
     {"tradeoff", "Draws a scene under many Settings: time against error of each, and the Pareto front",
      "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff", true},
+    {"explain",
+     "The causes of a difference of lit, ranked: which channels and Settings, by how much, and where",
+     "diptych explain helmet.glb --gbuffer compact", true},
     {"choose", "The path and Settings for an error budget or a time budget",
      "diptych choose helmet.glb --max-ms 8", false},
     {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
@@ -219,6 +222,10 @@ void hideUnread(CLI::App& app, const std::string& command) {
     }
     if (command == "bench" || command == "tradeoff")
         hide(app, {"--debug", "--heat", "--channels", "--list-channels"});
+    if (command == "explain") {
+        hideGroup(app, picture_group);
+        hide(app, {"--path", "--out", "--force", "--runs"});
+    }
     if (command == "bench") hideGroup(app, picture_group);
     if (command == "devices" || command == "plan") {
         hideGroup(app, picture_group);
@@ -340,6 +347,15 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                        "is every combination, a list of such one after the other (each by itself, and "
                        "declared pairs)")
             ->type_name("FILE.json|JSON");
+    } else if (command == "explain") {
+        addFiles(app, options, "refused: explain writes no file, --json prints one");
+        app.add_option("--baseline", parsed.baseline, "the picture that is right (deferred)")
+            ->type_name("deferred|forward_plus");
+        app.add_option(
+               "--test", parsed.test,
+               "a Setting of the other picture, as gbuffer=compact; several times (path: the other one)")
+            ->type_name("NAME=VALUE")
+            ->allow_extra_args(false);
     } else if (command == "bench") {
         addFiles(app, options, "folder of the table, the plot and the page (diptych-bench)");
     } else {

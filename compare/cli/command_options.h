@@ -26,6 +26,7 @@ struct ParsedOptions {
     std::vector<std::pair<std::string, std::string>> settings;  // in the order of the command line
     std::vector<std::string> cameras;
     std::string settings_file, channels, debug;
+    std::vector<std::string> test;
     std::optional<std::string> times;
     std::string baseline = "deferred", crop, metric;
     std::optional<double> tolerance;

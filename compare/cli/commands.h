@@ -30,6 +30,7 @@ int runRender(const Options& options);
 int runDiff(const Options& options);
 int runTradeoff(const Options& options);
 int runBench(const Options& options);
+int runExplain(const Options& options);
 int runPlan(const Options& options);
 int runDevices(const Options& options);
 

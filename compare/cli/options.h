@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych::cli {
@@ -46,6 +47,8 @@ struct Options {
     SelectionOptions selection;           // compare: pixels
     bool allow_noise = false;             // compare
     std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
+    // explain: Settings of the test that are others than the baseline's, in the words of Settings::set().
+    std::vector<std::pair<std::string, std::string>> test;
     bool update_baseline = false;
     bool strict = false;               // compare, diff
     bool allow_empty = false;          // compare, diff

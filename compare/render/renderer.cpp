@@ -276,6 +276,11 @@ PreparedFrames Renderer::prepare(std::span<const Settings> settings) {
     return PreparedFrames(state_->device, state_->shared, state_->views, settings);
 }
 
+ChannelShading Renderer::shadeChannels(const Settings& settings, const SurfaceImages& images) {
+    checkSize(state_->device, settings.size);
+    return {state_->device, state_->shared, state_->views.at(viewRequest(settings)), settings, images};
+}
+
 std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const RenderOptions& options) {
     std::vector<TimedFrame> times(settings.size());
     std::vector<Settings> drawn;

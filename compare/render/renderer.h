@@ -2,6 +2,7 @@
 // From a scene and Settings to Frames, on one device.
 #pragma once
 
+#include "compare/render/channel_shading.h"
 #include "compare/render/prepared_frames.h"
 #include "compare/render/render_options.h"
 #include "compare/render/timing.h"
@@ -40,6 +41,8 @@ public:
     PreparedFrames prepare(std::span<const Settings> settings);
     // Times frames of the two paths, all at once and in turn; `options`: runs, progress.
     std::vector<TimedFrame> time(std::span<const Settings> settings, const RenderOptions& options);
+    // Lighting of channels as one Settings has it.
+    ChannelShading shadeChannels(const Settings& settings, const SurfaceImages& images);
     // Destroys the pipelines of one path, of all Renderers that share them. Frames of it that are prepared
     // must be gone.
     void clearPipelines(Path path);

@@ -52,8 +52,8 @@ bool isExr(const fs::path& file) {
 
 TEST(Command, HelpGoesToStdoutWithAnExample) {
     const Folder folder;
-    for (const std::string command :
-         {"compare", "render", "diff", "tradeoff", "choose", "audit", "plan", "view", "bench", "devices"}) {
+    for (const std::string command : {"compare", "render", "diff", "tradeoff", "explain", "choose", "audit",
+                                      "plan", "view", "bench", "devices"}) {
         const Ran ran = runTool(folder, command + " --help");
         EXPECT_EQ(ran.code, 0) << command;
         EXPECT_NE(ran.out.find("Example: diptych " + command), std::string::npos) << ran.out;
@@ -206,11 +206,47 @@ TEST(Command, DevicesCanBeLimitedToOne) {
 
 TEST(Command, WhatWritesNoFileRefusesAPlaceForIt) {
     const Folder folder;
-    for (const std::string command : {"plan", "devices"}) {
+    for (const std::string command : {"plan", "devices", "explain"}) {
         const Ran ran = runTool(folder, command + " -o p");
         EXPECT_EQ(ran.code, 2);
         EXPECT_NE(ran.err.find("-o p"), std::string::npos) << ran.err;
         EXPECT_FALSE(fs::exists(folder / "p"));
+    }
+}
+
+TEST(Command, ExplainNamesCausesAndTheirShares) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "explain builtin:points --gbuffer compact --size 64x36 --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json found = parsed(ran);
+    double sum = found["unexplained"];
+    for (const Json& cause : found["causes"]) {
+        sum += cause["share"].get<double>();
+        EXPECT_EQ(cause["where"].size(), 2u);
+        EXPECT_EQ(cause["interval"], 0);
+    }
+    EXPECT_NEAR(sum, 1, 1e-6);
+    EXPECT_GE(found["causes"].size(), 2u);
+    const Ran words = runTool(folder, "explain builtin:points --size 64x36 --test haze=on");
+    EXPECT_EQ(words.code, 0) << words.err;
+    EXPECT_NE(words.out.find("--haze"), std::string::npos) << words.out;
+    const Ran same =
+        runTool(folder, "explain builtin:points --size 64x36 --test gbuffer=full --gbuffer full");
+    EXPECT_NE(same.out.find("no cause"), std::string::npos) << same.out;
+}
+
+TEST(Command, ExplainRefusesWhatItCannotSwap) {
+    const Folder folder;
+    for (const auto& [options, word] : {std::pair{"--test foo=1", "foo"},
+                                        {"--test haze", "NAME=VALUE"},
+                                        {"--test path=reference", "reference"},
+                                        {"--test size=4x4", "size"},
+                                        {"--baseline reference", "reference"},
+                                        {"builtin:points builtin:spots", "spots"},
+                                        {"--camera 0 --camera 0", "--camera"}}) {
+        const Ran ran = runTool(folder, fmt::format("explain --size 16x16 {}", options));
+        EXPECT_EQ(ran.code, 2) << options;
+        EXPECT_NE(ran.err.find(word), std::string::npos) << ran.err;
     }
 }
 

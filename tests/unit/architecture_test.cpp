@@ -64,6 +64,7 @@ const std::vector<Module> modules = {
     {"compare/checks", 51},
     {"compare/verdict", 60},
     {"compare/report", 70},
+    {"compare/explain", 70},
     {"compare/tradeoff", 70},
     {"compare/bench", 70},
     {"compare/cli", 80},

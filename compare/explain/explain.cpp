@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/explain.h"
+
+#include "compare/metrics/flip.h"
+#include "compare/render/channel_shading.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+constexpr int litMode = static_cast<int>(gpu::DEBUG_lit), idMode = static_cast<int>(gpu::DEBUG_material_id),
+              lightmapMode = static_cast<int>(gpu::DEBUG_lightmap);
+constexpr int sampledOrderCount = 40;  // beyond mostExactCauses; each of as many subsets as there are causes
+constexpr double namedPair = 0.05, namedMaterial = 0.01;
+
+// Settings that are no cause of their own: what they change is in the channels, in the rest, or in no pixel.
+// clang-format off
+constexpr std::string_view carried[] = {
+    "path", "gbuffer", "prepass", "assign", "light-kernel", "pixel-lights", "skinning", "spec-aa",
+    "spec-aa-variance", "spec-aa-limit", "spec-aa-normals", "msaa", "msaa-shading", "msaa-edges", "resolve",
+    "alpha-to-coverage", "spp", "reference-mode"};
+// clang-format on
+
+bool lightsSurfaces(std::string_view option) {
+    return std::ranges::find(carried, option) == std::end(carried);
+}
+
+std::size_t sizeOf(int count) {
+    return static_cast<std::size_t>(count);
+}
+
+const Image& channelOf(const Frame& frame, int mode) {
+    const auto found = frame.channels.find(mode);
+    if (found == frame.channels.end())
+        throw std::runtime_error(fmt::format("{} has no channel {}, which an explanation needs", frame.name,
+                                             debugMode(mode).name));
+    return found->second;
+}
+
+// Mean |a - b| of the components of each pixel; 0 where a component is not finite.
+void errorsOf(const Image& a, const Image& b, std::vector<double>& errors) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.pixels(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const float *const x = a.pixel(i), *const y = b.pixel(i);
+            const double sum =
+                std::abs(double{x[0]} - y[0]) + std::abs(double{x[1]} - y[1]) + std::abs(double{x[2]} - y[2]);
+            errors[i] = std::isfinite(sum) ? sum / 3 : 0.0;
+        }
+    });
+}
+
+double meanOf(const std::vector<double>& values) {
+    // In order: the same whatever the number of threads.
+    return values.empty()
+               ? 0.0
+               : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+class Explainer {
+public:
+    Explainer(Device& device, Renderer& renderer, const Scene& scene, const Frame& baseline,
+              const Frame& test, const Stage& progress)
+        : renderer_(renderer),
+          scene_(scene),
+          frames_{&baseline, &test},
+          progress_(progress),
+          images_(device, baseline.settings.size),
+          lit_{&channelOf(baseline, litMode), &channelOf(test, litMode)} {
+        for (const Image* const image : lit_)
+            if (image->width != lit_[0]->width || image->height != lit_[0]->height)
+                throw std::runtime_error("an explanation is of two pictures of one size");
+        for (const std::string_view option : {"camera", "time", "animation", "lights", "seed"})
+            if (baseline.settings.valueOf(option) != test.settings.valueOf(option))
+                throw std::runtime_error(
+                    fmt::format("--{} {} and {}: an explanation is of two pictures of one view of one scene",
+                                option, baseline.settings.valueOf(option), test.settings.valueOf(option)));
+        errors_.resize(lit_[0]->pixels());
+    }
+
+    Explanation make() {
+        errorsOf(*lit_[1], *lit_[0], errors_);
+        found_.distance = meanOf(errors_);
+        upload();
+        findRest();
+        found_.dominant = Image(lit_[0]->width, lit_[0]->height, 1, -1.0f);
+        if (found_.distance > 0) {
+            findCauses();
+            share();
+        }
+        found_.frames = drawn_;
+        return std::move(found_);
+    }
+
+private:
+    enum class Kind { channel, rest, setting };
+    struct Swapped {
+        Kind kind;
+        std::size_t channel = 0;  // of surfaceChannels()
+        std::string name, shows;
+    };
+
+    static std::string nameOfCause(const Swapped& cause) {
+        return (cause.kind == Kind::setting ? "--" : "") + cause.name;
+    }
+
+    // Pixels of a side whose material has a lightmap.
+    std::vector<std::uint8_t> lightmapped(std::size_t side) const {
+        const Image& ids = channelOf(*frames_.at(side), idMode);
+        std::vector<std::uint8_t> has(ids.pixels());
+        for (std::size_t i = 0; i < has.size(); ++i) {
+            const int id = static_cast<int>(ids.pixel(i)[0]);
+            has[i] = id >= 0 && sizeOf(id) < scene_.materials.size() &&
+                     scene_.materials[sizeOf(id)].lightmap_texture.texture >= 0;
+        }
+        return has;
+    }
+
+    void upload() {
+        for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
+            const int mode = surfaceChannels()[c];
+            const Image &a = channelOf(*frames_[0], mode), &b = channelOf(*frames_[1], mode);
+            const bool same = std::ranges::equal(std::as_const(a.data), std::as_const(b.data));
+            for (std::size_t side = 0; side < (same ? 1u : 2u); ++side)
+                images_.set(side, c, side == 0 ? a : b,
+                            mode == lightmapMode ? lightmapped(side) : std::vector<std::uint8_t>{});
+            if (!same) channel_causes_.push_back(c);
+        }
+    }
+
+    // lit of surfaces under the Settings of `settings`, which are drawn anew where they are not the last
+    // ones.
+    const Image& shade(const Settings& settings, std::uint32_t sides) {
+        if (!shading_ || !(*shaded_settings_ == settings)) {
+            shading_.reset();
+            shading_.emplace(renderer_.shadeChannels(settings, images_));
+            shaded_settings_ = settings;
+            ++drawn_;
+        }
+        ++found_.subsets;
+        shaded_ = shading_->shade(sides);
+        return shaded_;
+    }
+
+    // What the lighting of a side's own channels leaves of its lit.
+    void findRest() {
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Frame& frame = *frames_.at(side);
+            const Image& own = shade(frame.settings, side == 0 ? 0u : ~0u);
+            const Image& all = *lit_.at(side);
+            Image& rest = rest_.at(side) = Image(all.width, all.height, 3);
+            double mean = 0;
+            for (const float value : all.data) mean += std::isfinite(value) ? std::abs(double{value}) : 0.0;
+            mean /= static_cast<double>(all.data.size());
+            for (std::size_t i = 0; i < all.pixels(); ++i)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double left = double{all.pixel(i)[c]} - own.pixel(i)[c];
+                    rest.pixel(i)[c] = std::isfinite(left) ? static_cast<float>(left) : 0.0f;
+                    const double off =
+                        std::abs(left) / std::max(std::abs(double{all.pixel(i)[c]}), 1e-3 * mean);
+                    if (off > found_.reproduction.at(side)) found_.reproduction.at(side) = off;
+                }
+        }
+    }
+
+    // What the rest is: of several samples a pixel what edges show.
+    std::string restName() const {
+        return frames_[0]->settings.msaa > 1 || frames_[1]->settings.msaa > 1 ? "samples of a pixel"
+                                                                              : "light beside the channels";
+    }
+
+    void findCauses() {
+        const Settings &a = frames_[0]->settings, &b = frames_[1]->settings;
+        std::vector<Swapped> settings;
+        for (const Field& field : settingFields()) {
+            const std::string_view option = field.option;
+            if (!lightsSurfaces(option) || a.valueOf(option) == b.valueOf(option)) continue;
+            settings.push_back({Kind::setting, 0, std::string(option),
+                                fmt::format("{} instead of {}", b.valueOf(option), a.valueOf(option))});
+        }
+        for (const std::size_t c : channel_causes_) {
+            const DebugMode& mode = debugMode(surfaceChannels()[c]);
+            Swapped cause{Kind::channel, c, std::string(mode.name), std::string(mode.shows)};
+            if (changesNothing(c))
+                found_.inert.push_back(cause.name);
+            else
+                causes_.push_back(std::move(cause));
+        }
+        if (!std::ranges::equal(std::as_const(rest_[0].data), std::as_const(rest_[1].data)))
+            causes_.push_back(
+                {Kind::rest, 0, restName(), "what the lighting of a side's own channels leaves of its lit"});
+        // Last, so that subsets of the same Settings follow each other: they need a frame each.
+        causes_.insert(causes_.end(), settings.begin(), settings.end());
+        if (causes_.size() > sizeOf(mostCauses))
+            throw std::runtime_error(
+                fmt::format("{} causes are more than the {} that can be told apart: give the "
+                            "two pictures Settings that are more alike",
+                            causes_.size(), mostCauses));
+    }
+
+    // Whether a channel that differs changes no pixel: alone, and when all others are swapped.
+    bool changesNothing(std::size_t channel) {
+        const std::uint32_t one = std::uint32_t{1} << channel;
+        const Image none = shade(frames_[1]->settings, ~0u);
+        if (!std::ranges::equal(none.data, shade(frames_[1]->settings, ~one).data)) return false;
+        const Image all = shade(frames_[0]->settings, 0);
+        return std::ranges::equal(all.data, shade(frames_[0]->settings, one).data);
+    }
+
+    // lit of the test with a subset of the causes taken from the baseline.
+    Image swapped(Subset subset) {
+        std::uint32_t sides = ~0u;
+        std::size_t rest = 1;
+        Settings settings = frames_[1]->settings;
+        for (std::size_t i = 0; i < causes_.size(); ++i) {
+            if ((subset >> i & 1) == 0) continue;
+            const Swapped& cause = causes_[i];
+            if (cause.kind == Kind::channel) sides &= ~(std::uint32_t{1} << cause.channel);
+            if (cause.kind == Kind::rest) rest = 0;
+            if (cause.kind == Kind::setting)
+                settings.set(cause.name, frames_[0]->settings.valueOf(cause.name));
+        }
+        Image lit = shade(settings, sides);
+        const Image& added = rest_.at(rest);
+        for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] += added.data[i];
+        return lit;
+    }
+
+    void share() {
+        const int count = static_cast<int>(causes_.size());
+        const bool exact = count <= mostExactCauses;
+        const std::vector<SubsetWeights> subsets =
+            exact ? exactWeights(count) : sampledWeights(count, sampledOrderCount, 1);
+        std::vector<std::vector<double>> maps(causes_.size(), std::vector<double>(errors_.size()));
+        std::map<Subset, double> values;
+        const Subset all = (Subset{1} << count) - 1;
+        for (std::size_t s = 0; s < subsets.size(); ++s) {
+            progress_.at(static_cast<double>(s) / static_cast<double>(subsets.size()), "swap causes");
+            const Image lit = swapped(subsets[s].subset);
+            errorsOf(lit, *lit_[0], errors_);
+            values[subsets[s].subset] = -meanOf(errors_);
+            if (subsets[s].subset == all) {
+                found_.unexplained = meanOf(errors_);
+                found_.flip_unexplained = hdrFlip(*lit_[0], lit).mean;
+            }
+            tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t i) {
+                const double weight = subsets[s].weight[i];
+                for (std::size_t p = 0; p < errors_.size(); ++p) maps[i][p] -= weight * errors_[p];
+            });
+        }
+        found_.flip = hdrFlip(*lit_[0], *lit_[1]).mean;
+        const SubsetValue value = [&](Subset subset) { return values.at(subset); };
+        const Shares shares =
+            exact ? exactShares(count, value) : sampledShares(count, value, sampledOrderCount, 1);
+        rank(shares, maps);
+    }
+
+    std::vector<MaterialShare> byMaterial(const std::vector<double>& map, double whole) const {
+        const Image& ids = channelOf(*frames_[0], idMode);
+        std::map<int, double> sums;
+        for (std::size_t p = 0; p < map.size(); ++p)
+            sums[static_cast<int>(ids.pixel(p)[0])] += map[p] / static_cast<double>(map.size());
+        std::vector<MaterialShare> shares;
+        for (const auto& [id, sum] : sums) {
+            if (std::abs(sum) < namedMaterial * std::abs(whole)) continue;
+            const bool known = id >= 0 && sizeOf(id) < scene_.materials.size();
+            shares.push_back({id, known ? scene_.materials[sizeOf(id)].name : std::string(), sum});
+        }
+        std::ranges::stable_sort(shares, std::ranges::greater{}, &MaterialShare::share);
+        return shares;
+    }
+
+    void rank(const Shares& shares, const std::vector<std::vector<double>>& maps) {
+        std::vector<std::size_t> order(causes_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(
+            order, [&](std::size_t a, std::size_t b) { return shares.share[a] > shares.share[b]; });
+        // A Setting that nothing here can feel.
+        std::erase_if(order, [&](std::size_t i) {
+            const bool felt = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
+            if (!felt) found_.inert.push_back(nameOfCause(causes_[i]));
+            return !felt;
+        });
+        std::vector<std::size_t> place(causes_.size());
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            const std::size_t i = order[k];
+            place[i] = k;
+            const auto worst = static_cast<std::size_t>(std::ranges::max_element(maps[i]) - maps[i].begin());
+            const auto width = sizeOf(lit_[0]->width);
+            found_.causes.push_back({nameOfCause(causes_[i]), causes_[i].shows, shares.share[i],
+                                     shares.interval[i], shares.alone[i], shares.last[i], maps[i][worst],
+                                     static_cast<int>(worst % width), static_cast<int>(worst / width),
+                                     byMaterial(maps[i], shares.share[i])});
+        }
+        for (std::size_t p = 0; p < errors_.size(); ++p)
+            for (std::size_t k = 0; k < order.size(); ++k) {
+                const float dominant = found_.dominant.data[p];
+                const double best = dominant < 0 ? 0.0 : maps[order[static_cast<std::size_t>(dominant)]][p];
+                if (maps[order[k]][p] > best) found_.dominant.data[p] = static_cast<float>(k);
+            }
+        if (shares.interaction.empty()) return;
+        for (std::size_t j = 1; j < causes_.size(); ++j)
+            for (std::size_t i = 0; i < j; ++i) {
+                const double both = shares.interaction[i + j * (j - 1) / 2];
+                if (std::abs(both) > namedPair * found_.distance)
+                    found_.pairs.push_back(
+                        {std::min(place[i], place[j]), std::max(place[i], place[j]), both});
+            }
+        std::ranges::stable_sort(found_.pairs, [](const CausePair& a, const CausePair& b) {
+            return std::abs(a.interaction) > std::abs(b.interaction);
+        });
+    }
+
+    Renderer& renderer_;
+    const Scene& scene_;
+    const std::array<const Frame*, 2> frames_;  // baseline, test
+    const Stage progress_;
+    SurfaceImages images_;
+    const std::array<const Image*, 2> lit_;
+    std::array<Image, 2> rest_;
+    std::vector<std::size_t> channel_causes_;
+    std::vector<Swapped> causes_;
+    std::optional<ChannelShading> shading_;
+    std::optional<Settings> shaded_settings_;
+    Image shaded_;
+    std::vector<double> errors_;  // a pixel each
+    std::size_t drawn_ = 0;
+    Explanation found_;
+};
+
+}  // namespace
+
+std::span<const std::string_view> settingsInChannels() {
+    return carried;
+}
+
+std::vector<int> explainedChannels() {
+    std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
+    modes.push_back(litMode);
+    modes.push_back(idMode);
+    std::ranges::sort(modes);
+    return modes;
+}
+
+Explanation explain(Device& device, Renderer& renderer, const Scene& scene, const Frame& baseline,
+                    const Frame& test, const Stage& progress) {
+    return Explainer(device, renderer, scene, baseline, test, progress).make();
+}
+
+}  // namespace diptych

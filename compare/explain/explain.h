@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Why lit of two Frames differs. The experiment is to swap: a channel of the surface, a Setting, or what the
+// lighting of a Frame's own channels leaves of its lit (the rest: edges of several samples a pixel; nothing
+// where pixels have one) is taken from the baseline, all else from the test, the picture is shaded again, and
+// what counts is how much nearer lit has come to the baseline's. Shares are Shapley values (shapley.h) of
+// that, over the whole picture and at each pixel.
+#pragma once
+
+#include "compare/explain/shapley.h"
+#include "compare/render/renderer.h"
+#include "compare/run/progress.h"
+#include "shared/frame/frame.h"
+#include "shared/scene/model/scene.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace diptych {
+
+// What a material has of a cause's share.
+struct MaterialShare {
+    int material = -1;  // -1: the background
+    std::string name;   // may be empty
+    double share = 0;   // W/(sr m^2), as Cause::share
+};
+
+struct Cause {
+    std::string name;            // "normals"; "--haze"; "samples of a pixel"
+    std::string shows;           // what it is, in words
+    double share = 0;            // of Explanation::distance, W/(sr m^2)
+    double interval = 0;         // half the 95 % confidence interval; 0: exact
+    double alone = 0, last = 0;  // swapped alone; when all others are
+    double worst = 0;            // the share at the pixel where it is largest, W/(sr m^2)
+    int worst_x = 0, worst_y = 0;
+    std::vector<MaterialShare> materials;  // descending, those with a share of the cause's of 1 % or more
+};
+
+// Two causes that do more or less together than each by itself.
+struct CausePair {
+    std::size_t first = 0, second = 0;  // of Explanation::causes
+    double interaction = 0;             // Shares::interaction, W/(sr m^2)
+};
+
+struct Explanation {
+    // The mean over the picture's pixels and components of |test - baseline| of lit, W/(sr m^2): as it is,
+    // and as it is left when all causes are swapped.
+    double distance = 0, unexplained = 0;
+    double flip = 0, flip_unexplained = 0;  // likewise the mean of HDR-FLIP
+    std::vector<Cause> causes;              // descending by share
+    std::vector<CausePair> pairs;           // those of over 5 % of the distance, the largest first
+    // How far, at most, the lighting of a side's own channels is from that side's lit, as a share of the
+    // component or of a thousandth of the mean: baseline, test. What is over is the rest.
+    std::array<double, 2> reproduction{};
+    std::size_t subsets = 0, frames = 0;  // that were shaded, and drawn for Settings
+    std::vector<std::string> inert;       // what differs and yet changes no pixel
+    // W x H x 1: the place in `causes` of that with the largest share at the pixel; -1 where lit is the same.
+    Image dominant;
+
+    // What all causes bring, as a share of the distance: 0 where there is none.
+    double shareOf(double share) const { return distance > 0 ? share / distance : 0.0; }
+};
+
+// Settings that are no cause of their own: what they change is in the channels, in the rest, or in no pixel.
+std::span<const std::string_view> settingsInChannels();
+// Channels that explain() needs of a Frame.
+std::vector<int> explainedChannels();
+
+// `baseline`, `test`: of one view of the renderer's scene, with these channels. Throws std::runtime_error,
+// one line, where they are not.
+Explanation explain(Device& device, Renderer& renderer, const Scene& scene, const Frame& baseline,
+                    const Frame& test, const Stage& progress = {});
+
+}  // namespace diptych

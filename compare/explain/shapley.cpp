@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/shapley.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+std::size_t placeOfCause(int causes) {
+    return static_cast<std::size_t>(causes);
+}
+
+Subset allOf(int causes) {
+    return causes == 0 ? 0 : ~Subset{0} >> (32 - causes);
+}
+
+double factorial(int n) {
+    return std::tgamma(n + 1.0);
+}
+
+// Remembers what it has asked for.
+class Asked {
+public:
+    explicit Asked(const SubsetValue& value) : value_(value) {}
+    double operator()(Subset subset) {
+        const auto found = known_.find(subset);
+        return found != known_.end() ? found->second : known_.emplace(subset, value_(subset)).first->second;
+    }
+    std::size_t size() const { return known_.size(); }
+
+private:
+    const SubsetValue& value_;
+    std::unordered_map<Subset, double> known_;
+};
+
+// The orders of sampledShares(), each followed by its reverse.
+std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_t seed) {
+    if (causes < 1 || causes > mostCauses || orders < 4 || orders % 2 != 0)
+        throw std::invalid_argument(
+            "shares are sampled of 1 to 31 causes, by 4 orders or more, an even number");
+    std::mt19937_64 random(seed);
+    std::vector<int> order(placeOfCause(causes));
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::vector<int>> all;
+    for (int sample = 0; sample < orders / 2; ++sample) {
+        // Fisher and Yates's shuffle; std::shuffle's result is the library's own.
+        for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
+        all.push_back(order);
+        all.emplace_back(order.rbegin(), order.rend());
+    }
+    return all;
+}
+
+void addExtremes(Shares& shares, int causes, Asked& value) {
+    const Subset all = allOf(causes);
+    const double none = value(0), whole = value(all);
+    shares.all = whole - none;
+    for (int i = 0; i < causes; ++i) {
+        const Subset one = Subset{1} << i;
+        shares.alone.push_back(value(one) - none);
+        shares.last.push_back(whole - value(all & ~one));
+    }
+}
+
+}  // namespace
+
+double shareWeight(int causes, int size) {
+    return factorial(size) * factorial(causes - size - 1) / factorial(causes);
+}
+
+Shares exactShares(int causes, const SubsetValue& value) {
+    if (causes < 0 || causes > mostExactCauses)
+        throw std::invalid_argument("exact shares are of at most 8 causes");
+    Asked known(value);
+    const Subset end = allOf(causes) + 1;
+    for (Subset subset = 0; subset < end; ++subset) known(subset);
+    Shares shares;
+    shares.share.resize(placeOfCause(causes));
+    shares.interval.resize(placeOfCause(causes));
+    addExtremes(shares, causes, known);
+    for (Subset subset = 0; subset < end; ++subset)
+        for (int i = 0; i < causes; ++i) {
+            const Subset one = Subset{1} << i;
+            if ((subset & one) != 0) continue;
+            shares.share[placeOfCause(i)] +=
+                shareWeight(causes, std::popcount(subset)) * (known(subset | one) - known(subset));
+        }
+    for (int j = 1; j < causes; ++j)
+        for (int i = 0; i < j; ++i) {
+            const Subset a = Subset{1} << i, b = Subset{1} << j;
+            double sum = 0;
+            for (Subset subset = 0; subset < end; ++subset)
+                if ((subset & (a | b)) == 0)
+                    sum += shareWeight(causes - 1, std::popcount(subset)) *
+                           (known(subset | a | b) - known(subset | a) - known(subset | b) + known(subset));
+            shares.interaction.push_back(sum);
+        }
+    shares.asked = known.size();
+    return shares;
+}
+
+std::vector<SubsetWeights> exactWeights(int causes) {
+    if (causes < 0 || causes > mostExactCauses)
+        throw std::invalid_argument("exact shares are of at most 8 causes");
+    std::vector<SubsetWeights> all;
+    for (Subset subset = 0; subset <= allOf(causes); ++subset) {
+        const int size = std::popcount(subset);
+        SubsetWeights& weights = all.emplace_back(SubsetWeights{subset, {}});
+        for (int i = 0; i < causes; ++i)
+            weights.weight.push_back((subset >> i & 1) != 0 ? shareWeight(causes, size - 1)
+                                                            : -shareWeight(causes, size));
+    }
+    return all;
+}
+
+std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t seed) {
+    std::map<Subset, std::vector<double>> weights;
+    const auto at = [&](Subset subset) -> std::vector<double>& {
+        return weights.try_emplace(subset, placeOfCause(causes)).first->second;
+    };
+    for (const std::vector<int>& order : sampledOrders(causes, orders, seed)) {
+        Subset swapped = 0;
+        for (const int i : order) {
+            at(swapped)[placeOfCause(i)] -= 1.0 / orders;
+            swapped |= Subset{1} << i;
+            at(swapped)[placeOfCause(i)] += 1.0 / orders;
+        }
+    }
+    // Of each cause alone and of all others, which nothing may have asked for.
+    for (int i = 0; i < causes; ++i) {
+        at(Subset{1} << i);
+        at(allOf(causes) & ~(Subset{1} << i));
+    }
+    std::vector<SubsetWeights> all;
+    for (auto& [subset, weight] : weights) all.push_back({subset, std::move(weight)});
+    return all;
+}
+
+Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint64_t seed) {
+    const std::vector<std::vector<int>> all = sampledOrders(causes, orders, seed);
+    Asked known(value);
+    std::vector<double> sum(placeOfCause(causes)), squares(placeOfCause(causes)), one(placeOfCause(causes));
+    const int samples = orders / 2;
+    for (std::size_t at = 0; at < all.size(); at += 2) {
+        std::fill(one.begin(), one.end(), 0.0);
+        for (const std::vector<int>& order : {all[at], all[at + 1]}) {
+            Subset swapped = 0;
+            for (const int i : order) {
+                const Subset more = swapped | Subset{1} << i;
+                one[placeOfCause(i)] += 0.5 * (known(more) - known(swapped));
+                swapped = more;
+            }
+        }
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            sum[i] += one[i];
+            squares[i] += one[i] * one[i];
+        }
+    }
+    Shares shares;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        const double mean = sum[i] / samples;
+        const double variance = std::max(0.0, squares[i] / samples - mean * mean) / (samples - 1);
+        shares.share.push_back(mean);
+        shares.interval.push_back(1.96 * std::sqrt(variance));
+    }
+    addExtremes(shares, causes, known);
+    shares.asked = known.size();
+    return shares;
+}
+
+}  // namespace diptych

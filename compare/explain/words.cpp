@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+constexpr std::size_t namedMaterials = 3;
+
+std::string materialName(const MaterialShare& material) {
+    if (material.material < 0) return "background";
+    return material.name.empty() ? fmt::format("material {}", material.material)
+                                 : fmt::format("material {}, {}", material.material, material.name);
+}
+
+// Of the pixels that differ, how many have the cause as the one with the largest share.
+double dominatedShare(const Explanation& explanation, std::size_t cause) {
+    const auto& data = explanation.dominant.data;
+    const auto differ = std::ranges::count_if(data, [](float place) { return place >= 0; });
+    const auto own = std::ranges::count(data, static_cast<float>(cause));
+    return differ > 0 ? static_cast<double>(own) / static_cast<double>(differ) : 0.0;
+}
+
+std::string causeLine(const Explanation& all, std::size_t place) {
+    const Cause& cause = all.causes[place];
+    std::string line = fmt::format("{:>8.2f} %", 100 * all.shareOf(cause.share));
+    if (cause.interval > 0) line += fmt::format(" +- {:.2f}", 100 * all.shareOf(cause.interval));
+    line +=
+        fmt::format("  {:<18} {}; most at {},{}; dominates {:.0f} % of the pixels that differ\n", cause.name,
+                    cause.shows, cause.worst_x, cause.worst_y, 100 * dominatedShare(all, place));
+    std::string materials;
+    for (std::size_t i = 0; i < std::min(namedMaterials, cause.materials.size()); ++i)
+        materials +=
+            fmt::format("{}{:.0f} % on {}", i == 0 ? "" : "; ", 100 * cause.materials[i].share / cause.share,
+                        materialName(cause.materials[i]));
+    if (!materials.empty()) line += fmt::format("{:>12}{}\n", "", materials);
+    return line;
+}
+
+std::string pairLine(const Explanation& all, const CausePair& pair) {
+    return fmt::format(
+        "{} and {}: {} ({:+.1f} % together beyond each alone)\n", all.causes[pair.first].name,
+        all.causes[pair.second].name,
+        pair.interaction < 0 ? "either does what the other does" : "each hides what the other does",
+        100 * all.shareOf(pair.interaction));
+}
+
+}  // namespace
+
+std::string inWords(const Explanation& e, const ExplainedPictures& of) {
+    std::string text = fmt::format(
+        "{}: lit of {} differs from that of {} by {:.4g} W/(sr m^2) in the mean, FLIP "
+        "{:.4g}\n",
+        of.scene, of.test, of.baseline, e.distance, e.flip);
+    if (e.distance == 0) return text + "no cause: lit is the same\n";
+    if (e.causes.empty()) text += "no cause: nothing that differs makes lit\n";
+    for (std::size_t i = 0; i < e.causes.size(); ++i) text += causeLine(e, i);
+    const double left = e.shareOf(e.unexplained);
+    text +=
+        fmt::format("{:>8.2f} %  {}\n", 100 * left,
+                    left > worthUnexplained
+                        ? "unexplained: with every cause swapped lit still differs by so much, so something "
+                          "else does it that no channel and no Setting says"
+                        : "unexplained");
+    for (const CausePair& pair : e.pairs) text += pairLine(e, pair);
+    if (!e.inert.empty()) text += fmt::format("differs and changes no pixel: {}\n", fmt::join(e.inert, ", "));
+    if (std::max(e.reproduction[0], e.reproduction[1]) > 0)
+        text += fmt::format(
+            "the lighting of its own channels is off the lit of {} by {:.2g} at most, of {} by "
+            "{:.2g}, as a share of the pixel's\n",
+            of.baseline, e.reproduction[0], of.test, e.reproduction[1]);
+    return text + fmt::format("{} pictures shaded, {} frames drawn for them\n", e.subsets, e.frames);
+}
+
+nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of) {
+    using Json = nlohmann::ordered_json;
+    Json causes = Json::array(), pairs = Json::array();
+    for (std::size_t i = 0; i < e.causes.size(); ++i) {
+        const Cause& cause = e.causes[i];
+        Json materials = Json::array();
+        for (const MaterialShare& material : cause.materials)
+            materials.push_back(
+                {{"id", material.material}, {"name", material.name}, {"share", e.shareOf(material.share)}});
+        causes.push_back({{"name", cause.name},
+                          {"share", e.shareOf(cause.share)},
+                          {"interval", e.shareOf(cause.interval)},
+                          {"where", {cause.worst_x, cause.worst_y}},
+                          {"shows", cause.shows},
+                          {"alone", e.shareOf(cause.alone)},
+                          {"last", e.shareOf(cause.last)},
+                          {"dominates", dominatedShare(e, i)},
+                          {"materials", std::move(materials)}});
+    }
+    for (const CausePair& pair : e.pairs)
+        pairs.push_back({{"causes", {e.causes[pair.first].name, e.causes[pair.second].name}},
+                         {"interaction", e.shareOf(pair.interaction)}});
+    return {{"schema", 1},
+            {"scene", of.scene},
+            {"baseline", of.baseline},
+            {"test", of.test},
+            {"distance", e.distance},
+            {"flip", e.flip},
+            {"causes", std::move(causes)},
+            {"unexplained", e.shareOf(e.unexplained)},
+            {"flip_unexplained", e.flip_unexplained},
+            {"pairs", std::move(pairs)},
+            {"inert", e.inert},
+            {"reproduction", {e.reproduction[0], e.reproduction[1]}},
+            {"shaded", e.subsets},
+            {"drawn", e.frames}};
+}
+
+}  // namespace diptych

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "compare/render/channel_shading.h"
+
+#include "compare/render/prepared_view.h"
+#include "deferred/channel_lighting.h"
+#include "shared/contract/surface_channels.h"
+#include "shared/frame/debug_modes.h"
+
+#include <array>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+#define DIPTYCH_CHANNEL_MODE(number, name) static_cast<int>(gpu::DEBUG_##name),
+constexpr std::array channelModes{SURFACE_CHANNELS(DIPTYCH_CHANNEL_MODE)};
+#undef DIPTYCH_CHANNEL_MODE
+#define DIPTYCH_CHANNEL_PLACE(number, name) gpu::SURFACE_CHANNEL_##name,
+constexpr std::array channelBindings{SURFACE_CHANNELS(DIPTYCH_CHANNEL_PLACE)};
+#undef DIPTYCH_CHANNEL_PLACE
+constexpr std::size_t channelCount = channelModes.size();
+
+// The Settings of the frame whose depth, lists and shadows light the surfaces.
+Settings litBy(Settings settings) {
+    settings.path = Path::deferred;
+    settings.gbuffer = GBufferEncoding::full;
+    if (settings.assign == Assignment::per_object) settings.assign = Assignment::every;
+    settings.msaa = 1;
+    return settings;
+}
+
+// RGBA32F texels of an image of 1 or 3 components.
+std::vector<float> texelsOf(const Image& image, std::span<const std::uint8_t> lightmapped) {
+    std::vector<float> texels(image.pixels() * 4);
+    const auto components = static_cast<std::size_t>(image.components);
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* const pixel = image.pixel(i);
+        for (std::size_t c = 0; c < components; ++c) texels[4 * i + c] = pixel[c];
+        if (!lightmapped.empty()) texels[4 * i + 3] = lightmapped[i] != 0 ? 1.0f : 0.0f;
+    }
+    return texels;
+}
+
+}  // namespace
+
+std::span<const int> surfaceChannels() {
+    return channelModes;
+}
+
+struct SurfaceImages::State {
+    Device& device;
+    Size size;
+    Uploader uploader;
+    std::array<std::array<std::optional<GpuImage>, channelCount>, 2> images{};
+
+    VkImageView view(std::size_t side, std::size_t channel) const {
+        const std::optional<GpuImage>& own = images.at(side).at(channel);
+        const std::optional<GpuImage>& other = images.at(1 - side).at(channel);
+        if (!own && !other) throw std::logic_error("a channel of surfaces was never set");
+        return own ? own->view() : other->view();
+    }
+};
+
+SurfaceImages::SurfaceImages(Device& device, const Size& size)
+    : state_(new State{device, size, Uploader(device)}) {}
+SurfaceImages::SurfaceImages(SurfaceImages&&) noexcept = default;
+SurfaceImages::~SurfaceImages() = default;
+
+void SurfaceImages::set(std::size_t side, std::size_t channel, const Image& image,
+                        std::span<const std::uint8_t> lightmapped) {
+    if (image.width != state_->size.width || image.height != state_->size.height)
+        throw std::logic_error("a channel of surfaces has another size");
+    std::optional<GpuImage>& target = state_->images.at(side).at(channel);
+    target.emplace(state_->device,
+                   GpuImageInfo{.name = std::string(debugMode(channelModes.at(channel)).name),
+                                .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                .width = static_cast<std::uint32_t>(image.width),
+                                .height = static_cast<std::uint32_t>(image.height),
+                                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+    const std::vector<float> texels = texelsOf(image, lightmapped);
+    state_->uploader.level(*target, 0, std::as_bytes(std::span(texels)));
+    state_->uploader.flush();
+}
+
+struct ChannelShading::State {
+    State(Device& device, SharedResources& shared, const SceneView& view, const Settings& given,
+          const SurfaceImages::State& channels)
+        : settings(litBy(given)),
+          images(channels),
+          frame(device, shared, view, settings),
+          sets(std::make_shared<DescriptorSets>(device, shared.layouts.gbuffer, gbufferBindings(), 1)),
+          nearest(shared.layouts.nearest.get()) {
+        frame.view.inputs.placeholders.bindGBuffer(*sets, shared.layouts);
+        frame.passes.run();
+        first = frame.passes.size();
+        lit = addChannelLighting(frame.passes, frame.view.inputs, frame.images.depth, sets);
+        sets->image(0, gpu::BINDING_DEPTH, frame.passes.view(frame.images.depth), nearest,
+                    VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    }
+
+    const Settings settings;  // which the view refers to
+    const SurfaceImages::State& images;
+    PreparedFrame frame;
+    std::shared_ptr<DescriptorSets> sets;
+    VkSampler nearest;
+    std::size_t first = 0;
+    ImageRef lit;
+};
+
+ChannelShading::ChannelShading(Device& device, SharedResources& shared, const SceneView& view,
+                               const Settings& settings, const SurfaceImages& images)
+    : state_(new State(device, shared, view, settings, *images.state_)) {}
+ChannelShading::ChannelShading(ChannelShading&&) noexcept = default;
+ChannelShading::~ChannelShading() = default;
+
+Image ChannelShading::shade(std::uint32_t sides) {
+    for (std::size_t channel = 0; channel < channelCount; ++channel)
+        state_->sets->image(0, channelBindings.at(channel),
+                            state_->images.view(sides >> channel & 1u, channel), state_->nearest,
+                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    PassList& passes = state_->frame.passes;
+    passes.run(state_->first, passes.size());
+    const PassList::ReadBack request{state_->lit, 3};
+    return std::move(readImages(passes, std::span(&request, 1)).front());
+}
+
+}  // namespace diptych

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Shades surfaces that are made of channels of two Frames, each channel of either, by the lighting that both
+// paths share.
+#pragma once
+
+#include "shared/frame/settings.h"
+#include "shared/image/image.h"
+#include "shared/scene/scene_view.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace diptych {
+
+class Device;
+struct SharedResources;
+
+// Debug modes of the channels that make a surface (SURFACE_CHANNELS), in the order of the bits below.
+std::span<const int> surfaceChannels();
+
+// The channels of two Frames on the device. A channel that both have alike is there once.
+class SurfaceImages {
+public:
+    SurfaceImages(Device& device, const Size& size);
+    SurfaceImages(SurfaceImages&&) noexcept;
+    ~SurfaceImages();
+
+    // Image `side` (0, 1) of channel number `channel` of surfaceChannels(): W x H x its width, float32.
+    // `lightmapped`: of channel lightmap, pixels whose material has one; otherwise empty.
+    void set(std::size_t side, std::size_t channel, const Image& image,
+             std::span<const std::uint8_t> lightmapped = {});
+
+private:
+    friend class ChannelShading;
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+// One view under one Settings. What it is made of must outlive it.
+class ChannelShading {
+public:
+    // Of Settings what lights surfaces, lies behind them and is blended over them matters, with one sample a
+    // pixel. Draws the deferred frame once, for depth, light lists and shadows. Throws std::runtime_error, one line.
+    ChannelShading(Device& device, SharedResources& shared, const SceneView& view, const Settings& settings,
+                   const SurfaceImages& images);
+    ChannelShading(ChannelShading&&) noexcept;
+    ~ChannelShading();
+
+    // lit, W x H x 3. Bit i of `sides`: of which side channel i is.
+    Image shade(std::uint32_t sides);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace diptych

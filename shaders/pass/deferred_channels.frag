@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Shades surfaces of float32 channels, whoever drew them, as deferred_shade.frag shades a G-buffer's.
+#define FLAT_VIEW
+#include "shaders/lib/shade.glsl"
+#include "shaders/lib/stored_depth.glsl"
+#include "shaders/lib/surface_channels.glsl"
+
+layout(location = 0) out vec4 out_lit;
+
+void main() {
+    Surface s = surfaceFromChannels(ivec2(gl_FragCoord.xy));
+    out_lit = vec4(lit(shade(s, lightsAt(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))))), 1.0);
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Lighting of channels: a path's own channels give its own lit.
+#include "compare/render/channel_shading.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+std::vector<int> shadedChannels() {
+    std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
+    modes.push_back(lit);
+    modes.push_back(static_cast<int>(gpu::DEBUG_material_id));
+    return modes;
+}
+
+// Pixels whose material has a lightmap.
+std::vector<std::uint8_t> lightmapped(const Scene& scene, const Image& ids) {
+    std::vector<std::uint8_t> has(ids.pixels());
+    for (std::size_t i = 0; i < has.size(); ++i) {
+        const int id = static_cast<int>(ids.pixel(i)[0]);
+        has[i] = id >= 0 && scene.materials.at(static_cast<std::size_t>(id)).lightmap_texture.texture >= 0;
+    }
+    return has;
+}
+
+class ChannelShadingOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
+    const Scene scene = loadScene(GetParam());
+    Renderer renderer(device(), scene, pipelines());
+    for (const GBufferEncoding encoding : {GBufferEncoding::full, GBufferEncoding::compact})
+        for (const Path path : drawn_paths) {
+            SCOPED_TRACE(fmt::format("{} {}", nameOf(path), nameOf(encoding)));
+            Settings settings = smallPicture(encoding);
+            settings.path = path;
+            settings.ambient = {0.1f, 0.2f, 0.3f};
+            const Frame frame = drawnBy(path, renderer, settings, shadedChannels());
+            SurfaceImages images(device(), settings.size);
+            const Image& ids = frame.channels.at(static_cast<int>(gpu::DEBUG_material_id));
+            for (std::size_t i = 0; i < surfaceChannels().size(); ++i) {
+                const int mode = surfaceChannels()[i];
+                images.set(0, i, frame.channels.at(mode),
+                           mode == static_cast<int>(gpu::DEBUG_lightmap) ? lightmapped(scene, ids)
+                                                                         : std::vector<std::uint8_t>{});
+            }
+            const Image shaded = renderer.shadeChannels(settings, images).shade(0);
+            const Image& own = frame.channels.at(lit);
+            std::size_t differ = 0;
+            for (std::size_t p = 0; p < own.pixels(); ++p)
+                differ += !std::equal(own.pixel(p), own.pixel(p) + 3, shaded.pixel(p));
+            // Elsewhere the two pipelines may round apart.
+            EXPECT_EQ(device().profile().bit_exact ? differ : 0u, 0u) << "of " << own.pixels();
+        }
+    EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ChannelShadingOf,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:cutout",
+                                         "builtin:glass", "builtin:dielectrics", "builtin:areas",
+                                         "builtin:lightmaps"),
+                         [](const auto& test) { return testName(test.param); });
+
+}  // namespace
+}  // namespace diptych::tests

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// Explanations of differences whose causes are known, because they were planted.
+#include "compare/explain/explain.h"
+#include "compare/picture/picture.h"
+#include "compare/render/channel_shading.h"
+#include "shared/contract/debug_mode.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int mode(gpu::uint number) {
+    return static_cast<int>(number);
+}
+
+Settings explained(Size size) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = Path::forward_plus;
+    settings.size = size;
+    settings.ambient = {0.05f, 0.05f, 0.05f};
+    return settings;
+}
+
+// A fault of a channel: what it makes of a pixel.
+struct Fault {
+    std::string channel;
+    std::string means;
+    std::function<void(float*)> plant;
+};
+
+double srgbDecoded(double x) {
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+std::vector<Fault> faults() {
+    const auto each = [](const std::function<double(double)>& of) {
+        return [of](float* p) {
+            for (int c = 0; c < 3; ++c) p[c] = static_cast<float>(of(double{p[c]}));
+        };
+    };
+    return {
+        {"normals", "8 bits",
+         [](float* p) {
+             double n[3], length = 0;
+             for (int c = 0; c < 3; ++c) n[c] = std::round(127 * double{p[c]}) / 127, length += n[c] * n[c];
+             for (int c = 0; c < 3; ++c) p[c] = static_cast<float>(n[c] / std::sqrt(std::max(length, 1e-9)));
+         }},
+        {"roughness", "squared once more", [](float* p) { p[0] *= p[0]; }},
+        {"metallic", "of plastic", [](float* p) { p[0] = 0; }},
+        {"albedo", "sRGB taken for linear", each(srgbDecoded)},
+        {"albedo", "4 bits", each([](double x) { return std::round(15 * x) / 15; })},
+        {"emission", "clamped at 1", each([](double x) { return std::min(x, 1.0); })},
+        {"occlusion", "left out", [](float* p) { p[0] = 1; }},
+        {"dielectric_f0", "that of water", each([](double x) { return 0.5 * x; })},
+        {"position", "5 cm off", [](float* p) { p[1] += 0.05f; }},
+    };
+}
+
+// A scene drawn by forward+, and copies of its Frame with planted faults.
+class Planted {
+public:
+    Planted(const std::string& name, Size size)
+        : scene(loadScene(name)), renderer(device(), scene, pipelines()), settings(explained(size)) {
+        std::vector<int> modes = explainedChannels();
+        right = drawnBy(Path::forward_plus, renderer, settings, modes);
+    }
+
+    // The Frame that a renderer with these faults would have drawn.
+    Frame with(const std::vector<Fault>& planted) {
+        Frame frame = right;
+        SurfaceImages images(device(), settings.size);
+        for (std::size_t i = 0; i < surfaceChannels().size(); ++i) {
+            const int number = surfaceChannels()[i];
+            Image& image = frame.channels.at(number);
+            for (const Fault& fault : planted)
+                if (fault.channel == debugMode(number).name)
+                    for (std::size_t p = 0; p < image.pixels(); ++p)
+                        if (covered(p)) fault.plant(image.pixel(p));
+            images.set(0, i, image);
+        }
+        const Image shaded = renderer.shadeChannels(settings, images).shade(0);
+        frame.channels.at(lit) = shaded;
+        return frame;
+    }
+
+    bool covered(std::size_t pixel) const {
+        return right.channels.at(mode(gpu::DEBUG_material_id)).pixel(pixel)[0] >= 0;
+    }
+
+    const Scene scene;
+    Renderer renderer;
+    const Settings settings;
+    Frame right;
+};
+
+double sumOfShares(const Explanation& e) {
+    return std::accumulate(e.causes.begin(), e.causes.end(), 0.0,
+                           [](double sum, const Cause& cause) { return sum + cause.share; });
+}
+
+std::vector<std::string> names(const Explanation& e) {
+    std::vector<std::string> all;
+    for (const Cause& cause : e.causes) all.push_back(cause.name);
+    return all;
+}
+
+// Whether lit has changed enough for anything to be explained: a scene without metal cannot feel a fault of
+// it.
+bool isFelt(const Explanation& e) {
+    return e.distance > 0;
+}
+
+class ExplainOf : public testing::TestWithParam<const char*> {};
+
+// Each fault alone is the only cause, explains all, and shares add up.
+TEST_P(ExplainOf, NamesEachPlantedFault) {
+    Planted planted(GetParam(), {96, 54});
+    int felt = 0;
+    for (const Fault& fault : faults()) {
+        SCOPED_TRACE(fault.channel + ", " + fault.means);
+        const Explanation e =
+            explain(device(), planted.renderer, planted.scene, planted.right, planted.with({fault}));
+        if (!isFelt(e)) continue;
+        ++felt;
+        ASSERT_FALSE(e.causes.empty());
+        EXPECT_EQ(e.causes.front().name, fault.channel);
+        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        EXPECT_LE(e.unexplained, 1e-6 * e.distance);
+        if (e.causes.size() > 1) continue;
+        // The map: of one cause it is the difference itself.
+        const Frame test = planted.with({fault});
+        const Image &a = planted.right.channels.at(lit), &b = test.channels.at(lit);
+        std::size_t wrong = 0;
+        for (std::size_t p = 0; p < a.pixels(); ++p)
+            wrong += std::equal(a.pixel(p), a.pixel(p) + 3, b.pixel(p)) != (e.dominant.pixel(p)[0] < 0);
+        EXPECT_EQ(wrong, 0u);
+        double ofMaterials = 0;
+        for (const MaterialShare& material : e.causes[0].materials) ofMaterials += material.share;
+        // Those below 1 % are not named.
+        EXPECT_NEAR(ofMaterials, e.distance, 0.3 * e.distance);
+    }
+    EXPECT_GE(felt, 4);
+    EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
+}
+
+// Of two faults both are named before anything else, whichever is larger.
+TEST_P(ExplainOf, NamesBothOfTwoFaults) {
+    Planted planted(GetParam(), {96, 54});
+    const std::vector<Fault> all = faults();
+    int felt = 0;
+    for (const auto& [first, second] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}, {0, 3}, {3, 8}}) {
+        SCOPED_TRACE(all[first].channel + " and " + all[second].channel);
+        const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right,
+                                      planted.with({all[first], all[second]}));
+        const std::vector<std::string> found = names(e);
+        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        if (found.size() < 2) continue;  // the scene cannot feel one of them
+        ++felt;
+        EXPECT_EQ(found.size(), 2u);
+        EXPECT_TRUE(std::ranges::count(found, all[first].channel) == 1 &&
+                    std::ranges::count(found, all[second].channel) == 1);
+    }
+    EXPECT_GE(felt, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, ExplainOf,
+                         testing::Values("builtin:gallery", "builtin:spheres", "builtin:dielectrics"),
+                         [](const auto& test) { return testName(test.param); });
+
+TEST(Explain, OfTheSameFrameHasNoCause) {
+    Planted planted("builtin:points", {64, 36});
+    const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, planted.right);
+    EXPECT_EQ(e.distance, 0);
+    EXPECT_TRUE(e.causes.empty());
+    EXPECT_TRUE(std::ranges::all_of(e.dominant.data, [](float place) { return place < 0; }));
+}
+
+// Two faults that hide each other: what one takes from the light the other gives back.
+TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
+    Planted planted("builtin:points", {64, 36});
+    const Fault darker{"albedo", "halved", [](float* p) {
+                           for (int c = 0; c < 3; ++c) p[c] *= 0.5f;
+                       }};
+    // The emission that makes lit what it was, nearly.
+    const Frame dark = planted.with({darker});
+    const Image &was = planted.right.channels.at(lit), &is = dark.channels.at(lit);
+    Frame hidden = dark;
+    Image& emission = hidden.channels.at(mode(gpu::DEBUG_emission));
+    Image& hidden_lit = hidden.channels.at(lit);
+    for (std::size_t p = 0; p < was.pixels(); ++p)
+        if (planted.covered(p))
+            for (int c = 0; c < 3; ++c) {
+                const float lost = 0.9f * (was.pixel(p)[c] - is.pixel(p)[c]);
+                emission.pixel(p)[c] += lost;
+                hidden_lit.pixel(p)[c] += lost;
+            }
+    const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, hidden);
+    const std::vector<std::string> found = names(e);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(std::ranges::count(found, "albedo") + std::ranges::count(found, "emission"), 2);
+    ASSERT_FALSE(e.pairs.empty());
+    EXPECT_GT(e.pairs.front().interaction, 0);
+    for (const Cause& cause : e.causes) EXPECT_LT(cause.alone, 0) << "alone it makes things worse";
+    EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+}
+
+// A Setting that differs is a cause beside channels that differ, and what it changes is found where it is.
+TEST(Explain, SettingsAreCauses) {
+    Planted planted("builtin:points", {64, 36});
+    for (const auto& [option, value] : {std::pair<std::string, std::string>{"ambient", "0.2,0.2,0.2"},
+                                        {"haze", "on"},
+                                        {"multiscatter", "fdez"}}) {
+        Settings settings = planted.settings;
+        settings.set(option, value);
+        const Frame test = drawnBy(Path::forward_plus, planted.renderer, settings, explainedChannels());
+        const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, test);
+        ASSERT_FALSE(e.causes.empty()) << option;
+        EXPECT_EQ(e.causes.front().name, "--" + option);
+        EXPECT_GT(e.frames, 1u);
+        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+    }
+}
+
+// The packed G-buffer's channels explain all that deferred differs by: its background and its blended
+// surfaces are forward+'s.
+TEST(Explain, APackedGBufferIsExplainedByItsChannels) {
+    for (const char* name : {"builtin:gallery", "builtin:glass"}) {
+        const Scene scene = loadScene(name);
+        Renderer renderer(device(), scene, pipelines());
+        Settings settings = explained({96, 54});
+        settings.gbuffer = GBufferEncoding::compact;
+        const Frame baseline = drawnBy(Path::forward_plus, renderer, settings, explainedChannels()),
+                    test = drawnBy(Path::deferred, renderer, settings, explainedChannels());
+        const Explanation e = explain(device(), renderer, scene, baseline, test);
+        EXPECT_GT(e.distance, 0);
+        EXPECT_LE(e.unexplained, 1e-6 * e.distance);
+        EXPECT_EQ(e.reproduction[0], 0) << name;
+        EXPECT_EQ(e.reproduction[1], 0) << name;
+        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+    }
+}
+
+TEST(Explain, MissingChannelsAreNamed) {
+    Planted planted("builtin:triangle", {16, 9});
+    Frame lacking = planted.right;
+    lacking.channels.erase(mode(gpu::DEBUG_roughness));
+    try {
+        explain(device(), planted.renderer, planted.scene, planted.right, lacking);
+        FAIL() << "explained without roughness";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("roughness"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
