@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/explain/words.h"
+#include "compare/files/frame_exr.h"
 
 #include <fmt/format.h>
 
@@ -41,20 +42,21 @@ Settings testOf(const Options& options, std::string& name) {
     return test;
 }
 
-}  // namespace
+void print(const Options& options, const Explanation& explanation, const ExplainedPictures& of) {
+    wipeProgress();
+    if (options.json)
+        fmt::print("{}\n", toJson(explanation, of).dump(2));
+    else if (!options.quiet)
+        printColored(options, inWords(explanation, of));
+}
 
-int runExplain(const Options& options) {
+int explainScene(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
             fmt::format("{}: an explanation is of one scene; run it once for each", options.scenes[1]));
-    if (options.cameras.size() != 1)
-        throw std::runtime_error(fmt::format(
-            "--camera {}: an explanation is of one view; run it once for each", options.cameras[1]));
-    if (options.baseline == Path::reference || !options.baseline_file.empty())
-        throw std::runtime_error(
-            "--baseline reference or FILE.exr: explain swaps what the two paths share; use deferred or "
-            "forward_plus");
-    refuseOut(options);
+    if (!options.scene_file.empty())
+        throw std::runtime_error(fmt::format("--scene {}: is of two EXR files; here it is {}",
+                                             options.scene_file, options.scenes.front()));
     ExplainedPictures of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
     Settings baseline = options.settings;
     baseline.path = options.baseline;
@@ -76,12 +78,70 @@ int runExplain(const Options& options) {
     const Frame b = renderer.draw(test, drawing);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
     checkValidation(device);
-    progress.wipe();
-    if (options.json)
-        fmt::print("{}\n", toJson(explanation, of).dump(2));
-    else if (!options.quiet)
-        printColored(options, inWords(explanation, of));
+    print(options, explanation, of);
     return 0;
+}
+
+bool isExr(const std::string& name) {
+    return name.ends_with(".exr") || name.ends_with(".EXR");
+}
+
+// A picture file. Whatever it does not say of its Settings is as on the command line.
+Frame readPicture(const Options& options, const std::string& file) {
+    Frame frame = frameFromExr(file);
+    frame.name = file;
+    if (frame.scene.empty()) {
+        frame.settings = options.settings;
+        frame.settings.camera = options.cameras.front();
+    }
+    // The reference shades with the path's Settings, which are its own.
+    if (frame.settings.path == Path::reference) frame.settings.path = Path::forward_plus;
+    const Image& any = frame.channels.begin()->second;
+    frame.settings.size = {any.width, any.height};
+    return frame;
+}
+
+int explainFiles(const Options& options) {
+    const Frame a = readPicture(options, options.scenes[0]), b = readPicture(options, options.scenes[1]);
+    std::string where = options.scene_file;
+    for (const Frame* frame : {&a, &b})
+        if (where.empty()) where = frame->scene;
+    if (where.empty())
+        throw std::runtime_error(fmt::format("{}, {}: neither says of which scene it is; --scene FILE does",
+                                             options.scenes[0], options.scenes[1]));
+    const ExplainedPictures of{where, options.scenes[0], options.scenes[1]};
+    Progress progress(progressOutput(options));
+    const Stage stage(progress, where);
+    const Scene scene = loadShown(where, a.settings, stage.part(0, 0.3));
+    Device device(deviceOptions(options));
+    say(options, "on " + device.info().name);
+    SceneViews views(scene);
+    Renderer renderer(device, views);
+    const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.3, 1));
+    checkValidation(device);
+    print(options, explanation, of);
+    return 0;
+}
+
+}  // namespace
+
+int runExplain(const Options& options) {
+    refuseOut(options);
+    if (options.cameras.size() != 1)
+        throw std::runtime_error(fmt::format(
+            "--camera {}: an explanation is of one view; run it once for each", options.cameras[1]));
+    if (options.baseline == Path::reference || !options.baseline_file.empty())
+        throw std::runtime_error(
+            "--baseline reference or FILE.exr: explain swaps what the two paths share; use deferred or "
+            "forward_plus");
+    if (std::ranges::none_of(options.scenes, isExr)) return explainScene(options);
+    if (options.scenes.size() != 2 || !std::ranges::all_of(options.scenes, isExr))
+        throw std::runtime_error(
+            fmt::format("{}: an explanation is of a scene, or of two EXR files", options.scenes.front()));
+    if (!options.test.empty())
+        throw std::runtime_error(fmt::format("--test {}={}: the files say what they are",
+                                             options.test[0].first, options.test[0].second));
+    return explainFiles(options);
 }
 
 }  // namespace diptych::cli

@@ -351,6 +351,10 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addFiles(app, options, "refused: explain writes no file, --json prints one");
         app.add_option("--baseline", parsed.baseline, "the picture that is right (deferred)")
             ->type_name("deferred|forward_plus");
+        app.add_option("--scene", options.scene_file, "the scene of two EXR files that do not say it")
+            ->type_name("FILE");
+        app.get_option("scene")->description(
+            "a glTF file or builtin:NAME (builtin:gallery); or two EXR files");
         app.add_option(
                "--test", parsed.test,
                "a Setting of the other picture, as gbuffer=compact; several times (path: the other one)")

@@ -47,6 +47,7 @@ struct Options {
     SelectionOptions selection;           // compare: pixels
     bool allow_noise = false;             // compare
     std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
+    std::string scene_file;  // explain, of two EXR files: their scene; empty: the one that they name
     // explain: Settings of the test that are others than the baseline's, in the words of Settings::set().
     std::vector<std::pair<std::string, std::string>> test;
     bool update_baseline = false;

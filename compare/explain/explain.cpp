@@ -27,7 +27,7 @@ namespace {
 constexpr int litMode = static_cast<int>(gpu::DEBUG_lit), idMode = static_cast<int>(gpu::DEBUG_material_id),
               lightmapMode = static_cast<int>(gpu::DEBUG_lightmap);
 constexpr int sampledOrderCount = 40;  // beyond mostExactCauses; each of as many subsets as there are causes
-constexpr double namedPair = 0.05, namedMaterial = 0.01;
+constexpr double namedPair = 0.05;
 
 // Settings that are no cause of their own: what they change is in the channels, in the rest, or in no pixel.
 // clang-format off
@@ -85,7 +85,7 @@ public:
         for (const Image* const image : lit_)
             if (image->width != lit_[0]->width || image->height != lit_[0]->height)
                 throw std::runtime_error("an explanation is of two pictures of one size");
-        for (const std::string_view option : {"camera", "time", "animation", "lights", "seed"})
+        for (const std::string_view option : {"camera", "time", "animation", "env", "lights", "seed"})
             if (baseline.settings.valueOf(option) != test.settings.valueOf(option))
                 throw std::runtime_error(
                     fmt::format("--{} {} and {}: an explanation is of two pictures of one view of one scene",
@@ -270,14 +270,13 @@ private:
         rank(shares, maps);
     }
 
-    std::vector<MaterialShare> byMaterial(const std::vector<double>& map, double whole) const {
+    std::vector<MaterialShare> byMaterial(const std::vector<double>& map) const {
         const Image& ids = channelOf(*frames_[0], idMode);
         std::map<int, double> sums;
         for (std::size_t p = 0; p < map.size(); ++p)
             sums[static_cast<int>(ids.pixel(p)[0])] += map[p] / static_cast<double>(map.size());
         std::vector<MaterialShare> shares;
         for (const auto& [id, sum] : sums) {
-            if (std::abs(sum) < namedMaterial * std::abs(whole)) continue;
             const bool known = id >= 0 && sizeOf(id) < scene_.materials.size();
             shares.push_back({id, known ? scene_.materials[sizeOf(id)].name : std::string(), sum});
         }
@@ -305,7 +304,7 @@ private:
             found_.causes.push_back({nameOfCause(causes_[i]), causes_[i].shows, shares.share[i],
                                      shares.interval[i], shares.alone[i], shares.last[i], maps[i][worst],
                                      static_cast<int>(worst % width), static_cast<int>(worst / width),
-                                     byMaterial(maps[i], shares.share[i])});
+                                     byMaterial(maps[i])});
         }
         for (std::size_t p = 0; p < errors_.size(); ++p)
             for (std::size_t k = 0; k < order.size(); ++k) {

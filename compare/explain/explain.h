@@ -36,7 +36,7 @@ struct Cause {
     double alone = 0, last = 0;  // swapped alone; when all others are
     double worst = 0;            // the share at the pixel where it is largest, W/(sr m^2)
     int worst_x = 0, worst_y = 0;
-    std::vector<MaterialShare> materials;  // descending, those with a share of the cause's of 1 % or more
+    std::vector<MaterialShare> materials;  // of the baseline's pixels; descending
 };
 
 // Two causes that do more or less together than each by itself.

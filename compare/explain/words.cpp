@@ -12,7 +12,8 @@ namespace diptych {
 
 namespace {
 
-constexpr std::size_t namedMaterials = 3;
+constexpr std::size_t namedMaterials = 3;  // in words
+constexpr double namedMaterial = 0.01;     // of a cause's share, in JSON
 
 std::string materialName(const MaterialShare& material) {
     if (material.material < 0) return "background";
@@ -86,8 +87,10 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
         const Cause& cause = e.causes[i];
         Json materials = Json::array();
         for (const MaterialShare& material : cause.materials)
-            materials.push_back(
-                {{"id", material.material}, {"name", material.name}, {"share", e.shareOf(material.share)}});
+            if (std::abs(material.share) >= namedMaterial * std::abs(cause.share))
+                materials.push_back({{"id", material.material},
+                                     {"name", material.name},
+                                     {"share", e.shareOf(material.share)}});
         causes.push_back({{"name", cause.name},
                           {"share", e.shareOf(cause.share)},
                           {"interval", e.shareOf(cause.interval)},

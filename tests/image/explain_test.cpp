@@ -145,9 +145,8 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
             wrong += std::equal(a.pixel(p), a.pixel(p) + 3, b.pixel(p)) != (e.dominant.pixel(p)[0] < 0);
         EXPECT_EQ(wrong, 0u);
         double ofMaterials = 0;
-        for (const MaterialShare& material : e.causes[0].materials) ofMaterials += material.share;
-        // Those below 1 % are not named.
-        EXPECT_NEAR(ofMaterials, e.distance, 0.3 * e.distance);
+        for (const MaterialShare& one : e.causes[0].materials) ofMaterials += one.share;
+        EXPECT_NEAR(ofMaterials, e.distance, 1e-6 * e.distance);
     }
     EXPECT_GE(felt, 4);
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();

@@ -235,6 +235,28 @@ TEST(Command, ExplainNamesCausesAndTheirShares) {
     EXPECT_NE(same.out.find("no cause"), std::string::npos) << same.out;
 }
 
+// Of two files, which say of what they are.
+TEST(Command, ExplainReadsPictures) {
+    const Folder folder;
+    const std::string view = " builtin:points --size 64x36 ";
+    ASSERT_EQ(runTool(folder, "render" + view + "--path forward_plus -o a.exr").code, 0);
+    ASSERT_EQ(runTool(folder, "render" + view + "--path deferred --gbuffer compact -o b.exr").code, 0);
+    ASSERT_EQ(runTool(folder, "render" + view + "--channels lit,albedo -o few.exr").code, 0);
+    const Ran ran = runTool(folder, "explain a.exr b.exr --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json of_files = parsed(ran);
+    const Json drawn =
+        parsed(runTool(folder, "explain" + view + "--baseline forward_plus --gbuffer compact --json"));
+    EXPECT_EQ(of_files["causes"].dump(), drawn["causes"].dump());
+    EXPECT_LT(of_files["unexplained"], 1e-6);
+    EXPECT_EQ(of_files["reproduction"][0], 0);
+    const Ran lacking = runTool(folder, "explain a.exr few.exr");
+    EXPECT_EQ(lacking.code, 2);
+    EXPECT_NE(lacking.err.find("few.exr has no channel"), std::string::npos) << lacking.err;
+    EXPECT_EQ(runTool(folder, "explain a.exr").code, 2);
+    EXPECT_EQ(runTool(folder, "explain a.exr b.exr --test haze=on").code, 2);
+}
+
 TEST(Command, ExplainRefusesWhatItCannotSwap) {
     const Folder folder;
     for (const auto& [options, word] : {std::pair{"--test foo=1", "foo"},
