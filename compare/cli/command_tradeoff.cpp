@@ -5,6 +5,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/left_out.h"
 #include "compare/render/reference_frame.h"
+#include "compare/run/color.h"
 #include "compare/run/interruption.h"
 #include "compare/run/version.h"
 #include "compare/tradeoff/felt.h"
@@ -155,7 +156,7 @@ private:
 
     void measure(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
                  const Stage& stage) {
-        const TradeoffTable table(tradeoff_, sweep_.rows);
+        const TradeoffTable table(tradeoff_, sweep_.rows, terminalColumns(stdout), options_.verbose);
         double all = 0, done = 0;
         for (const Settings& row : sweep_.rows) all += weightOf(row);
         if (prints()) print(table.head());

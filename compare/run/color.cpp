@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/run/color.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,6 +38,11 @@ std::string coloredLine(std::string_view line) {
 }
 
 }  // namespace
+
+std::size_t terminalColumns(std::FILE* stream) {
+    winsize size{};
+    return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
 
 bool hasColor(ColorChoice choice, std::FILE* stream) {
     if (choice != ColorChoice::automatic) return choice == ColorChoice::on;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/run/progress.h"
 
+#include "compare/run/color.h"
+
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,9 +28,9 @@ Progress* drawing = nullptr;
 // stays.
 constexpr std::chrono::milliseconds wipePatience{100};
 
-std::size_t terminalColumns() {
-    winsize size{};
-    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+std::size_t progressColumns() {
+    const std::size_t columns = terminalColumns(stderr);
+    return columns > 0 ? columns : 80;
 }
 
 std::string withTime(const std::string& step, const std::string& left) {
@@ -39,7 +40,7 @@ std::string withTime(const std::string& step, const std::string& left) {
 }  // namespace
 
 ProgressOutput ProgressOutput::standardError() {
-    return {isatty(STDERR_FILENO) != 0, terminalColumns,
+    return {isatty(STDERR_FILENO) != 0, progressColumns,
             [](const std::string& text) {
                 std::fputs(text.c_str(), stderr);
                 std::fflush(stderr);

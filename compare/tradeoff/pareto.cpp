@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace diptych::tradeoff {
 
@@ -11,17 +12,20 @@ std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < points.size(); ++i)
         if (std::isfinite(points[i].time) && std::isfinite(points[i].error)) order.push_back(i);
+    // By error, so that those that may keep a point from the front come before it, and are known to be on it.
     std::ranges::sort(order, {},
-                      [&](std::size_t i) { return std::tuple(points[i].time, points[i].error, i); });
-    // Points are sorted by time and then by error, so a later point is on the front if its error is smaller,
-    // or if it equals the last point of the front.
+                      [&](std::size_t i) { return std::tuple(points[i].error, points[i].time, i); });
     std::vector<std::size_t> front;
     for (const std::size_t i : order) {
-        const bool beats = front.empty() || points[i].error < points[front.back()].error;
-        const bool ties = !front.empty() && points[i].error == points[front.back()].error &&
-                          points[i].time == points[front.back()].time;
-        if (beats || ties) front.push_back(i);
+        const TimeError& point = points[i];
+        const bool beaten = std::ranges::any_of(front, [&](std::size_t other) {
+            const TimeError& o = points[other];
+            const bool same = o.error == point.error && o.time == point.time;
+            return !same && o.time <= point.time + std::max(o.noise, point.noise);
+        });
+        if (!beaten) front.push_back(i);
     }
+    std::ranges::sort(front, {}, [&](std::size_t i) { return std::pair(points[i].time, i); });
     return front;
 }
 

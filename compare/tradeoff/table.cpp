@@ -9,31 +9,79 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace diptych::tradeoff {
 
 using page::bytes;
 using page::number;
 
-TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows) {
+namespace {
+
+// A number of a row: its title, which is as wide as it gets, and when it is left out for want of room, the
+// largest first.
+struct Number {
+    std::string_view title;
+    std::size_t width;
+    int left_out;
+};
+constexpr std::array numbers{
+    Number{"row", 4, 0},
+    Number{"ms", 8, 0},
+    Number{"least", 8, 4},
+    Number{"most", 8, 5},
+    Number{errorFigures[0].title, 8, 0},
+    Number{errorFigures[1].title, 13, 1},
+    Number{errorFigures[2].title, 12, 3},
+    Number{"memory", 10, 2},
+};
+constexpr std::size_t gap = 2, fewestWords = 24;
+
+}  // namespace
+
+TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,
+                             bool commands)
+    : words_(std::string_view("settings").size()), commands_(commands) {
     for (const Settings& row : rows)
         words_ = std::max(words_, inWords(choicesOf(row, tradeoff.given)).size());
+    std::size_t width = 0;
+    for (const Number& one : numbers) width += one.width + gap;
+    int left_out = 6;  // whatever is left out from this one on
+    while (columns > 0 && left_out > 1 && width + std::min(words_, fewestWords) > columns) {
+        --left_out;
+        for (const Number& one : numbers)
+            if (one.left_out == left_out) width -= one.width + gap;
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (numbers.at(i).left_out < left_out) shown_.push_back(i);
+    if (columns > 0) words_ = std::min(words_, std::max(columns - std::min(columns, width), fewestWords));
+}
+
+std::string TradeoffTable::joined(const std::vector<std::string>& cells, const std::string& words) const {
+    std::string line;
+    for (const std::size_t i : shown_)
+        line += fmt::format("{:>{}}{:{}}", cells.at(i), numbers.at(i).width, "", gap);
+    return line + (words.size() <= words_ ? words : words.substr(0, words_ - 3) + "...") + "\n";
 }
 
 std::string TradeoffTable::head() const {
-    return fmt::format("{:>4}  {:>8}  {:>8}  {:>8}  {:>8}  {:>13}  {:>12}  {:>10}  {:<{}}  command\n", "row",
-                       "ms", "least", "most", errorFigures[0].title, errorFigures[1].title,
-                       errorFigures[2].title, "memory", "settings", words_);
+    std::vector<std::string> titles;
+    for (const Number& one : numbers) titles.emplace_back(one.title);
+    return joined(titles, "settings");
 }
 
 std::string TradeoffTable::line(const Tradeoff& tradeoff, std::size_t index) const {
     const TradeoffRow& row = tradeoff.rows[index];
     const Spread time = timeOf(row);
-    return fmt::format("{:>4}  {:>8.4g}  {:>8.4g}  {:>8.4g}  {:>8}  {:>13}  {:>12}  {:>10}  {:<{}}  {}\n",
-                       index + 1, time.value, time.low, time.high, number(row.errors[0]),
-                       number(row.errors[1]), number(row.errors[2]), bytes(memoryOf(row)),
-                       inWords(choicesOf(row.settings, tradeoff.given)), words_,
-                       measuringCommand(tradeoff, row));
+    const auto ms = [](double value) { return fmt::format("{:.4g}", value); };
+    std::string line =
+        joined({fmt::format("{}", index + 1), ms(time.value), ms(time.low), ms(time.high),
+                number(row.errors[0]), number(row.errors[1]), number(row.errors[2]), bytes(memoryOf(row))},
+               inWords(choicesOf(row.settings, tradeoff.given)));
+    if (commands_)
+        line += fmt::format("{:>{}}{}\n", "", numbers[0].width + gap, measuringCommand(tradeoff, row));
+    return line;
 }
 
 std::vector<std::string> howItWent(const Tradeoff& tradeoff) {

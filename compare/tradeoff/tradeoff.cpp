@@ -59,8 +59,12 @@ std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> pa
 std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path) {
     const std::vector<std::size_t> rows = rowsOf(tradeoff, path);
     std::vector<TimeError> points;
-    for (const std::size_t i : rows)
-        points.push_back({timeOf(tradeoff.rows[i]).value, tradeoff.rows[i].errors[figure]});
+    for (const std::size_t i : rows) {
+        const Spread time = timeOf(tradeoff.rows[i]);
+        // What disturbs a frame makes it slower: the distance of the median from the least says by how much,
+        // and no single frame decides it, as the greatest would.
+        points.push_back({time.value, tradeoff.rows[i].errors[figure], time.value - time.low});
+    }
     std::vector<std::size_t> front;
     for (const std::size_t i : paretoFront(points)) front.push_back(rows[i]);
     return front;

@@ -52,15 +52,23 @@ std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 
-// The table on a terminal, which grows a line at a time.
+// The table on a terminal, which grows a line at a time, each no wider than `columns` where that holds a
+// row's number, its time, its FLIP and some words: of the other numbers those that find room, and the
+// Settings cut short where they do not ("..."). 0: as wide as it takes. `commands`: under each row what
+// measures it again.
 class TradeoffTable {
 public:
-    explicit TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows);
+    TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,
+                  bool commands);
     std::string head() const;
     std::string line(const Tradeoff& tradeoff, std::size_t row) const;
 
 private:
-    std::size_t words_ = 0;
+    std::string joined(const std::vector<std::string>& cells, const std::string& words) const;
+
+    std::size_t words_ = 0;           // of the Settings
+    std::vector<std::size_t> shown_;  // numbers, in order
+    bool commands_;
 };
 // Skips with their reasons, the front, notes, cost.
 std::string tradeoffEnd(const Tradeoff& tradeoff);

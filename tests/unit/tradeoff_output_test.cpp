@@ -166,6 +166,34 @@ TEST(TradeoffOutput, PlotsAndPageAreWellFormed) {
     EXPECT_EQ(page.find("<scene>"), std::string::npos);
 }
 
+// Rows fit the terminal: numbers are left out one by one, then Settings are cut short.
+TEST(TradeoffOutput, RowsFitTheTerminal) {
+    const Tradeoff tradeoff = several();
+    std::vector<Settings> rows;
+    for (const TradeoffRow& row : tradeoff.rows) rows.push_back(row.settings);
+    std::size_t before = 1000;
+    for (const std::size_t columns : {200u, 120u, 100u, 80u, 60u, 50u}) {
+        const TradeoffTable table(tradeoff, rows, columns, false);
+        std::string text = table.head();
+        for (std::size_t i = 0; i < rows.size(); ++i) text += table.line(tradeoff, i);
+        std::size_t longest = 0;
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = text.find('\n', at);
+            longest = std::max(longest, end - at);
+            at = end + 1;
+        }
+        EXPECT_LE(longest, columns);
+        EXPECT_LE(longest, before);
+        before = longest;
+        EXPECT_NE(text.find("FLIP"), std::string::npos);
+        EXPECT_EQ(text.find("diptych tradeoff"), std::string::npos);
+    }
+    const TradeoffTable free(tradeoff, rows, 0, true);
+    EXPECT_NE(free.head().find("memory"), std::string::npos);
+    EXPECT_EQ(free.line(tradeoff, 0).find("..."), std::string::npos);
+    EXPECT_NE(free.line(tradeoff, 0).find(measuringCommand(tradeoff, tradeoff.rows[0])), std::string::npos);
+}
+
 TEST(TradeoffOutput, FrontsAreOfWhatTheirPlotShows) {
     const Tradeoff tradeoff = several();
     EXPECT_EQ(frontOf(tradeoff, 0), (std::vector<std::size_t>{2, 1, 0}));

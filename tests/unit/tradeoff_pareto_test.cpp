@@ -60,5 +60,28 @@ TEST(TradeoffPareto, TiesStay) {
     EXPECT_TRUE(paretoFront({{nan, 1}, {1, inf}}).empty());
 }
 
+// Times that noise cannot tell apart: the more accurate row stands there, or of one picture the faster.
+TEST(TradeoffPareto, LuckIsNoPlaceOnTheFront) {
+    using Numbers = std::vector<std::size_t>;
+    EXPECT_EQ(paretoFront({{10, 1, 0.5}, {10.4, 0.9, 0.5}}), Numbers{1});
+    EXPECT_EQ(paretoFront({{10, 1, 0.5}, {10.6, 0.9, 0.5}}), (Numbers{0, 1}));
+    EXPECT_EQ(paretoFront({{10, 1, 0.1}, {10.4, 0.9, 0.5}}), Numbers{1}) << "the larger noise of both";
+    EXPECT_EQ(paretoFront({{10.4, 1, 0.5}, {10, 1, 0.5}}), Numbers{1}) << "one picture: the faster";
+    // Each is within noise of the next; the fast one is not within that of the accurate one, and stays.
+    EXPECT_EQ(paretoFront({{10, 3, 0.5}, {10.4, 2, 0.5}, {10.8, 1, 0.5}}), (Numbers{0, 2}));
+}
+
+// Two copies of the same Settings, timed with 10 % of noise: one of them stands there.
+TEST(TradeoffPareto, OneOfTwoCopiesStands) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> noise(0, 0.1);
+    int both = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const double a = 10 * (1 + noise(random)), b = 10 * (1 + noise(random));
+        both += paretoFront({{a, 0.5, 1}, {b, 0.5, 1}, {20, 0.1, 1}}).size() != 2;
+    }
+    EXPECT_EQ(both, 0);
+}
+
 }  // namespace
 }  // namespace diptych
