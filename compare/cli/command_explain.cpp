@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -38,6 +39,10 @@ Settings testOf(const Options& options, std::string& name) {
         throw std::runtime_error(
             "--test path=reference: explain swaps what the two paths share; use deferred or "
             "forward_plus");
+    Settings baseline = options.settings;
+    baseline.path = options.baseline;
+    if (test == baseline)
+        throw std::runtime_error("--test: both pictures have the same Settings; name one that differs");
     if (const auto problem = test.problem()) throw std::runtime_error(*problem);
     return test;
 }
@@ -94,8 +99,13 @@ Frame readPicture(const Options& options, const std::string& file) {
         frame.settings = options.settings;
         frame.settings.camera = options.cameras.front();
     }
-    // The reference shades with the path's Settings, which are its own.
-    if (frame.settings.path == Path::reference) frame.settings.path = Path::forward_plus;
+    if (isReferenceFrame(frame))
+        throw std::runtime_error(
+            fmt::format("{}: is of the reference, which lights otherwise than the channels that "
+                        "explain swaps; give pictures of deferred or forward_plus",
+                        file));
+    if (frame.settings.path == Path::reference)
+        frame.settings.path = Path::forward_plus;  // of another renderer
     const Image& any = frame.channels.begin()->second;
     frame.settings.size = {any.width, any.height};
     return frame;
@@ -103,6 +113,19 @@ Frame readPicture(const Options& options, const std::string& file) {
 
 int explainFiles(const Options& options) {
     const Frame a = readPicture(options, options.scenes[0]), b = readPicture(options, options.scenes[1]);
+    if (options.scene_file.empty() && !a.scene.empty() && !b.scene.empty() && a.scene != b.scene)
+        throw std::runtime_error(
+            fmt::format("{} is of {}, {} of {}: an explanation is of one scene; --scene FILE "
+                        "says which, where both mean the same",
+                        options.scenes[0], a.scene, options.scenes[1], b.scene));
+    for (int i = 0; i < 3 && !a.scene.empty() && !b.scene.empty(); ++i)
+        if (std::abs(a.camera.eye[i] - b.camera.eye[i]) > 1e-6 * (1 + std::abs(a.camera.eye[i])))
+            throw std::runtime_error(
+                fmt::format("{} and {} are seen from different places: an explanation is of one "
+                            "view",
+                            options.scenes[0], options.scenes[1]));
+    if (!a.scene.empty() && !(options.settings == Settings()))
+        note(options, "Settings are those of the files; those of the command line are not used");
     std::string where = options.scene_file;
     for (const Frame* frame : {&a, &b})
         if (where.empty()) where = frame->scene;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -65,6 +66,17 @@ void errorsOf(const Image& a, const Image& b, std::vector<double>& errors) {
     });
 }
 
+bool sameBits(const Image& a, const Image& b) {
+    return a.data.size() == b.data.size() &&
+           std::memcmp(a.data.data(), b.data.data(), a.data.size() * sizeof(float)) == 0;
+}
+
+// The material that a pixel of channel material_id names; -1: none, or a file holds no such number.
+int materialOf(const float* pixel, const Scene& scene) {
+    const float id = *pixel;
+    return id >= 0 && id < static_cast<float>(scene.materials.size()) ? static_cast<int>(id) : -1;
+}
+
 double meanOf(const std::vector<double>& values) {
     // In order: the same whatever the number of threads.
     return values.empty()
@@ -82,9 +94,23 @@ public:
           progress_(progress),
           images_(device, baseline.settings.size),
           lit_{&channelOf(baseline, litMode), &channelOf(test, litMode)} {
-        for (const Image* const image : lit_)
-            if (image->width != lit_[0]->width || image->height != lit_[0]->height)
-                throw std::runtime_error("an explanation is of two pictures of one size");
+        for (const Frame* const frame : frames_)
+            for (const int mode : explainedChannels()) {
+                const Image& image = channelOf(*frame, mode);
+                if (image.width != lit_[0]->width || image.height != lit_[0]->height)
+                    throw std::runtime_error(
+                        fmt::format("{}: {} is {}x{}, and lit of {} {}x{}: an explanation is "
+                                    "of two pictures of one size",
+                                    frame->name, debugMode(mode).name, image.width, image.height,
+                                    baseline.name, lit_[0]->width, lit_[0]->height));
+            }
+        for (std::size_t p = 0; p < lit_[0]->pixels(); ++p) {
+            const auto finite = [p](const Image* image) {
+                const float* c = image->pixel(p);
+                return std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]);
+            };
+            found_.nonfinite += !finite(lit_[0]) || !finite(lit_[1]);
+        }
         for (const std::string_view option : {"camera", "time", "animation", "env", "lights", "seed"})
             if (baseline.settings.valueOf(option) != test.settings.valueOf(option))
                 throw std::runtime_error(
@@ -124,9 +150,8 @@ private:
         const Image& ids = channelOf(*frames_.at(side), idMode);
         std::vector<std::uint8_t> has(ids.pixels());
         for (std::size_t i = 0; i < has.size(); ++i) {
-            const int id = static_cast<int>(ids.pixel(i)[0]);
-            has[i] = id >= 0 && sizeOf(id) < scene_.materials.size() &&
-                     scene_.materials[sizeOf(id)].lightmap_texture.texture >= 0;
+            const int id = materialOf(ids.pixel(i), scene_);
+            has[i] = id >= 0 && scene_.materials[sizeOf(id)].lightmap_texture.texture >= 0;
         }
         return has;
     }
@@ -135,7 +160,7 @@ private:
         for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
             const int mode = surfaceChannels()[c];
             const Image &a = channelOf(*frames_[0], mode), &b = channelOf(*frames_[1], mode);
-            const bool same = std::ranges::equal(std::as_const(a.data), std::as_const(b.data));
+            const bool same = sameBits(a, b);
             for (std::size_t side = 0; side < (same ? 1u : 2u); ++side)
                 images_.set(side, c, side == 0 ? a : b,
                             mode == lightmapMode ? lightmapped(side) : std::vector<std::uint8_t>{});
@@ -178,10 +203,15 @@ private:
         }
     }
 
-    // What the rest is: of several samples a pixel what edges show.
+    // What the rest is where it is known what makes it; empty: it is what no cause explains.
     std::string restName() const {
-        return frames_[0]->settings.msaa > 1 || frames_[1]->settings.msaa > 1 ? "samples of a pixel"
-                                                                              : "light beside the channels";
+        const auto either = [&](const auto& is) {
+            return is(frames_[0]->settings) || is(frames_[1]->settings);
+        };
+        if (either([](const Settings& s) { return s.msaa > 1; })) return "samples of a pixel";
+        if (either([](const Settings& s) { return s.assign == Assignment::per_object; }))
+            return "lights per object";
+        return {};
     }
 
     void findCauses() {
@@ -201,7 +231,7 @@ private:
             else
                 causes_.push_back(std::move(cause));
         }
-        if (!std::ranges::equal(std::as_const(rest_[0].data), std::as_const(rest_[1].data)))
+        if (!restName().empty() && !sameBits(rest_[0], rest_[1]))
             causes_.push_back(
                 {Kind::rest, 0, restName(), "what the lighting of a side's own channels leaves of its lit"});
         // Last, so that subsets of the same Settings follow each other: they need a frame each.
@@ -270,17 +300,18 @@ private:
         rank(shares, maps);
     }
 
-    std::vector<MaterialShare> byMaterial(const std::vector<double>& map) const {
+    std::vector<MaterialShare> byMaterial(const std::vector<double>& map, double sign) const {
         const Image& ids = channelOf(*frames_[0], idMode);
         std::map<int, double> sums;
         for (std::size_t p = 0; p < map.size(); ++p)
-            sums[static_cast<int>(ids.pixel(p)[0])] += map[p] / static_cast<double>(map.size());
+            sums[materialOf(ids.pixel(p), scene_)] += map[p] / static_cast<double>(map.size());
         std::vector<MaterialShare> shares;
         for (const auto& [id, sum] : sums) {
-            const bool known = id >= 0 && sizeOf(id) < scene_.materials.size();
-            shares.push_back({id, known ? scene_.materials[sizeOf(id)].name : std::string(), sum});
+            shares.push_back({id, id >= 0 ? scene_.materials[sizeOf(id)].name : std::string(), sum});
         }
-        std::ranges::stable_sort(shares, std::ranges::greater{}, &MaterialShare::share);
+        std::ranges::stable_sort(shares, [sign](const MaterialShare& a, const MaterialShare& b) {
+            return sign * a.share > sign * b.share;
+        });
         return shares;
     }
 
@@ -299,12 +330,16 @@ private:
         for (std::size_t k = 0; k < order.size(); ++k) {
             const std::size_t i = order[k];
             place[i] = k;
-            const auto worst = static_cast<std::size_t>(std::ranges::max_element(maps[i]) - maps[i].begin());
+            // Of a cause that makes up for others, where it does most.
+            const double sign = shares.share[i] < 0 ? -1 : 1;
+            const auto worst = static_cast<std::size_t>(
+                std::ranges::max_element(maps[i], {}, [sign](double at) { return sign * at; }) -
+                maps[i].begin());
             const auto width = sizeOf(lit_[0]->width);
             found_.causes.push_back({nameOfCause(causes_[i]), causes_[i].shows, shares.share[i],
                                      shares.interval[i], shares.alone[i], shares.last[i], maps[i][worst],
                                      static_cast<int>(worst % width), static_cast<int>(worst / width),
-                                     byMaterial(maps[i])});
+                                     byMaterial(maps[i], sign)});
         }
         for (std::size_t p = 0; p < errors_.size(); ++p)
             for (std::size_t k = 0; k < order.size(); ++k) {
@@ -316,7 +351,8 @@ private:
         for (std::size_t j = 1; j < causes_.size(); ++j)
             for (std::size_t i = 0; i < j; ++i) {
                 const double both = shares.interaction[i + j * (j - 1) / 2];
-                if (std::abs(both) > namedPair * found_.distance)
+                const bool named = std::ranges::count(order, i) > 0 && std::ranges::count(order, j) > 0;
+                if (named && std::abs(both) > namedPair * found_.distance)
                     found_.pairs.push_back(
                         {std::min(place[i], place[j]), std::max(place[i], place[j]), both});
             }

@@ -55,9 +55,11 @@ struct Explanation {
     // How far, at most, the lighting of a side's own channels is from that side's lit, as a share of the
     // component or of a thousandth of the mean: baseline, test. What is over is the rest.
     std::array<double, 2> reproduction{};
+    std::size_t nonfinite = 0;  // pixels of lit that are NaN or infinite on a side, which count as alike
     std::size_t subsets = 0, frames = 0;  // that were shaded, and drawn for Settings
     std::vector<std::string> inert;       // what differs and yet changes no pixel
-    // W x H x 1: the place in `causes` of that with the largest share at the pixel; -1 where lit is the same.
+    // W x H x 1: the place in `causes` of that with the largest share at the pixel; -1 where no cause brings
+    // lit nearer.
     Image dominant;
 
     // What all causes bring, as a share of the distance: 0 where there is none.

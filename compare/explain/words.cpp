@@ -21,7 +21,7 @@ std::string materialName(const MaterialShare& material) {
                                  : fmt::format("material {}, {}", material.material, material.name);
 }
 
-// Of the pixels that differ, how many have the cause as the one with the largest share.
+// Of the pixels where some cause counts, how many have the cause as the one with the largest share.
 double dominatedShare(const Explanation& explanation, std::size_t cause) {
     const auto& data = explanation.dominant.data;
     const auto differ = std::ranges::count_if(data, [](float place) { return place >= 0; });
@@ -33,11 +33,10 @@ std::string causeLine(const Explanation& all, std::size_t place) {
     const Cause& cause = all.causes[place];
     std::string line = fmt::format("{:>8.2f} %", 100 * all.shareOf(cause.share));
     if (cause.interval > 0) line += fmt::format(" +- {:.2f}", 100 * all.shareOf(cause.interval));
-    line +=
-        fmt::format("  {:<18} {}; most at {},{}; dominates {:.0f} % of the pixels that differ\n", cause.name,
-                    cause.shows, cause.worst_x, cause.worst_y, 100 * dominatedShare(all, place));
+    line += fmt::format("  {:<18}  {}; most at {},{}; the largest at {:.0f} % of the pixels\n", cause.name,
+                        cause.shows, cause.worst_x, cause.worst_y, 100 * dominatedShare(all, place));
     std::string materials;
-    for (std::size_t i = 0; i < std::min(namedMaterials, cause.materials.size()); ++i)
+    for (std::size_t i = 0; cause.share != 0 && i < std::min(namedMaterials, cause.materials.size()); ++i)
         materials +=
             fmt::format("{}{:.0f} % on {}", i == 0 ? "" : "; ", 100 * cause.materials[i].share / cause.share,
                         materialName(cause.materials[i]));
@@ -60,6 +59,8 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
         "{}: lit of {} differs from that of {} by {:.4g} W/(sr m^2) in the mean, FLIP "
         "{:.4g}\n",
         of.scene, of.test, of.baseline, e.distance, e.flip);
+    if (e.nonfinite > 0)
+        text += fmt::format("{} pixels are NaN or infinite in one of them and left out\n", e.nonfinite);
     if (e.distance == 0) return text + "no cause: lit is the same\n";
     if (e.causes.empty()) text += "no cause: nothing that differs makes lit\n";
     for (std::size_t i = 0; i < e.causes.size(); ++i) text += causeLine(e, i);
@@ -117,6 +118,7 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
             {"inert", e.inert},
             {"reproduction", {e.reproduction[0], e.reproduction[1]}},
             {"shaded", e.subsets},
+            {"nonfinite", e.nonfinite},
             {"drawn", e.frames}};
 }
 

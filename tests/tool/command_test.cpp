@@ -230,8 +230,7 @@ TEST(Command, ExplainNamesCausesAndTheirShares) {
     const Ran words = runTool(folder, "explain builtin:points --size 64x36 --test haze=on");
     EXPECT_EQ(words.code, 0) << words.err;
     EXPECT_NE(words.out.find("--haze"), std::string::npos) << words.out;
-    const Ran same =
-        runTool(folder, "explain builtin:points --size 64x36 --test gbuffer=full --gbuffer full");
+    const Ran same = runTool(folder, "explain builtin:points --size 64x36 --gbuffer full");
     EXPECT_NE(same.out.find("no cause"), std::string::npos) << same.out;
 }
 
@@ -254,6 +253,10 @@ TEST(Command, ExplainReadsPictures) {
     EXPECT_EQ(lacking.code, 2);
     EXPECT_NE(lacking.err.find("few.exr has no channel"), std::string::npos) << lacking.err;
     EXPECT_EQ(runTool(folder, "explain a.exr").code, 2);
+    ASSERT_EQ(runTool(folder, "render builtin:spots --size 64x36 -o other.exr").code, 0);
+    const Ran other = runTool(folder, "explain a.exr other.exr");
+    EXPECT_EQ(other.code, 2);
+    EXPECT_NE(other.err.find("--scene"), std::string::npos) << other.err;
     EXPECT_EQ(runTool(folder, "explain a.exr b.exr --test haze=on").code, 2);
 }
 
@@ -262,6 +265,7 @@ TEST(Command, ExplainRefusesWhatItCannotSwap) {
     for (const auto& [options, word] : {std::pair{"--test foo=1", "foo"},
                                         {"--test haze", "NAME=VALUE"},
                                         {"--test path=reference", "reference"},
+                                        {"--test path=deferred", "same"},
                                         {"--test size=4x4", "size"},
                                         {"--baseline reference", "reference"},
                                         {"builtin:points builtin:spots", "spots"},
