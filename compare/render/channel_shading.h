@@ -43,7 +43,8 @@ private:
 class ChannelShading {
 public:
     // Of Settings what lights surfaces, lies behind them and is blended over them matters, with one sample a
-    // pixel. Draws the deferred frame once, for depth, light lists and shadows. Throws std::runtime_error, one line.
+    // pixel. Draws the deferred frame once, for depth, light lists and shadows. Throws std::runtime_error,
+    // one line.
     ChannelShading(Device& device, SharedResources& shared, const SceneView& view, const Settings& settings,
                    const SurfaceImages& images);
     ChannelShading(ChannelShading&&) noexcept;

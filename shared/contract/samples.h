@@ -34,8 +34,8 @@ CONTRACT_CONST(uint, EDGES_COVERAGE, 3);  // exact, and all of a pixel that each
 CONTRACT_CONST(uint, GROUP_EXPONENT, 118);
 CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 
-// Bindings of SET_GBUFFER after those of blended surfaces. Groups after a pixel's first one stand in a list, so
-// that what shades them has no fragments beside them: each in a texel, its number above twice
+// Bindings of SET_GBUFFER after those of blended surfaces. Groups after a pixel's first one stand in a list,
+// so that what shades them has no fragments beside them: each in a texel, its number above twice
 // FURTHER_PIXEL_BITS bits of its pixel's y and x, in rows of FURTHER_WIDTH.
 // number  name  kind  what it holds
 // clang-format off

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The channels that make a Surface: what lights meet at a pixel is a function of them alone. Deferred lighting
-// of channels (shaders/pass/deferred_channels.frag) reads them as float32 images in the places of a G-buffer,
-// so that a channel is swapped for another picture's by binding another image.
+// The channels that make a Surface: what lights meet at a pixel is a function of them alone. Deferred
+// lighting of channels (shaders/pass/deferred_channels.frag) reads them as float32 images in the places of a
+// G-buffer, so that a channel is swapped for another picture's by binding another image.
 #ifndef DIPTYCH_CONTRACT_SURFACE_CHANNELS_H
 #define DIPTYCH_CONTRACT_SURFACE_CHANNELS_H
 
