@@ -67,8 +67,9 @@ TEST(Tradeoff, TheTableGrowsAndEndsWithTheFront) {
     EXPECT_NE(ran.out.find("front of time and FLIP: row "), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("not drawn: prepass off: deferred has no depth pre-pass"), std::string::npos)
         << ran.out;
-    const Ran verbose =
-        runTool(folder, "tradeoff builtin:triangle --size 16x12 --runs 1 -o t -v --grid '{}'");
+    const Ran verbose = runTool(folder,
+                                "tradeoff builtin:triangle --size 16x12 --runs 1 -o t -v "
+                                "--grid '{\"settings\":{\"path\":[\"deferred\"]}}'");
     EXPECT_NE(verbose.out.find("diptych tradeoff "), std::string::npos) << verbose.out;
 }
 
