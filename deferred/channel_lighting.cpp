@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "deferred/channel_lighting.h"
 
-#include "deferred/sample_groups.h"
+#include "deferred/lighting_variant.h"
 #include "shared/draw/background.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "deferred/deferred.h"
 
+#include "deferred/lighting_variant.h"
 #include "deferred/sample_groups.h"
-
 #include "shared/contract/debug_mode.h"
 #include "shared/draw/background.h"
 #include "shared/draw/light_batches.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "deferred/sample_groups.h"
 
+#include "deferred/lighting_variant.h"
 #include "shared/contract/samples.h"
+#include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 #include "shared/shadow/shadow_maps.h"
@@ -63,13 +65,6 @@ std::shared_ptr<DescriptorSets> setOf(PassList& passes, const FrameInputs& input
 
 }  // namespace
 
-Variant lightingVariant(const FrameInputs& inputs) {
-    Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_LIGHTING));
-    if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
-        variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
-    return variant;
-}
-
 FurtherGroups addGroups(PassList& passes, const FrameInputs& inputs, FrameImages& frame) {
     FurtherGroups further;
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return further;
@@ -120,7 +115,9 @@ void addFurtherGroups(PassList& passes, const FrameInputs& inputs, const FrameIm
     constexpr std::uint64_t a_draw = std::uint64_t{gpu::FURTHER_WIDTH} * gpu::FURTHER_ROWS;
     const auto draws = static_cast<gpu::uint>((mostFurther(passes, inputs) + a_draw - 1) / a_draw);
     // A pass of the same name is timed with the one before it.
-    Pass& pass = passes.draw("shade").covers({gpu::FURTHER_WIDTH, gpu::FURTHER_ROWS});
+    Pass& pass = passes.draw("shade")
+                     .covers({gpu::FURTHER_WIDTH, gpu::FURTHER_ROWS})
+                     .takes(shadingMs(passes, inputs, {}));
     for (const ImageRef image : frame.gbuffer)
         if (image.valid()) pass.samples(image, inFragment);
     inputs.lists.read(passes, pass);

@@ -7,9 +7,6 @@
 
 namespace diptych {
 
-// The variant of shaders that read the G-buffer.
-Variant lightingVariant(const FrameInputs& inputs);
-
 // A list of the groups of samples that are not their pixel's first (shared/contract/samples.h).
 struct FurtherGroups {
     ImageRef count, list;

@@ -168,9 +168,18 @@ private:
         }
     }
 
-    // lit of surfaces under the Settings of `settings`, which are drawn anew where they are not the last
+    // The Settings as far as they light surfaces: what is in channels is the baseline's, so that two pictures
+    // that differ in that alone are lit by one frame.
+    Settings lightingOf(Settings settings) const {
+        for (const std::string_view option : carried)
+            settings.set(option, frames_[0]->settings.valueOf(option));
+        return settings;
+    }
+
+    // lit of surfaces under Settings, of which a frame is drawn where they light otherwise than the last
     // ones.
-    const Image& shade(const Settings& settings, std::uint32_t sides) {
+    const Image& shade(const Settings& given, std::uint32_t sides) {
+        const Settings settings = lightingOf(given);
         if (!shading_ || !(*shaded_settings_ == settings)) {
             shading_.reset();
             shading_.emplace(renderer_.shadeChannels(settings, images_));
@@ -189,17 +198,15 @@ private:
             const Image& own = shade(frame.settings, side == 0 ? 0u : ~0u);
             const Image& all = *lit_.at(side);
             Image& rest = rest_.at(side) = Image(all.width, all.height, 3);
-            double mean = 0;
-            for (const float value : all.data) mean += std::isfinite(value) ? std::abs(double{value}) : 0.0;
-            mean /= static_cast<double>(all.data.size());
-            for (std::size_t i = 0; i < all.pixels(); ++i)
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const double left = double{all.pixel(i)[c]} - own.pixel(i)[c];
-                    rest.pixel(i)[c] = std::isfinite(left) ? static_cast<float>(left) : 0.0f;
-                    const double off =
-                        std::abs(left) / std::max(std::abs(double{all.pixel(i)[c]}), 1e-3 * mean);
-                    if (off > found_.reproduction.at(side)) found_.reproduction.at(side) = off;
-                }
+            double sum = 0, off = 0;
+            for (std::size_t i = 0; i < all.data.size(); ++i) {
+                const double value = std::as_const(all.data)[i], left = value - std::as_const(own.data)[i];
+                if (!std::isfinite(left)) continue;
+                rest.data[i] = static_cast<float>(left);
+                sum += std::abs(value);
+                off += std::abs(left);
+            }
+            found_.reproduction.at(side) = sum > 0 ? off / sum : off > 0 ? 1 : 0;
         }
     }
 
@@ -223,10 +230,11 @@ private:
             settings.push_back({Kind::setting, 0, std::string(option),
                                 fmt::format("{} instead of {}", b.valueOf(option), a.valueOf(option))});
         }
+        const std::vector<std::size_t> inert = inertChannels();
         for (const std::size_t c : channel_causes_) {
             const DebugMode& mode = debugMode(surfaceChannels()[c]);
             Swapped cause{Kind::channel, c, std::string(mode.name), std::string(mode.shows)};
-            if (changesNothing(c))
+            if (std::ranges::count(inert, c) > 0)
                 found_.inert.push_back(cause.name);
             else
                 causes_.push_back(std::move(cause));
@@ -243,13 +251,18 @@ private:
                             causes_.size(), mostCauses));
     }
 
-    // Whether a channel that differs changes no pixel: alone, and when all others are swapped.
-    bool changesNothing(std::size_t channel) {
-        const std::uint32_t one = std::uint32_t{1} << channel;
-        const Image none = shade(frames_[1]->settings, ~0u);
-        if (!std::ranges::equal(none.data, shade(frames_[1]->settings, ~one).data)) return false;
-        const Image all = shade(frames_[0]->settings, 0);
-        return std::ranges::equal(all.data, shade(frames_[0]->settings, one).data);
+    // The channels that differ and change no pixel: swapped alone, and when all others are.
+    std::vector<std::size_t> inertChannels() {
+        std::vector<std::size_t> inert = channel_causes_;
+        for (const std::size_t side : {1, 0}) {
+            const Settings& settings = frames_.at(side)->settings;
+            const std::uint32_t all = side == 0 ? 0u : ~0u;
+            const Image whole = shade(settings, all);
+            std::erase_if(inert, [&](std::size_t channel) {
+                return !sameBits(whole, shade(settings, all ^ std::uint32_t{1} << channel));
+            });
+        }
+        return inert;
     }
 
     // lit of the test with a subset of the causes taken from the baseline.

@@ -52,8 +52,8 @@ struct Explanation {
     double flip = 0, flip_unexplained = 0;  // likewise the mean of HDR-FLIP
     std::vector<Cause> causes;              // descending by share
     std::vector<CausePair> pairs;           // those of over 5 % of the distance, the largest first
-    // How far, at most, the lighting of a side's own channels is from that side's lit, as a share of the
-    // component or of a thousandth of the mean: baseline, test. What is over is the rest.
+    // How far the lighting of a side's own channels is from that side's lit: the mean difference, as a share
+    // of the mean of lit: baseline, test. That is the rest.
     std::array<double, 2> reproduction{};
     std::size_t nonfinite = 0;  // pixels of lit that are NaN or infinite on a side, which count as alike
     std::size_t subsets = 0, frames = 0;  // that were shaded, and drawn for Settings

@@ -75,9 +75,8 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
     if (!e.inert.empty()) text += fmt::format("differs and changes no pixel: {}\n", fmt::join(e.inert, ", "));
     if (std::max(e.reproduction[0], e.reproduction[1]) > 0)
         text += fmt::format(
-            "the lighting of its own channels is off the lit of {} by {:.2g} at most, of {} by "
-            "{:.2g}, as a share of the pixel's\n",
-            of.baseline, e.reproduction[0], of.test, e.reproduction[1]);
+            "the lighting of its own channels is off lit by {:.2g} % of it in {}, by {:.2g} % in {}\n",
+            100 * e.reproduction[0], of.baseline, 100 * e.reproduction[1], of.test);
     return text + fmt::format("{} pictures shaded, {} frames drawn for them\n", e.subsets, e.frames);
 }
 

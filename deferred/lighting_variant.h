@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/draw/frame_inputs.h"
+
+namespace diptych {
+
+// The variant of shaders that read the G-buffer.
+Variant lightingVariant(const FrameInputs& inputs);
+
+}  // namespace diptych
