@@ -190,6 +190,33 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     bench.frames = parsed.kernels != "only";
 }
 
+// "64MiB"; nothing where the word is empty.
+std::optional<std::uint64_t> bytesOf(const std::string& word) {
+    if (word.empty()) return {};
+    std::size_t end = 0;
+    double number = -1;
+    try {
+        number = std::stod(word, &end);
+    } catch (const std::exception&) {
+        end = 0;
+    }
+    for (const auto& [unit, size] : {std::pair{"", 1.0}, {"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}})
+        if (end > 0 && word.substr(end) == unit && number > 0 && number * size < 0x1p63)
+            return static_cast<std::uint64_t>(number * size);
+    throw std::runtime_error(
+        fmt::format("--max-bytes {}: takes a number above 0, with KiB, MiB or GiB behind or nothing", word));
+}
+
+void resolveChoose(ChooseOptions& choose, const ParsedOptions& parsed) {
+    choose.max_bytes = bytesOf(parsed.max_bytes);
+    const auto check = [](const std::optional<double>& value, const char* option) {
+        if (value && !(*value >= 0 && std::isfinite(*value)))
+            throw std::runtime_error(fmt::format("{} {}: 0 or more, finite", option, *value));
+    };
+    check(choose.max_error, "--max-error");
+    check(choose.max_ms, "--max-ms");
+}
+
 Keep keepOf(const std::string& word) {
     for (const auto& [keep, name] :
          {std::pair{Keep::all, "all"}, {Keep::failing, "failing"}, {Keep::none, "none"}})
@@ -201,6 +228,7 @@ Keep keepOf(const std::string& word) {
 void resolve(Options& options, const ParsedOptions& parsed) {
     options.settings = settingsOf(parsed);
     options.cameras = parsed.cameras.empty() ? std::vector{options.settings.camera} : parsed.cameras;
+    options.camera_given = !parsed.cameras.empty();
     options.path_given =
         std::ranges::any_of(parsed.settings, [](const auto& pair) { return pair.first == "path"; });
     options.debug_given = !parsed.debug.empty();
@@ -222,6 +250,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     resolveTest(options, parsed);
     resolveWhatCounts(options, parsed);
     resolveBench(options.bench, parsed);
+    resolveChoose(options.choose, parsed);
 }
 
 // CLI11 calls an option that was given too often "--size: At Most 1 required but received 3".

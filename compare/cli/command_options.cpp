@@ -23,8 +23,8 @@ const Command commands[] = {
     {"explain",
      "The causes of a difference of lit, ranked: which channels and Settings, by how much, and where",
      "diptych explain helmet.glb --gbuffer compact", true},
-    {"choose", "The path and Settings for an error budget or a time budget",
-     "diptych choose helmet.glb --max-ms 8", false},
+    {"choose", "The fastest Settings within an error, or the most accurate within a time or a memory",
+     "diptych choose helmet.glb --max-error 0.02", true},
     {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
      false},
     {"plan", "What a scene needs modelled, what is left out and why; passes and bytes",
@@ -220,18 +220,45 @@ void hideUnread(CLI::App& app, const std::string& command) {
         hide(app, {"--debug", "--heat"});
         app.get_option("--path")->description("which path --update-baseline writes (that of the file)");
     }
-    if (command == "bench" || command == "tradeoff")
+    if (command == "bench" || command == "tradeoff" || command == "choose")
         hide(app, {"--debug", "--heat", "--channels", "--list-channels"});
     if (command == "explain") {
         hideGroup(app, picture_group);
         hide(app, {"--path", "--out", "--force", "--runs"});
     }
-    if (command == "bench") hideGroup(app, picture_group);
+    if (command == "bench" || command == "choose") hideGroup(app, picture_group);
+    if (command == "choose") hide(app, {"--path", "--runs"});
     if (command == "devices" || command == "plan") {
         hideGroup(app, picture_group);
         hide(app, {"--out", "--force", "--runs"});
     }
     if (command == "devices") hideGroup(app, pixel_group);
+}
+
+// Which Settings are tried.
+void addGrid(CLI::App& app, Options& options, const char* usual) {
+    app.add_option("--grid", options.grid,
+                   fmt::format("the Settings to try: {{ \"settings\": {{ \"gbuffer\": [\"compact\", "
+                               "\"full\"], \"size\": [\"1/2\"] }} }} is every combination, a list of such "
+                               "one after the other ({})",
+                               usual))
+        ->type_name("FILE.json|JSON");
+}
+
+void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
+    app.option_defaults()->group("What is wanted (one or two)");
+    app.add_option("--max-error", choose.max_error, "the fastest with so much error of lit at most")
+        ->type_name("E");
+    app.add_option("--figure", choose.figure, "the error that is meant (flip)")
+        ->type_name("flip|relative_rmse|relative_p99");
+    app.add_option("--max-ms", choose.max_ms,
+                   "a frame takes so long at most, ms; without --max-error the most accurate of these")
+        ->type_name("T");
+    app.add_option("--max-bytes", parsed.max_bytes,
+                   "a frame takes so much memory at most: bytes, or with KiB, MiB, GiB behind")
+        ->type_name("B");
+    app.add_flag("--explain-choice", choose.explain,
+                 "name what of the scene decided it, and where that would have to be for the other path");
 }
 
 // What a report holds.
@@ -341,12 +368,10 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         app.add_flag("--list-scenes", options.list_scenes, "name the built-in scenes and end");
     } else if (command == "tradeoff") {
         addFiles(app, options, "folder of the table, the plots and the page (diptych-tradeoff)");
-        app.add_option("--grid", options.grid,
-                       "the Settings to try: { \"settings\": { \"gbuffer\": [\"compact\", \"full\"], "
-                       "\"size\": [\"1/2\"] } } "
-                       "is every combination, a list of such one after the other (each by itself, and "
-                       "declared pairs)")
-            ->type_name("FILE.json|JSON");
+        addGrid(app, options, "each by itself, and declared pairs");
+    } else if (command == "choose") {
+        addFiles(app, options, "X.json: the chosen Settings; without it nothing is written");
+        addGrid(app, options, "each by itself, and those that help together");
     } else if (command == "explain") {
         addFiles(app, options, "refused: explain writes no file, --json prints one");
         app.add_option("--baseline", parsed.baseline, "the picture that is right (deferred)")
@@ -368,11 +393,8 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
     }
     if (command == "bench") addBench(app, parsed);
     addOutput(app, options);
-    if (command == "choose") {
-        addLater(app, parsed, "--max-error", "E", "error budget");
-        addLater(app, parsed, "--max-ms", "T", "time budget, milliseconds");
-        addLater(app, parsed, "--max-bytes", "B", "memory budget");
-    } else if (command == "audit") {
+    if (command == "choose") addChoose(app, options.choose, parsed);
+    if (command == "audit") {
         addLater(app, parsed, "--quantity", "NAME,...", "what to push");
         addLater(app, parsed, "--require", "NAME=MAGNITUDE", "how far each must go");
     }

@@ -36,6 +36,7 @@ struct ParsedOptions {
     std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, light_counts;
     std::string bench_table = "modes", kernels = "on", keep = "all";
     double max_ms = 2000;
+    std::string max_bytes;
 };
 
 // Adds everything that `command` understands to `app`; parsing fills `options` and `parsed`.

@@ -31,6 +31,7 @@ int runDiff(const Options& options);
 int runTradeoff(const Options& options);
 int runBench(const Options& options);
 int runExplain(const Options& options);
+int runChoose(const Options& options);
 int runPlan(const Options& options);
 int runDevices(const Options& options);
 

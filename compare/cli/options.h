@@ -11,6 +11,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/settings.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,6 +19,14 @@
 #include <vector>
 
 namespace diptych::cli {
+
+// choose
+struct ChooseOptions {
+    std::optional<double> max_error, max_ms;
+    std::optional<std::uint64_t> max_bytes;
+    std::string figure = "flip";  // of tradeoff::errorFigures
+    bool explain = false;         // what of the scene decided it
+};
 
 struct Options {
     std::string help;     // what to print instead of doing anything: --help, --version
@@ -28,6 +37,7 @@ struct Options {
     std::vector<double> times{0.0};        // compare: s, one Frame each, of every scene, camera and path
     int frames = 1;                        // render: so many pictures, the first at settings.time,
     double fps = 30;                       // and so many a second
+    bool camera_given = false;             // --camera stood on the command line
     bool path_given = false;               // --path stood on the command line
     Path baseline = Path::deferred;        // compare: the left panel
     int shown = 0;                         // debug mode of the picture
@@ -56,7 +66,8 @@ struct Options {
     std::filesystem::path tolerances;  // compare, diff: a file of rules; empty: none
     PictureDiffOptions diff;           // diff; without rules
     bench::BenchOptions bench;
-    std::string grid;  // tradeoff: a file or JSON; empty: usualGrids()
+    ChooseOptions choose;
+    std::string grid;  // tradeoff, choose: a file or JSON; empty: usualGrids()
 };
 
 // The animation time, s, of picture `frame` of --frames, from 0 on.

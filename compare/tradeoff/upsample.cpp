@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/upsample.h"
 
+#include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
@@ -12,8 +13,6 @@
 
 namespace diptych::tradeoff {
 namespace {
-
-constexpr float background = -1;  // material_id
 
 // The position of a new pixel's centre between two centres of the old picture, along one axis.
 struct Between {
@@ -43,29 +42,36 @@ const Image& channelOf(const Frame& frame, gpu::uint mode) {
     return found->second;
 }
 
+// Of an old picture, to be read where a new pixel's centre is.
 class Enlarger {
 public:
-    Enlarger(const Image& lit, const Image& ids) : lit_(lit), ids_(ids) {}
+    // `shown`: the pixels that show a surface or something blended.
+    Enlarger(const Image& image, const Coverage& shown) : image_(image), shown_(shown) {}
 
-    void put(const Between& x, const Between& y, float* lit, float& id) const {
-        id = ids_.at(x.nearest, y.nearest);
-        if (id == background) return;  // lit stays 0 there, as in every channel
+    // Where nothing is shown the picture stays 0, as every channel does.
+    void put(const Between& x, const Between& y, float* to) const {
+        if (!shows(x.nearest, y.nearest)) return;
         std::array<double, 3> sum{};
         double weights = 0;
         for (const auto& [row, down] : {std::pair{y.low, 1 - y.part}, {y.high, y.part}})
             for (const auto& [column, across] : {std::pair{x.low, 1 - x.part}, {x.high, x.part}}) {
                 const double weight = down * across;
-                if (weight == 0 || ids_.at(column, row) == background) continue;
+                if (weight == 0 || !shows(column, row)) continue;
                 for (int c = 0; c < 3; ++c)
-                    sum[static_cast<std::size_t>(c)] += weight * double{lit_.at(column, row, c)};
+                    sum[static_cast<std::size_t>(c)] += weight * double{image_.at(column, row, c)};
                 weights += weight;
             }
-        for (std::size_t c = 0; c < 3; ++c) lit[c] = static_cast<float>(sum[c] / weights);
+        for (std::size_t c = 0; c < 3; ++c) to[c] = static_cast<float>(sum[c] / weights);
     }
 
 private:
-    const Image& lit_;
-    const Image& ids_;
+    bool shows(int x, int y) const {
+        return shown_.covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
+                              static_cast<std::size_t>(x)] != 0;
+    }
+
+    const Image& image_;
+    const Coverage& shown_;
 };
 
 }  // namespace
@@ -73,15 +79,25 @@ private:
 Frame upsampled(Frame frame, const Size& size) {
     const Image lit = channelOf(frame, gpu::DEBUG_lit), ids = channelOf(frame, gpu::DEBUG_material_id);
     if (frame.settings.size == size) return frame;
-    const Enlarger enlarger(lit, ids);
+    const Coverage shown = coverage(frame, frame);
     const std::vector<Between> columns = betweenCentres(lit.width, size.width),
                                rows = betweenCentres(lit.height, size.height);
-    Image newLit(size.width, size.height, 3), newIds(size.width, size.height, 1);
+    const auto enlarged = [&](const Image& image) {
+        if (image.empty()) return Image();
+        const Enlarger enlarger(image, shown);
+        Image result(size.width, size.height, 3);
+        for (std::size_t y = 0, i = 0; y < rows.size(); ++y)
+            for (std::size_t x = 0; x < columns.size(); ++x, ++i)
+                enlarger.put(columns[x], rows[y], result.pixel(i));
+        return result;
+    };
+    Image newIds(size.width, size.height, 1);
     for (std::size_t y = 0, i = 0; y < rows.size(); ++y)
         for (std::size_t x = 0; x < columns.size(); ++x, ++i)
-            enlarger.put(columns[x], rows[y], newLit.pixel(i), newIds.data[i]);
+            newIds.data[i] = ids.at(columns[x].nearest, rows[y].nearest);
+    frame.unblended = enlarged(frame.unblended);
     frame.channels.clear();
-    frame.channels[static_cast<int>(gpu::DEBUG_lit)] = std::move(newLit);
+    frame.channels[static_cast<int>(gpu::DEBUG_lit)] = enlarged(lit);
     frame.channels[static_cast<int>(gpu::DEBUG_material_id)] = std::move(newIds);
     frame.settings.size = size;
     return frame;

@@ -66,6 +66,7 @@ const std::vector<Module> modules = {
     {"compare/report", 70},
     {"compare/explain", 70},
     {"compare/tradeoff", 70},
+    {"compare/choose", 70},
     {"compare/bench", 70},
     {"compare/cli", 80},
     {"tests", 90},

@@ -57,6 +57,18 @@ TEST(TradeoffUpsample, BackgroundNeitherDarkensNorGrows) {
     EXPECT_EQ(rowOf(wide.channels.at(idMode), 0), (std::vector<float>{0, 0, -1, -1, 2, 2}));
 }
 
+// In front of the background something blended is what a pixel shows.
+TEST(TradeoffUpsample, BlendedSurfacesAreEnlargedTooBeforeAndAfter) {
+    Frame frame = frameOf(3, 1, {8, -1, -1});
+    frame.unblended = frame.channels.at(litMode);
+    for (int c = 0; c < 3; ++c) frame.channels.at(litMode).pixel(1)[c] = 4;
+    const Frame wide = upsampled(frame, {6, 1});
+    EXPECT_EQ(rowOf(wide.channels.at(litMode), 0), (std::vector<float>{8, 7, 5, 4, 0, 0}));
+    EXPECT_EQ(rowOf(wide.unblended, 0), (std::vector<float>{8, 6, 2, 0, 0, 0}));
+    EXPECT_EQ(wide.unblended.width, 6);
+    EXPECT_EQ(coverage(wide, wide).count, 4u);
+}
+
 TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
     const Frame frame = frameOf(2, 2, {1, -1, 3, 0.1f});
     const Frame same = upsampled(frame, {2, 2});

@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: MIT
+#include "compare/choose/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace diptych::choose {
+
+namespace {
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// An effect that is known so well is not measured anew.
+constexpr double knownEffect = 0.15;
+// So many standard deviations of its prediction a candidate may be better than predicted.
+constexpr double benefit = 1.0;
+// Errors of one picture are equal; those within this ratio are alike to whoever sets a budget.
+constexpr double alike = 1.01;
+// An error that two changes make together may be smaller than the larger of both by so much.
+constexpr double together = 0.8;
+// A change is worth combining if it takes off so much of the time, in logarithms.
+constexpr double worthTime = -0.02;
+constexpr std::size_t changesAtOnce = 3, timedAtOnce = 6;
+// A time this near to its budget, in standard deviations, is timed again, up to so many frames.
+constexpr double doubtful = 2;
+constexpr std::size_t mostAgain = 8;
+
+// Of two frames of the same passes: what disturbs a frame only lengthens it.
+std::vector<PassTime> least(std::vector<PassTime> a, const std::vector<PassTime>& b) {
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i].ms = std::min(a[i].ms, b[i].ms);
+    return a;
+}
+
+class Search {
+public:
+    Search(std::span<const Settings> settings, Lab& lab, CostModel& model, const SearchOptions& options)
+        : lab_(lab), model_(model), options_(options), budget_(options.budget), random_(options.seed) {
+        for (const Settings& each : settings) add(each);
+    }
+
+    Choice run() {
+        measureEffects();
+        if (options_.combine) addCombinations();
+        if (budget_.isForSpeed())
+            findFastest();
+        else
+            findMostAccurate();
+        for (std::size_t i = 0; i < all_.size(); ++i) {
+            all_[i].predicted = model_.predict(i);
+            all_[i].passes = model_.passesOf(i);
+        }
+        if (!found_.chosen) findNearest();
+        found_.candidates = std::move(all_);
+        return std::move(found_);
+    }
+
+private:
+    void add(const Settings& settings) {
+        model_.add(settings);
+        all_.push_back({.settings = settings});
+    }
+
+    void say(double done, std::string_view what) const {
+        if (options_.progress) options_.progress(done, what);
+    }
+
+    const Judged& judge(std::size_t i) {
+        Candidate& candidate = all_[i];
+        if (candidate.judged) return *candidate.judged;
+        candidate.judged = lab_.judge(candidate.settings);
+        ++found_.judged;
+        const bool fits = !(budget_.error && !(candidate.judged->error <= *budget_.error)) &&
+                          !(budget_.bytes && candidate.judged->bytes > *budget_.bytes);
+        candidate.fate = fits ? Fate::fits : Fate::misses;
+        if (const auto& changes = model_.changesOf(i); changes.size() <= 1) {
+            const Path path = candidate.settings.path;
+            if (changes.empty())
+                first_errors_[path] = candidate.judged->error;
+            else
+                errors_[changes.front()] = candidate.judged->error;
+        }
+        return *candidate.judged;
+    }
+
+    // Times each twice, in an order and back.
+    void time(std::vector<std::size_t> which, std::size_t rounds = 1) {
+        std::vector<Settings> frames;
+        for (const std::size_t i : which) frames.push_back(all_[i].settings);
+        std::vector<std::size_t> order;
+        for (std::size_t round = 0; round < rounds; ++round) {
+            for (std::size_t k = 0; k < which.size(); ++k) order.push_back(k);
+            for (std::size_t k = which.size(); k-- > 0;) order.push_back(k);
+        }
+        const std::vector<double> times = lab_.time(frames, order);
+        for (std::size_t at = 0; at + 1 < times.size(); at += 2 * which.size())
+            for (std::size_t k = 0; k < which.size(); ++k) {
+                const double forth = times[at + k], back = times[at + 2 * which.size() - 1 - k];
+                repeats_.push_back(std::abs(std::log(forth / back)));
+            }
+        if (repeats_.size() >= 5) {
+            std::vector<double> sorted = repeats_;
+            const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+            std::ranges::nth_element(sorted, middle);
+            // The median of |x - y| of two normal values is 0.954 of one's deviation.
+            model_.setNoise(std::clamp(*middle / 0.954, 0.005, 0.5));
+        }
+        for (std::size_t at = 0; at < times.size(); ++at) {
+            model_.observe(which[order[at]], times[at]);
+            ++all_[which[order[at]]].timings;
+        }
+        found_.timings += times.size();
+    }
+
+    // The least and the likely error of a candidate by those of its single changes.
+    struct ErrorGuess {
+        double least = 0, likely = 0;
+    };
+    ErrorGuess guess(std::size_t i) const {
+        const auto first = first_errors_.find(all_[i].settings.path);
+        if (first == first_errors_.end()) return {};
+        double most = first->second, down = 0, sum = first->second;
+        for (const Change& change : model_.changesOf(i)) {
+            const auto error = errors_.find(change);
+            if (error == errors_.end()) continue;
+            most = std::max(most, error->second);
+            down += std::min(error->second - first->second, 0.0);
+            sum += error->second - first->second;
+        }
+        return {together * std::max(most + down, 0.0), std::max(sum, 0.0)};
+    }
+    bool isSpoilt(std::size_t i) const { return budget_.error && guess(i).least > *budget_.error; }
+
+    // Draws some and times their passes, but for those of which a change exceeds the error by itself, in a
+    // random order and back.
+    void profile(std::vector<std::size_t> which, double from, double to) {
+        const auto part = [&](std::size_t k) {
+            return from + (to - from) * static_cast<double>(k) / static_cast<double>(which.size());
+        };
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            say(0.7 * part(k), "effects");
+            judge(which[k]);
+        }
+        std::erase_if(which, [&](std::size_t i) { return !model_.changesOf(i).empty() && isSpoilt(i); });
+        std::ranges::shuffle(which, random_);
+        for (std::size_t at = 0; at < which.size(); at += timedAtOnce) {
+            say(0.7 * from + 0.3 * part(at), "times of effects");
+            const std::size_t end = std::min(at + timedAtOnce, which.size());
+            std::vector<Settings> frames;
+            std::vector<std::size_t> order;
+            for (std::size_t k = at; k < end; ++k) {
+                order.push_back(frames.size());
+                frames.push_back(all_[which[k]].settings);
+            }
+            for (std::size_t k = end - at; k-- > 0;) order.push_back(k);
+            const auto times = lab_.profile(frames, order);
+            for (std::size_t k = 0; k < frames.size(); ++k) {
+                model_.observe(which[at + k], least(times[k], times[times.size() - 1 - k]));
+                all_[which[at + k]].timings += 2;
+            }
+            found_.timings += times.size();
+        }
+    }
+
+    // Of each path its first candidate, and for each change whose effect is not known the candidate with the
+    // fewest others.
+    void measureEffects() {
+        std::vector<std::size_t> order(all_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return model_.changesOf(i).size(); });
+        std::vector<std::size_t> firsts;
+        for (const std::size_t i : order)
+            if (model_.changesOf(i).empty()) firsts.push_back(i);
+        profile(firsts, 0, 0.1);
+        time(firsts);
+        std::vector<std::size_t> picks;
+        std::set<Change> covered;
+        for (const std::size_t i : order) {
+            const std::vector<Change>& changes = model_.changesOf(i);
+            const bool isNew = std::ranges::any_of(changes, [&](const Change& change) {
+                return covered.count(change) == 0 && !model_.knows(change, knownEffect);
+            });
+            if (!isNew) continue;
+            covered.insert(changes.begin(), changes.end());
+            picks.push_back(i);
+        }
+        profile(std::move(picks), 0.1, 0.6);
+    }
+
+    // Combinations of changes that help by themselves, per path.
+    void addCombinations() {
+        const std::size_t singles = all_.size();
+        std::map<Path, std::size_t> firsts;
+        std::map<Path, std::vector<Change>> helpful;
+        for (std::size_t i = 0; i < singles; ++i) {
+            const std::vector<Change>& changes = model_.changesOf(i);
+            if (changes.empty()) firsts[all_[i].settings.path] = i;
+            if (changes.size() != 1 || isSpoilt(i)) continue;
+            const std::size_t first = firsts.at(all_[i].settings.path);
+            const double faster = model_.predict(i).log_ms - model_.predict(first).log_ms;
+            const auto error = errors_.find(changes.front());
+            const auto before = first_errors_.find(all_[i].settings.path);
+            const bool better = error != errors_.end() && before != first_errors_.end() &&
+                                error->second < before->second / alike;
+            if (faster < worthTime || better) helpful[all_[i].settings.path].push_back(changes.front());
+        }
+        for (const auto& [path, changes] : helpful) {
+            std::vector<Change> taken;
+            addCombinations(all_[firsts.at(path)].settings, changes, 0, taken);
+        }
+    }
+    void addCombinations(const Settings& first, const std::vector<Change>& changes, std::size_t from,
+                         std::vector<Change>& taken) {
+        if (taken.size() > 1) {
+            const std::optional<Settings> made = options_.combine(first, taken);
+            if (!made) return;
+            if (std::ranges::find(all_, *made, &Candidate::settings) == all_.end()) add(*made);
+        }
+        if (taken.size() == changesAtOnce) return;
+        for (std::size_t i = from; i < changes.size(); ++i) {
+            if (std::ranges::find(taken, changes[i].option, &Change::option) != taken.end()) continue;
+            taken.push_back(changes[i]);
+            addCombinations(first, changes, i + 1, taken);
+            taken.pop_back();
+        }
+    }
+
+    // The candidates that are drawn and fit, but for their time, the fastest by the model first.
+    std::vector<std::size_t> fitting() const {
+        std::vector<std::size_t> fit;
+        for (std::size_t i = 0; i < all_.size(); ++i)
+            if (all_[i].isFit()) fit.push_back(i);
+        std::ranges::sort(fit, {}, [&](std::size_t i) { return model_.predict(i).log_ms; });
+        return fit;
+    }
+    double leastTime(std::size_t i) const {
+        const Prediction prediction = model_.predict(i);
+        return prediction.log_ms - benefit * prediction.deviation;
+    }
+
+    void findFastest() {
+        for (std::size_t seen = 0;; ++seen) {
+            std::vector<std::size_t> fit = fitting();
+            if (!fit.empty() && all_[fit.front()].timings == 0) {
+                time({fit.front()});
+                continue;
+            }
+            std::size_t next = none;
+            double least = fit.empty() ? infinity : model_.predict(fit.front()).log_ms;
+            for (std::size_t i = 0; i < all_.size(); ++i) {
+                if (all_[i].judged) continue;
+                if (isSpoilt(i)) {
+                    all_[i].fate = Fate::spoilt;
+                    continue;
+                }
+                if (const double time = leastTime(i); time < least) {
+                    least = time;
+                    next = i;
+                }
+            }
+            if (next == none) break;
+            say(0.6 + 0.2 * (1 - 1 / (1 + 0.1 * static_cast<double>(seen))), "candidates");
+            judge(next);
+            if (all_[next].isFit()) time({next});
+        }
+        if (fitting().empty()) return;
+        raceFor(fitting());
+        tooSlowIfOver();
+    }
+
+    // Races those of some that may be the fastest.
+    void raceFor(std::vector<std::size_t> fit) {
+        std::ranges::sort(fit, {}, [&](std::size_t i) { return model_.predict(i).log_ms; });
+        const double best = model_.predict(fit.front()).log_ms;
+        std::vector<std::size_t> contenders;
+        for (const std::size_t i : fit)
+            if (contenders.size() < 2 || leastTime(i) - benefit * model_.predict(i).deviation < best)
+                contenders.push_back(i);
+        contenders.resize(std::min(contenders.size(), std::max<std::size_t>(options_.most_contenders, 1)));
+        std::vector<Settings> frames;
+        for (const std::size_t i : contenders) frames.push_back(all_[i].settings);
+        say(0.8, "race");
+        const Race result = race(
+            contenders.size(),
+            [&](std::span<const std::size_t> order) {
+                const std::vector<double> times = lab_.time(frames, order);
+                for (std::size_t at = 0; at < order.size(); ++at) {
+                    ++all_[contenders[order[at]]].timings;
+                    model_.observe(contenders[order[at]], times[at]);
+                }
+                return times;
+            },
+            {}, options_.seed + 1);
+        found_.timings += result.draws;
+        found_.sure = result.sure;
+        found_.ties.clear();
+        found_.chosen = contenders[result.winner];
+        found_.ms = result.standings[result.winner].ms;
+        std::optional<std::size_t> second;
+        for (std::size_t k = 0; k < contenders.size(); ++k) {
+            const Standing& standing = result.standings[k];
+            all_[contenders[k]].fate = Fate::raced;
+            all_[contenders[k]].standing = standing;
+            if (k == result.winner) continue;
+            if (!standing.isSlower()) found_.ties.push_back(contenders[k]);
+            if (!second || standing.ratio < result.standings[*second].ratio) second = k;
+        }
+        found_.runner_up = second ? std::optional(contenders[*second]) : std::nullopt;
+    }
+
+    // Nothing is chosen where the fastest takes too long.
+    void tooSlowIfOver() {
+        if (!budget_.ms || found_.ms <= *budget_.ms) return;
+        found_.nearest = found_.chosen;
+        all_[*found_.chosen].fate = Fate::too_slow;
+        found_.chosen.reset();
+    }
+
+    double limit() const { return budget_.ms ? std::log(*budget_.ms) : infinity; }
+    // Times a candidate until it is known to be within the time or beyond it, or enough.
+    bool isInTime(std::size_t i) {
+        if (!budget_.ms) return true;
+        while (all_[i].timings < mostAgain) {
+            const Prediction prediction = model_.predict(i);
+            if (all_[i].timings >= 2 &&
+                std::abs(prediction.log_ms - limit()) > doubtful * prediction.deviation)
+                break;
+            time({i}, all_[i].timings < 2 ? 1 : 2);
+        }
+        const bool isFast = model_.predict(i).log_ms <= limit();
+        if (!isFast) all_[i].fate = Fate::too_slow;
+        return isFast;
+    }
+
+    // Takes a candidate's place where it has a smaller error and is in time. `best`: `none` or one's number.
+    void consider(std::size_t i, std::size_t& best) {
+        if (!all_[i].isFit() || leastTime(i) > limit()) return;
+        if (best != none && all_[i].judged->error >= all_[best].judged->error) return;
+        if (isInTime(i)) best = i;
+    }
+
+    void findMostAccurate() {
+        std::size_t best = none;
+        for (std::size_t i = 0; i < all_.size(); ++i) consider(i, best);
+        for (std::size_t seen = 0;; ++seen) {
+            std::size_t next = none;
+            double likely = infinity;
+            for (std::size_t i = 0; i < all_.size(); ++i) {
+                if (all_[i].judged || leastTime(i) > limit()) continue;
+                const ErrorGuess error = guess(i);
+                if (best != none && error.least >= all_[best].judged->error) continue;
+                if (next != none && error.likely >= likely) continue;
+                likely = error.likely;
+                next = i;
+            }
+            if (next == none) break;
+            say(0.6 + 0.2 * (1 - 1 / (1 + 0.1 * static_cast<double>(seen))), "candidates");
+            judge(next);
+            consider(next, best);
+        }
+        while (best != none) {
+            std::vector<std::size_t> equals;
+            for (std::size_t i = 0; i < all_.size(); ++i)
+                if (all_[i].isFit() && (i == best || leastTime(i) <= limit()) &&
+                    all_[i].judged->error <= all_[best].judged->error * alike)
+                    equals.push_back(i);
+            raceFor(std::move(equals));
+            if (!budget_.ms || found_.ms <= *budget_.ms) return;
+            tooSlowIfOver();
+            best = none;
+            for (std::size_t i = 0; i < all_.size(); ++i) consider(i, best);
+        }
+    }
+
+    // How far a candidate is from the budget, 0 where it is within.
+    double missOf(std::size_t i) const {
+        const Candidate& candidate = all_[i];
+        double miss = 0;
+        const auto add = [&](double value, double limit) { miss = std::max(miss, value / limit - 1); };
+        if (budget_.error) add(candidate.judged->error, std::max(*budget_.error, 1e-12));
+        if (budget_.bytes)
+            add(static_cast<double>(candidate.judged->bytes), static_cast<double>(*budget_.bytes));
+        if (budget_.ms && candidate.timings > 0) add(candidate.predicted.ms(), *budget_.ms);
+        return miss;
+    }
+    void findNearest() {
+        found_.nearest.reset();
+        for (std::size_t i = 0; i < all_.size(); ++i)
+            if (all_[i].judged && (!budget_.ms || all_[i].timings > 0) &&
+                (!found_.nearest || missOf(i) < missOf(*found_.nearest)))
+                found_.nearest = i;
+        if (found_.nearest) found_.ms = all_[*found_.nearest].predicted.ms();
+    }
+
+    Lab& lab_;
+    CostModel& model_;
+    const SearchOptions& options_;
+    const Budget& budget_;
+    std::mt19937_64 random_;
+    std::vector<Candidate> all_;
+    std::map<Path, double> first_errors_;
+    std::map<Change, double> errors_;
+    std::vector<double> repeats_;
+    Choice found_;
+};
+
+}  // namespace
+
+Choice search(std::span<const Settings> candidates, Lab& lab, CostModel& model,
+              const SearchOptions& options) {
+    return Search(candidates, lab, model, options).run();
+}
+
+}  // namespace diptych::choose

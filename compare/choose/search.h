@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Finds the fastest Settings within an error, or the most accurate within a time or a memory, and measures
+// few of the candidates for it: what a cost model says is slower for sure is not drawn, what is drawn and
+// exceeds the error is not timed, and only those that may be the best are raced.
+#pragma once
+
+#include "compare/choose/cost_model.h"
+#include "compare/choose/race.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace diptych::choose {
+
+struct Budget {
+    std::optional<double> error;         // of the figure that is judged by
+    std::optional<double> ms;            // of a frame
+    std::optional<std::uint64_t> bytes;  // of a frame: images and buffers
+    // The fastest is wanted; else the most accurate, and the fastest of those.
+    bool isForSpeed() const { return error.has_value(); }
+};
+
+// What repeats exactly.
+struct Judged {
+    double error = 0;
+    std::uint64_t bytes = 0;
+};
+
+// Where candidates are measured: a device, or times that were recorded.
+class Lab {
+public:
+    Lab() = default;
+    Lab(const Lab&) = delete;
+    Lab& operator=(const Lab&) = delete;
+    virtual ~Lab() = default;
+    virtual Judged judge(const Settings& settings) = 0;
+    // Draws `frames` in an order, one frame for each of its entries: their times, ms.
+    virtual std::vector<double> time(std::span<const Settings> frames,
+                                     std::span<const std::size_t> order) = 0;
+    // Likewise, each pass by itself.
+    virtual std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
+                                                       std::span<const std::size_t> order) = 0;
+};
+
+// Settings with some changes of one path's first candidate; nothing where that has no meaning.
+using Combine = std::function<std::optional<Settings>(const Settings&, std::span<const Change>)>;
+
+struct SearchOptions {
+    Budget budget;
+    std::uint64_t seed = 1;
+    // Candidates that combine up to three changes which each help by itself are tried as well.
+    Combine combine = {};
+    std::size_t most_contenders = 6;
+    // Called before each thing that takes time with a word on it and the share that is done, about.
+    std::function<void(double, std::string_view)> progress = {};
+};
+
+enum class Fate {
+    unseen,    // the model says that it is no better
+    spoilt,    // one of its changes exceeds the error by itself
+    misses,    // drawn: exceeds the error or the memory
+    too_slow,  // timed: exceeds the time
+    fits,      // drawn, and not better by the model
+    raced,
+};
+
+struct Candidate {
+    Settings settings;
+    Fate fate = Fate::unseen;
+    std::optional<Judged> judged{};
+    std::size_t timings = 0;
+    Prediction predicted{};              // by all that was timed
+    std::vector<PassTime> passes{};      // likewise
+    std::optional<Standing> standing{};  // of the race
+    bool isFit() const { return fate == Fate::fits || fate == Fate::raced; }
+};
+
+struct Choice {
+    std::vector<Candidate> candidates;
+    std::optional<std::size_t> chosen;
+    std::optional<std::size_t> runner_up;  // the second of the race
+    std::vector<std::size_t> ties;         // as fast as the chosen one, as far as can be told
+    bool sure = false;                     // the chosen one is faster than every other contender
+    // Where nothing fits: what comes nearest.
+    std::optional<std::size_t> nearest;
+    std::size_t judged = 0, timings = 0;
+    double ms = 0;  // of the chosen, or of the nearest
+};
+
+// At least one candidate, those without changes first of their paths. Throws what the laboratory throws.
+Choice search(std::span<const Settings> candidates, Lab& lab, CostModel& model, const SearchOptions& options);
+
+}  // namespace diptych::choose

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "compare/choose/report.h"
+
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace diptych::choose {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::string percent(double ratio) {
+    return fmt::format("{:.1f} %", 100 * (ratio - 1));
+}
+
+// Its time, error and memory.
+std::string figuresOf(const ChoiceReport& report, std::size_t i) {
+    const Candidate& candidate = report.choice.candidates[i];
+    const double ms = candidate.standing ? candidate.standing->ms : candidate.predicted.ms();
+    std::string text =
+        candidate.timings > 0 ? fmt::format("{:.4g} ms", ms) : fmt::format("about {:.3g} ms", ms);
+    if (candidate.judged)
+        text += fmt::format(", {} {:.4g}, {}", report.figure, candidate.judged->error,
+                            page::bytes(candidate.judged->bytes));
+    return text;
+}
+
+std::string standingOf(const ChoiceReport& report, std::size_t i) {
+    const Standing& standing = *report.choice.candidates[i].standing;
+    return fmt::format("{}: {} of the time more ({} to {})", report.words[i], percent(standing.ratio),
+                       percent(standing.low), percent(standing.high));
+}
+
+std::string missInWords(const ChoiceReport& report) {
+    const Choice& choice = report.choice;
+    if (!choice.nearest) return "nothing could be drawn\n";
+    const Candidate& nearest = choice.candidates[*choice.nearest];
+    std::string text = fmt::format("nothing fits; the nearest is {}\n    {}\n", report.words[*choice.nearest],
+                                   figuresOf(report, *choice.nearest));
+    const Budget& budget = report.budget;
+    const auto gap = [&](double value, double limit, const char* what) {
+        if (value > limit)
+            text += fmt::format("    {} over the {} of {:.4g}\n", percent(value / limit), what, limit);
+    };
+    if (budget.error) gap(nearest.judged->error, *budget.error, "error");
+    if (budget.ms && nearest.timings > 0) gap(choice.ms, *budget.ms, "time, ms,");
+    if (budget.bytes)
+        gap(static_cast<double>(nearest.judged->bytes), static_cast<double>(*budget.bytes), "memory, bytes,");
+    return text;
+}
+
+std::string tiesInWords(const ChoiceReport& report) {
+    std::string text;
+    for (const std::size_t i : report.choice.ties)
+        text += fmt::format("  as fast, as far as can be told: {}\n", standingOf(report, i));
+    return text;
+}
+
+std::string unseenInWords(const ChoiceReport& report) {
+    if (report.unseen.empty())
+        return "  not checked on a camera that it was not chosen on: the scene has no other one\n";
+    std::string text;
+    for (const UnseenCamera& camera : report.unseen)
+        text +=
+            fmt::format("  from {}, which it was not chosen on: {} {:.4g}{}\n", camera.camera, report.figure,
+                        camera.error, camera.holds ? "" : ", which is too much: give --camera for both");
+    return text;
+}
+
+// "12 not better by the model"
+std::string fatesInWords(const Choice& choice) {
+    std::map<Fate, std::size_t> counts;
+    for (const Candidate& candidate : choice.candidates) ++counts[candidate.fate];
+    std::vector<std::string> words;
+    for (const auto& [fate, name] : {std::pair{Fate::raced, "raced"},
+                                     {Fate::fits, "drawn and slower"},
+                                     {Fate::too_slow, "too slow"},
+                                     {Fate::misses, "over the error or the memory"},
+                                     {Fate::spoilt, "not drawn, as a change of theirs exceeds the error"},
+                                     {Fate::unseen, "not drawn, as they are no better by the model"}})
+        if (counts[fate] > 0) words.push_back(fmt::format("{} {}", counts[fate], name));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+const char* nameOf(Fate fate) {
+    switch (fate) {
+        case Fate::unseen:
+            return "unseen";
+        case Fate::spoilt:
+            return "spoilt";
+        case Fate::misses:
+            return "misses";
+        case Fate::too_slow:
+            return "too slow";
+        case Fate::fits:
+            return "fits";
+        case Fate::raced:
+            return "raced";
+    }
+    return "";
+}
+
+nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
+    const Candidate& candidate = report.choice.candidates[i];
+    Json json{{"settings", Json::parse(toJson(candidate.settings))},
+              {"words", report.words[i]},
+              {"command", report.commands[i]},
+              {"fate", nameOf(candidate.fate)},
+              {"ms", candidate.standing ? candidate.standing->ms : candidate.predicted.ms()},
+              {"frames_timed", candidate.timings}};
+    json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
+    json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
+    if (candidate.standing)
+        json["race"] = {{"ratio", candidate.standing->ratio},
+                        {"low", candidate.standing->low},
+                        {"high", candidate.standing->high},
+                        {"rounds", candidate.standing->rounds}};
+    return json;
+}
+
+}  // namespace
+
+std::string goalInWords(const ChoiceReport& report) {
+    const Budget& budget = report.budget;
+    std::vector<std::string> limits;
+    if (budget.error) limits.push_back(fmt::format("{} at most {:.4g}", report.figure, *budget.error));
+    if (budget.ms) limits.push_back(fmt::format("at most {:.4g} ms", *budget.ms));
+    if (budget.bytes) limits.push_back(fmt::format("at most {}", page::bytes(*budget.bytes)));
+    return fmt::format("the {} with {}", budget.isForSpeed() ? "fastest" : "most accurate",
+                       fmt::join(limits, " and "));
+}
+
+std::string inWords(const ChoiceReport& report) {
+    const Choice& choice = report.choice;
+    std::string text =
+        fmt::format("{}, {}x{}, {}: {}\n", report.scene, report.given.size.width, report.given.size.height,
+                    fmt::join(report.cameras, "; "), goalInWords(report));
+    if (!choice.chosen) {
+        text += missInWords(report);
+    } else {
+        text += fmt::format("{}\n    {}\n", report.words[*choice.chosen], figuresOf(report, *choice.chosen));
+        for (const std::string& line : report.why) text += fmt::format("  {}\n", line);
+        if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
+            text += fmt::format("  runner-up: {}\n", standingOf(report, *choice.runner_up));
+        text += tiesInWords(report);
+        if (choice.sure)
+            text += fmt::format("  sure: every other contender is slower, at {:.0f} %\n",
+                                100 * (1 - RaceRules().false_winner));
+        text += unseenInWords(report);
+    }
+    for (const Property& property : report.properties)
+        text += fmt::format("  {}: {:.4g}; {}\n", property.name, property.value, property.found);
+    text += fmt::format("  {} candidates: {}\n  {} pictures judged, {} frames timed ({} of all), {:.1f} s\n",
+                        choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings,
+                        choice.candidates.size(), report.seconds);
+    for (const std::string& note : report.notes) text += fmt::format("note: {}\n", note);
+    if (choice.chosen) text += report.commands[*choice.chosen] + "\n";
+    return text;
+}
+
+nlohmann::ordered_json toJson(const ChoiceReport& report) {
+    const Choice& choice = report.choice;
+    Json ties = Json::array(), candidates = Json::array(), unseen = Json::array(), properties = Json::array();
+    for (const std::size_t i : choice.ties) ties.push_back(i);
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) candidates.push_back(jsonOf(report, i));
+    for (const UnseenCamera& camera : report.unseen)
+        unseen.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
+    for (const Property& property : report.properties)
+        properties.push_back({{"name", property.name},
+                              {"value", property.value},
+                              {"turn", property.turn ? Json(*property.turn) : Json()},
+                              {"found", property.found}});
+    const auto place = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
+    const auto limit = [](const auto& value) { return value ? Json(*value) : Json(); };
+    Json json{
+        {"schema", 1},
+        {"scene", report.scene},
+        {"cameras", report.cameras},
+        {"device",
+         {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
+        {"figure", report.figure_name},
+        {"budget",
+         {{"error", limit(report.budget.error)},
+          {"ms", limit(report.budget.ms)},
+          {"bytes", limit(report.budget.bytes)}}}};
+    json["settings"] =
+        choice.chosen ? Json::parse(toJson(choice.candidates[*choice.chosen].settings)) : Json();
+    json["chosen"] = place(choice.chosen);
+    json["runner_up"] = place(choice.runner_up);
+    json["nearest"] = place(choice.nearest);
+    json["ties"] = std::move(ties);
+    json["sure"] = choice.sure;
+    json["why"] = report.why;
+    json["unseen_cameras"] = std::move(unseen);
+    json["properties"] = std::move(properties);
+    json["judged"] = choice.judged;
+    json["frames_timed"] = choice.timings;
+    json["seconds"] = report.seconds;
+    json["notes"] = report.notes;
+    json["candidates"] = std::move(candidates);
+    return json;
+}
+
+std::vector<std::string> whyInWords(const Choice& choice, double overdraw, double lights) {
+    if (!choice.chosen) return {};
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    const Candidate* other = nullptr;
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.settings.path != chosen.settings.path && candidate.isFit() &&
+            (!other || candidate.predicted.log_ms < other->predicted.log_ms))
+            other = &candidate;
+    const std::string_view path = diptych::nameOf(chosen.settings.path);
+    if (!other) return {fmt::format("{}: no Settings of the other path fit and were worth drawing", path)};
+    std::map<std::string, std::pair<double, double>> passes;  // chosen, other
+    for (const PassTime& pass : chosen.passes) passes[pass.name].first = pass.ms;
+    for (const PassTime& pass : other->passes) passes[pass.name].second = pass.ms;
+    std::vector<std::pair<double, std::string>> parts;
+    const double all = other->predicted.ms();
+    for (const auto& [name, ms] : passes)
+        if (std::abs(ms.first - ms.second) > 0.03 * all)
+            parts.emplace_back(-std::abs(ms.first - ms.second),
+                               fmt::format("{} {:.3g} ms against {:.3g}", name, ms.first, ms.second));
+    std::ranges::sort(parts);
+    std::vector<std::string> words;
+    for (const auto& [size, text] : parts) words.push_back(text);
+    const double ratio = std::exp(other->predicted.log_ms - chosen.predicted.log_ms);
+    std::string line = fmt::format("{}: the best of {} takes {} more", path,
+                                   diptych::nameOf(other->settings.path), percent(ratio));
+    if (!words.empty()) line += fmt::format(": {}", fmt::join(words, ", "));
+    std::vector<std::string> why{std::move(line)};
+    if (overdraw > 0)
+        why.push_back(
+            fmt::format("{:.2f} fragments a covered pixel, {:.1f} lights at a pixel", overdraw, lights));
+    return why;
+}
+
+}  // namespace diptych::choose

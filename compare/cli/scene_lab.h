@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Candidates of a choice, drawn and timed on a device.
+#pragma once
+
+#include "compare/choose/search.h"
+#include "compare/render/renderer.h"
+#include "compare/tradeoff/measure.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace diptych::cli {
+
+// Of one scene, from every camera of the reference frames: errors are of all their pixels together, times the
+// mean over them, memory that of the camera that takes most.
+class SceneLab final : public choose::Lab {
+public:
+    // `figure`: of tradeoff::errorFigures. The renderer and the references must outlive it.
+    SceneLab(Renderer& renderer, const tradeoff::ReferenceFrames& references, std::size_t figure,
+             const RenderOptions& options)
+        : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
+
+    choose::Judged judge(const Settings& settings) override;
+    std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
+    std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
+                                               std::span<const std::size_t> order) override;
+
+    // What was judged, with its pictures, in the order of the judgements.
+    const std::vector<tradeoff::MeasuredRow>& rows() const { return rows_; }
+
+private:
+    std::size_t cameras() const { return references_.frames.size(); }
+    // Of each Settings a frame a camera, side by side, all drawn once.
+    PreparedFrames prepared(std::span<const Settings> frames);
+
+    Renderer& renderer_;
+    const tradeoff::ReferenceFrames& references_;
+    std::size_t figure_;
+    RenderOptions options_;
+    std::vector<tradeoff::MeasuredRow> rows_;
+};
+
+}  // namespace diptych::cli

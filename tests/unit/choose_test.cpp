@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// What is chosen, held against sweeps of every candidate, whose times and errors were recorded.
+#include "compare/choose/search.h"
+#include "tests/unit/choose_replay.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace diptych {
+
+using namespace choose;
+
+namespace {
+
+// The best of a table within a budget: the least time, or the least error.
+std::optional<double> bestOf(const RecordedSweep& sweep, const Budget& budget) {
+    std::optional<double> best;
+    for (const RecordedRow& row : sweep.rows) {
+        if (budget.error && row.error > *budget.error) continue;
+        if (budget.ms && row.ms > *budget.ms) continue;
+        if (budget.bytes && row.bytes > *budget.bytes) continue;
+        const double value = budget.isForSpeed() ? row.ms : row.error;
+        if (!best || value < *best) best = value;
+    }
+    return best;
+}
+
+struct Outcome {
+    bool right = false;
+    double off = 0;      // of the chosen one's recorded figure to the best
+    double timings = 0;  // share of the exhaustive ones
+    std::size_t judged = 0;
+};
+
+constexpr double near = 1.05, frames_of_each = 6;
+
+Outcome chosenFrom(const RecordedSweep& sweep, const Budget& budget, const ReplayNoise& noise,
+                   std::uint64_t seed) {
+    RecordedLab lab(sweep, noise, seed);
+    const Calibration calibration;
+    CostModel model(calibration);
+    std::vector<Settings> candidates;
+    for (const RecordedRow& row : sweep.rows) candidates.push_back(row.settings);
+    // As the command line has it: what it says comes first.
+    Settings given;
+    given.size = {320, 180};
+    std::ranges::stable_sort(candidates, {}, [&](const Settings& row) {
+        return std::ranges::count_if(settingFields(), [&](const Field& field) {
+            return field.option != "path" && row.valueOf(field.option) != given.valueOf(field.option);
+        });
+    });
+    SearchOptions options;
+    options.budget = budget;
+    options.seed = seed;
+    const Choice choice = search(candidates, lab, model, options);
+    Outcome outcome;
+    outcome.timings =
+        static_cast<double>(choice.timings) / (frames_of_each * static_cast<double>(sweep.rows.size()));
+    outcome.judged = choice.judged;
+    const std::optional<double> best = bestOf(sweep, budget);
+    if (!choice.chosen) {
+        // Right where nothing fits, or what does is too near to the limit to be told from what does not.
+        Budget tight = budget;
+        if (tight.ms) *tight.ms /= near;
+        outcome.right = !bestOf(sweep, tight);
+        return outcome;
+    }
+    const RecordedRow& row = sweep.find(choice.candidates[*choice.chosen].settings);
+    const bool fits = !(budget.error && row.error > *budget.error) &&
+                      !(budget.ms && row.ms > *budget.ms * near) &&
+                      !(budget.bytes && row.bytes > *budget.bytes);
+    Budget wide = budget;
+    if (wide.ms) *wide.ms /= near;
+    const std::optional<double> near_best = bestOf(sweep, wide);
+    const double value = budget.isForSpeed() ? row.ms : row.error;
+    outcome.off = near_best ? value / *near_best : 1;
+    outcome.right = fits && best && (!near_best || value <= *near_best * near + 1e-12);
+    return outcome;
+}
+
+// Budgets between the ends of what a sweep holds.
+std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
+    std::vector<double> errors, times;
+    std::vector<std::uint64_t> bytes;
+    for (const RecordedRow& row : sweep.rows) {
+        errors.push_back(row.error);
+        times.push_back(row.ms);
+        bytes.push_back(row.bytes);
+    }
+    std::ranges::sort(errors);
+    std::ranges::sort(times);
+    std::ranges::sort(bytes);
+    const auto at = [](const auto& sorted, double part) {
+        return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+    };
+    std::vector<Budget> budgets;
+    for (const double part : {0.1, 0.25, 0.5, 0.75, 0.95}) {
+        budgets.push_back({.error = at(errors, part) * 1.0001, .ms = {}, .bytes = {}});
+        budgets.push_back({.error = {}, .ms = at(times, part) * 1.0001, .bytes = {}});
+    }
+    budgets.push_back({.error = at(errors, 0.5) * 1.0001, .ms = {}, .bytes = at(bytes, 0.5)});
+    budgets.push_back({.error = {}, .ms = at(times, 0.5) * 1.0001, .bytes = at(bytes, 0.5)});
+    return budgets;
+}
+
+void sweepAll(const ReplayNoise& noise) {
+    std::size_t cases = 0, right = 0;
+    double most = 0, sum = 0;
+    fmt::print("{:<28} {:>6} {:>14} {:>12} {:>12} {:>10}\n", "scene", "rows", "right", "timings", "worst",
+               "judged");
+    for (const RecordedSweep& sweep : recordedSweeps()) {
+        std::size_t tried = 0, good = 0;
+        double worst = 1, share = 0;
+        std::size_t judged = 0;
+        for (const Budget& budget : budgetsFor(sweep))
+            for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+                const Outcome outcome = chosenFrom(sweep, budget, noise, seed);
+                ++tried;
+                good += outcome.right;
+                worst = std::max(worst, outcome.off);
+                share += outcome.timings;
+                most = std::max(most, outcome.timings);
+                judged += outcome.judged;
+                if (!outcome.right && std::getenv("CHOOSE_VERBOSE"))
+                    fmt::print("  wrong: error {} ms {} bytes {} seed {}: off {:.3f} timings {:.1f} %\n",
+                               budget.error.value_or(0), budget.ms.value_or(0), budget.bytes.value_or(0),
+                               seed, outcome.off, 100 * outcome.timings);
+            }
+        cases += tried;
+        right += good;
+        sum += share;
+        const auto n = static_cast<double>(tried);
+        fmt::print("{:<28} {:>6} {:>6} of {:>4} {:>10.1f} % {:>11.3f} {:>10.1f}\n", sweep.scene,
+                   sweep.rows.size(), good, tried, 100 * share / n, worst, static_cast<double>(judged) / n);
+    }
+    fmt::print("{} of {} within 5 %, {:.1f} % of the exhaustive timings in the mean, {:.1f} % at most\n",
+               right, cases, 100 * sum / static_cast<double>(cases), 100 * most);
+    EXPECT_GE(static_cast<double>(right), 0.95 * static_cast<double>(cases));
+    EXPECT_LE(sum / static_cast<double>(cases), 0.10);
+}
+
+TEST(ChooseReplay, FindsWhatASweepOfEverythingFinds) {
+    sweepAll({.deviation = 0.02, .drift = 0});
+}
+
+TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
+    sweepAll({.deviation = 0.10, .drift = 0.20});
+}
+
+}  // namespace
+
+}  // namespace diptych
