@@ -22,7 +22,7 @@ const Command commands[] = {
      "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff", true},
     {"explain",
      "The causes of a difference of lit, ranked: which channels and Settings, by how much, and where",
-     "diptych explain helmet.glb --gbuffer compact", true},
+     "diptych explain helmet.glb --gbuffer compact -o helmet-causes", true},
     {"choose", "The path and Settings for an error budget or a time budget",
      "diptych choose helmet.glb --max-ms 8", false},
     {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
@@ -220,11 +220,10 @@ void hideUnread(CLI::App& app, const std::string& command) {
         hide(app, {"--debug", "--heat"});
         app.get_option("--path")->description("which path --update-baseline writes (that of the file)");
     }
-    if (command == "bench" || command == "tradeoff")
+    if (command == "bench" || command == "tradeoff" || command == "explain")
         hide(app, {"--debug", "--heat", "--channels", "--list-channels"});
     if (command == "explain") {
-        hideGroup(app, picture_group);
-        hide(app, {"--path", "--out", "--force", "--runs"});
+        hide(app, {"--path", "--runs"});
     }
     if (command == "bench") hideGroup(app, picture_group);
     if (command == "devices" || command == "plan") {
@@ -348,7 +347,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
                        "declared pairs)")
             ->type_name("FILE.json|JSON");
     } else if (command == "explain") {
-        addFiles(app, options, "refused: explain writes no file, --json prints one");
+        addFiles(app, options, "folder of the page, the maps and the JSON; without it nothing is written");
         app.add_option("--baseline", parsed.baseline, "the picture that is right (deferred)")
             ->type_name("deferred|forward_plus");
         app.add_option("--scene", options.scene_file, "the scene of two EXR files that do not say it")

@@ -125,6 +125,7 @@ public:
         upload();
         findRest();
         found_.dominant = Image(lit_[0]->width, lit_[0]->height, 1, -1.0f);
+        found_.unexplained_map = imageOf(errors_);
         if (found_.distance > 0) {
             findCauses();
             share();
@@ -299,6 +300,7 @@ private:
             values[subsets[s].subset] = -meanOf(errors_);
             if (subsets[s].subset == all) {
                 found_.unexplained = meanOf(errors_);
+                found_.unexplained_map = imageOf(errors_);
                 found_.flip_unexplained = hdrFlip(*lit_[0], lit).mean;
             }
             tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t i) {
@@ -311,6 +313,14 @@ private:
         const Shares shares =
             exact ? exactShares(count, value) : sampledShares(count, value, sampledOrderCount, 1);
         rank(shares, maps);
+    }
+
+    // Of a value a pixel.
+    Image imageOf(const std::vector<double>& values) const {
+        Image image(lit_[0]->width, lit_[0]->height, 1);
+        std::ranges::transform(values, image.data.begin(),
+                               [](double value) { return static_cast<float>(value); });
+        return image;
     }
 
     std::vector<MaterialShare> byMaterial(const std::vector<double>& map, double sign) const {
@@ -352,7 +362,7 @@ private:
             found_.causes.push_back({nameOfCause(causes_[i]), causes_[i].shows, shares.share[i],
                                      shares.interval[i], shares.alone[i], shares.last[i], maps[i][worst],
                                      static_cast<int>(worst % width), static_cast<int>(worst / width),
-                                     byMaterial(maps[i], sign)});
+                                     byMaterial(maps[i], sign), imageOf(maps[i])});
         }
         for (std::size_t p = 0; p < errors_.size(); ++p)
             for (std::size_t k = 0; k < order.size(); ++k) {

@@ -108,6 +108,29 @@ double sumOfShares(const Explanation& e) {
                            [](double sum, const Cause& cause) { return sum + cause.share; });
 }
 
+// All maps together are the difference at each pixel, and each one's mean is its share.
+void expectMapsAddUp(const Explanation& e, const Frame& baseline, const Frame& test) {
+    const Image &a = baseline.channels.at(lit), &b = test.channels.at(lit);
+    const auto mean = [](const Image& map) {
+        return std::accumulate(map.data.begin(), map.data.end(), 0.0) / static_cast<double>(map.pixels());
+    };
+    for (const Cause& cause : e.causes) EXPECT_NEAR(mean(cause.map), cause.share, 1e-6 * e.distance);
+    EXPECT_NEAR(mean(e.unexplained_map), e.unexplained, 1e-6 * e.distance);
+    double all = mean(e.unexplained_map), worst = 0;
+    for (const Cause& cause : e.causes) all += mean(cause.map);
+    EXPECT_NEAR(all, e.distance, 1e-6 * e.distance);
+    for (std::size_t p = 0; p < a.pixels(); ++p) {
+        double difference = 0, sum = double{e.unexplained_map.pixel(p)[0]}, size = sum;
+        for (int c = 0; c < 3; ++c) difference += std::abs(double{a.pixel(p)[c]} - b.pixel(p)[c]) / 3;
+        for (const Cause& cause : e.causes) {
+            sum += double{cause.map.pixel(p)[0]};
+            size += std::abs(double{cause.map.pixel(p)[0]});
+        }
+        if (size > 0) worst = std::max(worst, std::abs(sum - difference) / size);
+    }
+    EXPECT_LE(worst, 1e-6);
+}
+
 std::vector<std::string> names(const Explanation& e) {
     std::vector<std::string> all;
     for (const Cause& cause : e.causes) all.push_back(cause.name);
@@ -136,9 +159,10 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
         EXPECT_EQ(e.causes.front().name, fault.channel);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
         EXPECT_LE(e.unexplained, 1e-6 * e.distance);
+        const Frame test = planted.with({fault});
+        expectMapsAddUp(e, planted.right, test);
         if (e.causes.size() > 1) continue;
         // The map: of one cause it is the difference itself.
-        const Frame test = planted.with({fault});
         const Image &a = planted.right.channels.at(lit), &b = test.channels.at(lit);
         std::size_t wrong = 0;
         for (std::size_t p = 0; p < a.pixels(); ++p)
@@ -210,6 +234,7 @@ TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
     ASSERT_FALSE(e.pairs.empty());
     EXPECT_GT(e.pairs.front().interaction, 0);
     for (const Cause& cause : e.causes) EXPECT_LT(cause.alone, 0) << "alone it makes things worse";
+    expectMapsAddUp(e, planted.right, hidden);
     EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
@@ -226,6 +251,7 @@ TEST(Explain, SettingsAreCauses) {
         ASSERT_FALSE(e.causes.empty()) << option;
         EXPECT_EQ(e.causes.front().name, "--" + option);
         EXPECT_GT(e.frames, 1u);
+        expectMapsAddUp(e, planted.right, test);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
 }
@@ -245,6 +271,7 @@ TEST(Explain, APackedGBufferIsExplainedByItsChannels) {
         EXPECT_LE(e.unexplained, 1e-6 * e.distance);
         EXPECT_EQ(e.reproduction[0], 0) << name;
         EXPECT_EQ(e.reproduction[1], 0) << name;
+        expectMapsAddUp(e, baseline, test);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
 }

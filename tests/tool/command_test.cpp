@@ -206,7 +206,7 @@ TEST(Command, DevicesCanBeLimitedToOne) {
 
 TEST(Command, WhatWritesNoFileRefusesAPlaceForIt) {
     const Folder folder;
-    for (const std::string command : {"plan", "devices", "explain"}) {
+    for (const std::string command : {"plan", "devices"}) {
         const Ran ran = runTool(folder, command + " -o p");
         EXPECT_EQ(ran.code, 2);
         EXPECT_NE(ran.err.find("-o p"), std::string::npos) << ran.err;
@@ -232,6 +232,42 @@ TEST(Command, ExplainNamesCausesAndTheirShares) {
     EXPECT_NE(words.out.find("--haze"), std::string::npos) << words.out;
     const Ran same = runTool(folder, "explain builtin:points --size 64x36 --gbuffer full");
     EXPECT_NE(same.out.find("no cause"), std::string::npos) << same.out;
+}
+
+TEST(Command, ExplainLeavesAPageWithItsMaps) {
+    const Folder folder;
+    const std::string view = "explain builtin:points --gbuffer compact --size 64x36";
+    const Ran ran = runTool(folder, view + " -o why --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.out, contentsOf(folder / "why/explain.json")) << "--json prints it and nothing else";
+    const Json found = parsed(ran);
+    std::set<std::string> listed, there;
+    for (const Json& name : found["files"]) listed.insert(name);
+    for (const auto& entry : fs::directory_iterator(folder / "why")) there.insert(entry.path().filename());
+    EXPECT_EQ(listed, there);
+    for (const char* name :
+         {"index.html", "explain.json", "dominant.png", "lit.baseline.png", "lit.test.png"})
+        EXPECT_TRUE(there.contains(name)) << name;
+    EXPECT_TRUE(there.contains("share-1." + found["causes"][0]["name"].get<std::string>() + ".png"));
+    const std::string page = contentsOf(folder / "why/index.html");
+    for (const std::string& name : there)
+        EXPECT_TRUE(name.ends_with(".html") || page.find(name) != std::string::npos ||
+                    (name == "unexplained.png" && found["unexplained"] == 0))
+            << name;
+    EXPECT_EQ(page.find("http"), std::string::npos) << "no external resources";
+    // The command explains the same, and what is ours may be replaced.
+    const std::string again = found["command"];
+    ASSERT_TRUE(again.starts_with("diptych explain ")) << again;
+    const Ran second = runTool(folder, again.substr(8) + " -o why");
+    EXPECT_EQ(second.code, 0) << second.err;
+    EXPECT_NE(second.out.find("why/index.html"), std::string::npos) << second.out;
+    EXPECT_EQ(readJson(folder / "why/explain.json")["causes"], found["causes"]);
+    fs::create_directory(folder / "theirs");
+    std::ofstream(folder / "theirs/a.txt") << "mine";
+    const Ran refused = runTool(folder, view + " -o theirs");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+    EXPECT_EQ(runTool(folder, view + " -o x.png").code, 2);
 }
 
 // Of two files, which say of what they are.
