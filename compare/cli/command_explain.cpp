@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
+#include "compare/cli/explanations.h"
 #include "compare/explain/words.h"
 #include "compare/explain/write.h"
 #include "compare/files/frame_exr.h"
@@ -49,18 +50,6 @@ Settings testOf(const Options& options, std::string& name) {
     return test;
 }
 
-// The words of a command line that explains the scene so again.
-std::vector<std::string> explainWords(const Options& options) {
-    Settings settings = options.settings;
-    settings.path = Settings().path;
-    std::vector<std::string> words = commandWords("explain", options.scenes.front(), settings);
-    if (options.baseline != Path::deferred)
-        words = withOption(std::move(words), "--baseline", std::string(nameOf(options.baseline)));
-    for (const auto& [option, value] : options.test)
-        words = withOption(std::move(words), "--test", fmt::format("{}={}", option, value));
-    return words;
-}
-
 // Prints what was found, and writes it where -o says so.
 void leave(const Options& options, const PictureChoice& picture, const Device& device,
            const Explanation& explanation, const ExplainedPictures& of, const Frame& baseline,
@@ -90,7 +79,8 @@ int explainScene(const Options& options) {
     baseline.path = options.baseline;
     if (const auto problem = baseline.problem()) throw std::runtime_error(*problem);
     const Settings test = testOf(options, of.test);
-    of.commands = {{"Explain it again", shellLine(explainWords(options))},
+    of.commands = {{"Explain it again",
+                    shellLine(explainWords(of.scene, options.settings, options.baseline, options.test))},
                    {"The baseline by itself", commandOf("render", of.scene, baseline)},
                    {"The test by itself", commandOf("render", of.scene, test)}};
     if (options.test.empty())

@@ -333,6 +333,9 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addTolerances(app, options);
         app.add_flag("--allow-noise", options.allow_noise,
                      "GPU: grant what two runs of one path differ by on top of a tolerance");
+        app.add_flag("--explain", options.explain,
+                     "name the causes of a difference of lit also where it passes")
+            ->group(output_group);
         addLater(app, parsed, "--pixel", "X,Y", "one pixel's whole story");
     } else if (command == "render") {
         addFiles(app, options,

@@ -62,6 +62,16 @@ std::string reproductionLine(const Explanation& e, const ExplainedPictures& of) 
         100 * e.reproduction[0], of.baseline, 100 * e.reproduction[1], of.test);
 }
 
+std::string inShort(const Explanation& e) {
+    if (e.distance == 0) return "lit does not differ";
+    std::string causes;
+    for (const Cause& cause : e.causes)
+        causes += fmt::format("{} {} {:.1f} %", causes.empty() ? " because of" : ",", cause.name,
+                              100 * e.shareOf(cause.share));
+    return fmt::format("lit differs{}; unexplained {:.1f} %",
+                       causes.empty() ? " by nothing that is known" : causes, 100 * e.shareOf(e.unexplained));
+}
+
 std::string inWords(const Explanation& e, const ExplainedPictures& of) {
     std::string text = fmt::format(
         "{}: lit of {} differs from that of {} by {:.4g} W/(sr m^2) in the mean, FLIP "

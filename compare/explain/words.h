@@ -33,6 +33,8 @@ std::string reproductionLine(const Explanation& explanation, const ExplainedPict
 // Of the pixels where some cause counts, the share where this one counts most, 0 to 1.
 double dominatedShare(const Explanation& explanation, std::size_t cause);
 
+// "lit differs because of albedo 69.1 %, roughness 10.9 %, ...; unexplained 0.0 %".
+std::string inShort(const Explanation& explanation);
 std::string inWords(const Explanation& explanation, const ExplainedPictures& of);
 nlohmann::ordered_json toJson(const Explanation& explanation, const ExplainedPictures& of);
 
