@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Explanations of differences whose causes are known, because they were planted.
 #include "compare/explain/explain.h"
+#include "compare/explain/lighting_stages.h"
 #include "compare/picture/picture.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
@@ -274,6 +275,108 @@ TEST(Explain, APackedGBufferIsExplainedByItsChannels) {
         expectMapsAddUp(e, baseline, test);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
+}
+
+std::vector<int> withTerms() {
+    std::vector<int> modes = explainedChannels();
+    for (const int term : termChannels()) modes.push_back(term);
+    for (const gpu::uint more :
+         {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility, gpu::DEBUG_light_count})
+        modes.push_back(mode(more));
+    return modes;
+}
+
+// lit as another renderer with these terms would have it, where nothing is blended.
+void sumTerms(Frame& frame) {
+    const auto data = [&](gpu::uint number) { return frame.channels.at(mode(number)).data.data(); };
+    Image& sum = frame.channels.at(lit);
+    const float *const ids = data(gpu::DEBUG_material_id), *const d = data(gpu::DEBUG_lit_diffuse),
+                       *const s = data(gpu::DEBUG_lit_specular), *const a = data(gpu::DEBUG_lit_ambient),
+                       *const e = data(gpu::DEBUG_emission), *const t = data(gpu::DEBUG_transmittance),
+                       *const h = data(gpu::DEBUG_lit_haze);
+    float* const out = sum.data.data();
+    for (std::size_t i = 0; i < sum.data.size(); ++i)
+        if (ids[i / 3] >= 0) out[i] = (((d[i] + s[i]) + a[i]) + e[i]) * t[i] + h[i];
+}
+
+// A renderer that does one stage otherwise is told which, and all its difference is there.
+TEST(Explain, NamesTheStageThatTermsDifferIn) {
+    const Scene scene = loadScene("builtin:points");
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = explained({64, 36});
+    settings.haze = true;
+    const Frame right = drawnBy(Path::forward_plus, renderer, settings, withTerms());
+    struct Scaled {
+        const char* stage;
+        std::vector<gpu::uint> terms;
+        float scale;
+    };
+    for (const Scaled& fault : {Scaled{"direct diffuse", {gpu::DEBUG_lit_diffuse}, 0.8f},
+                                {"direct specular", {gpu::DEBUG_lit_specular}, 1.5f},
+                                {"ambient light", {gpu::DEBUG_lit_ambient}, 0.5f},
+                                {"haze in the air", {gpu::DEBUG_lit_haze, gpu::DEBUG_transmittance}, 0.9f},
+                                {"sum of terms", {}, 1.1f}}) {
+        SCOPED_TRACE(fault.stage);
+        Frame test = right;
+        for (const gpu::uint term : fault.terms)
+            for (float& value : test.channels.at(mode(term)).data) value *= fault.scale;
+        if (fault.terms.empty()) {
+            const Image& ids = test.channels.at(mode(gpu::DEBUG_material_id));
+            Image& all = test.channels.at(lit);
+            for (std::size_t p = 0; p < all.pixels(); ++p)
+                for (int c = 0; c < 3 && ids.pixel(p)[0] >= 0; ++c) all.pixel(p)[c] *= fault.scale;
+        } else {
+            sumTerms(test);
+        }
+        const Explanation e = explain(device(), renderer, scene, right, test);
+        ASSERT_GT(e.distance, 0);
+        ASSERT_FALSE(e.causes.empty());
+        EXPECT_EQ(e.causes.front().name, fault.stage);
+        EXPECT_NEAR(e.causes.front().share, e.distance, 1e-5 * e.distance);
+        EXPECT_LE(e.unexplained, 1e-5 * e.distance);
+        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        expectMapsAddUp(e, right, test);
+    }
+}
+
+// A channel and a stage at once, and direct light that is seen otherwise.
+TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
+    const Scene scene = loadScene("builtin:points");
+    Renderer renderer(device(), scene, pipelines());
+    const Settings settings = explained({64, 36});
+    const Frame right = drawnBy(Path::forward_plus, renderer, settings, withTerms());
+    Frame test = right;
+    for (const gpu::uint term : {gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
+        for (float& value : test.channels.at(mode(term)).data) value *= 0.5f;
+    for (float& share : test.channels.at(mode(gpu::DEBUG_shadow_visibility)).data) share *= 0.5f;
+    sumTerms(test);
+    Explanation e = explain(device(), renderer, scene, right, test);
+    ASSERT_FALSE(e.causes.empty());
+    EXPECT_EQ(names(e), std::vector<std::string>{"shadow_visibility"});
+    EXPECT_NEAR(e.causes.front().share, e.distance, 1e-5 * e.distance);
+
+    for (float& value : test.channels.at(mode(gpu::DEBUG_emission)).data) value += 0.01f;
+    const Image& ids = test.channels.at(mode(gpu::DEBUG_material_id));
+    for (std::size_t p = 0; p < ids.pixels(); ++p)
+        if (ids.pixel(p)[0] < 0) std::fill_n(test.channels.at(mode(gpu::DEBUG_emission)).pixel(p), 3, 0.0f);
+    sumTerms(test);
+    e = explain(device(), renderer, scene, right, test);
+    const std::vector<std::string> both = names(e);
+    EXPECT_EQ(both.size(), 2u);
+    EXPECT_EQ(std::ranges::count(both, "shadow_visibility") + std::ranges::count(both, "emission"), 2);
+    EXPECT_LE(e.unexplained, 1e-5 * e.distance);
+    EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+}
+
+// Without terms the same difference is what no cause explains.
+TEST(Explain, WithoutTermsTheRestStaysUnexplained) {
+    Planted planted("builtin:points", {32, 18});
+    Frame test = planted.right;
+    for (std::size_t p = 0; p < test.channels.at(lit).pixels(); ++p)
+        if (planted.covered(p)) test.channels.at(lit).pixel(p)[0] *= 1.1f;
+    const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, test);
+    EXPECT_TRUE(e.causes.empty());
+    EXPECT_EQ(e.unexplained, e.distance);
 }
 
 TEST(Explain, MissingChannelsAreNamed) {
