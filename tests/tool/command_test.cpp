@@ -296,6 +296,32 @@ TEST(Command, ExplainReadsPictures) {
     EXPECT_EQ(runTool(folder, "explain a.exr b.exr --test haze=on").code, 2);
 }
 
+// A file of another renderer that has the terms of its lit: of which term the difference is.
+TEST(Command, ExplainNamesTheStageOfAnotherRenderer) {
+    const Folder folder;
+    const std::string scene = "builtin:points";
+    ASSERT_EQ(runTool(folder, "render " + scene + " --size 64x36 --path forward_plus -o a.exr").code, 0);
+    PictureFile theirs = readExr(folder / "a.exr");
+    const auto layer = [&](std::string_view name) -> Image& {
+        return std::ranges::find(theirs.layers, name, &PictureLayer::name)->image;
+    };
+    Image &lit = layer(""), &specular = layer("lit_specular");
+    for (std::size_t p = 0; p < lit.pixels(); ++p)
+        for (int c = 0; c < 3; ++c) {
+            lit.pixel(p)[c] += 0.5f * specular.pixel(p)[c];
+            specular.pixel(p)[c] *= 1.5f;
+        }
+    std::vector<ExrLayerView> views;
+    for (const PictureLayer& one : theirs.layers) views.push_back({one.channels, &one.image});
+    writeExr(folder / "b.exr", views);
+    const Ran ran = runTool(folder, "explain a.exr b.exr -o why --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json found = parsed(ran);
+    EXPECT_EQ(found["causes"][0]["name"], "direct specular") << ran.out;
+    EXPECT_NEAR(found["causes"][0]["share"], 1, 1e-3);
+    EXPECT_TRUE(fs::exists(folder / "why/share-1.direct-specular.png"));
+}
+
 TEST(Command, ExplainRefusesWhatItCannotSwap) {
     const Folder folder;
     for (const auto& [options, word] : {std::pair{"--test foo=1", "foo"},
