@@ -10,36 +10,61 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace diptych {
 
-ImageRef addChannelLighting(PassList& passes, const FrameInputs& inputs, ImageRef depth,
-                            std::shared_ptr<const DescriptorSets> channels) {
+namespace {
+
+// Shades surfaces of channels into `targets`, each cleared to 0.
+void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+                std::shared_ptr<const DescriptorSets> channels, const char* name, Shader fragment,
+                std::span<const ImageRef> targets) {
     const gpu::uint most = inputs.device.profile().packets_per_draw;
     if (inputs.longest_list > most)
         throw std::runtime_error(fmt::format(
             "lighting of channels walks {} packets of lights at most, and a list has {}; use --assign "
             "clustered or tiled, or --light-cutoff",
             most, inputs.longest_list));
-    const ImageRef lit = passes.image({.name = "lit of channels", .format = litFormat});
-    Pass& pass = passes.draw("shade channels").color(lit, Load::clear);
+    Pass& pass = passes.draw(name);
+    for (const ImageRef target : targets) pass.color(target, Load::clear);
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
     pass.samples(depth, inFragment).depthTest(depth);
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
-                                                                 .fragment = Shader::deferred_channels_frag,
-                                                                 .variant = lightingVariant(inputs),
-                                                                 .input = NO_VERTICES,
-                                                                 .colors = {litFormat},
-                                                                 .depth = depthFormat,
-                                                                 .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                                                 .depth_write = false});
+    const VkPipeline pipeline =
+        inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_lighting_vert,
+                                         .fragment = fragment,
+                                         .variant = lightingVariant(inputs),
+                                         .input = NO_VERTICES,
+                                         .colors = std::vector<VkFormat>(targets.size(), litFormat),
+                                         .depth = depthFormat,
+                                         .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                                         .depth_write = false});
     pass.record(recordVertices(inputs, pipeline, std::move(channels), 3, 1));
+}
+
+}  // namespace
+
+ImageRef addChannelLighting(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+                            std::shared_ptr<const DescriptorSets> channels) {
+    const ImageRef lit = passes.image({.name = "lit of channels", .format = litFormat});
+    addShading(passes, inputs, depth, std::move(channels), "shade channels", Shader::deferred_channels_frag,
+               std::span(&lit, 1));
     addBackground(passes, inputs, depth, lit);
     addTransparent(passes, inputs, depth, lit);
     return lit;
+}
+
+std::array<ImageRef, 5> addChannelTerms(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+                                        std::shared_ptr<const DescriptorSets> channels) {
+    std::array<ImageRef, 5> terms;
+    for (ImageRef& term : terms) term = passes.image({.name = "term of channels", .format = litFormat});
+    addShading(passes, inputs, depth, std::move(channels), "shade terms of channels",
+               Shader::deferred_channel_terms_frag, terms);
+    return terms;
 }
 
 }  // namespace diptych

@@ -4,6 +4,7 @@
 
 #include "shared/draw/frame_inputs.h"
 
+#include <array>
 #include <memory>
 
 namespace diptych {
@@ -14,5 +15,10 @@ namespace diptych {
 // one. Throws std::runtime_error, one line, where a list of lights is longer than one draw walks.
 ImageRef addChannelLighting(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                             std::shared_ptr<const DescriptorSets> channels);
+
+// Adds one pass that shades them into the terms of lit, before anything is blended: lit_diffuse,
+// lit_specular, lit_ambient, lit_haze, transmittance. Throws as above.
+std::array<ImageRef, 5> addChannelTerms(PassList& passes, const FrameInputs& inputs, ImageRef depth,
+                                        std::shared_ptr<const DescriptorSets> channels);
 
 }  // namespace diptych

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
+#include "compare/cli/explanations.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
 #include "compare/files/output.h"
@@ -268,9 +269,14 @@ int runCompare(const Options& options) {
     report.errors = std::move(drawn.errors);
     for (Comparison& comparison : report.comparisons)
         comparison.command = withOption(comparison.command, "-o", againFolder(folder));
+    double explained = comparing;
+    if (isExplained(options, report)) {
+        explained = 0.5 * (1 + comparing);
+        addExplanations(options, device, report, stage.part(comparing, explained));
+    }
     const std::string json =
         writeReport(report, folder,
-                    {picture, options.single_file, options.keep, options.force, stage.part(comparing, 1)});
+                    {picture, options.single_file, options.keep, options.force, stage.part(explained, 1)});
     kept.remove();
     progress.wipe();
     noteLeftByOthers(options, kept);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
+#include "compare/cli/explanations.h"
 #include "compare/explain/words.h"
+#include "compare/explain/write.h"
 #include "compare/files/frame_exr.h"
+#include "compare/run/command_text.h"
 
 #include <fmt/format.h>
 
@@ -47,12 +50,21 @@ Settings testOf(const Options& options, std::string& name) {
     return test;
 }
 
-void print(const Options& options, const Explanation& explanation, const ExplainedPictures& of) {
+// Prints what was found, and writes it where -o says so.
+void leave(const Options& options, const PictureChoice& picture, const Device& device,
+           const Explanation& explanation, const ExplainedPictures& of, const Frame& baseline,
+           const Frame& test) {
+    std::string json;
+    if (!options.out.empty())
+        json = writeExplanation(explanation, of, baseline, test, picture, device.info().name, options.out,
+                                options.force);
     wipeProgress();
-    if (options.json)
-        fmt::print("{}\n", toJson(explanation, of).dump(2));
-    else if (!options.quiet)
+    if (options.json) {
+        fmt::print("{}", json.empty() ? toJson(explanation, of).dump(2) + "\n" : json);
+    } else if (!options.quiet) {
         printColored(options, inWords(explanation, of));
+        if (!options.out.empty()) fmt::print("page: {}\n", (options.out / "index.html").string());
+    }
 }
 
 int explainScene(const Options& options) {
@@ -67,6 +79,13 @@ int explainScene(const Options& options) {
     baseline.path = options.baseline;
     if (const auto problem = baseline.problem()) throw std::runtime_error(*problem);
     const Settings test = testOf(options, of.test);
+    of.commands = {{"Explain it again",
+                    shellLine(explainWords(of.scene, options.settings, options.baseline, options.test))},
+                   {"The baseline by itself", commandOf("render", of.scene, baseline)},
+                   {"The test by itself", commandOf("render", of.scene, test)}};
+    if (options.test.empty())
+        of.commands.push_back({"Every channel of both", commandOf("compare", of.scene, baseline)});
+    const PictureChoice picture = pictureChoice(options);
     Progress progress(progressOutput(options));
     const Stage stage(progress, of.scene);
     const Scene scene = loadShown(of.scene, options.settings, stage.part(0, 0.1));
@@ -83,7 +102,7 @@ int explainScene(const Options& options) {
     const Frame b = renderer.draw(test, drawing);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
     checkValidation(device);
-    print(options, explanation, of);
+    leave(options, picture, device, explanation, of, a, b);
     return 0;
 }
 
@@ -132,7 +151,15 @@ int explainFiles(const Options& options) {
     if (where.empty())
         throw std::runtime_error(fmt::format("{}, {}: neither says of which scene it is; --scene FILE does",
                                              options.scenes[0], options.scenes[1]));
-    const ExplainedPictures of{where, options.scenes[0], options.scenes[1]};
+    std::vector<std::string> words{"explain", options.scenes[0], options.scenes[1]};
+    if (!options.scene_file.empty()) words = withOption(std::move(words), "--scene", options.scene_file);
+    const ExplainedPictures of{
+        where,
+        options.scenes[0],
+        options.scenes[1],
+        {{"Explain it again", shellLine(words)},
+         {"Every channel of both", shellLine({"diff", options.scenes[0], options.scenes[1]})}}};
+    const PictureChoice picture = pictureChoice(options);
     Progress progress(progressOutput(options));
     const Stage stage(progress, where);
     const Scene scene = loadShown(where, a.settings, stage.part(0, 0.3));
@@ -142,14 +169,14 @@ int explainFiles(const Options& options) {
     Renderer renderer(device, views);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.3, 1));
     checkValidation(device);
-    print(options, explanation, of);
+    leave(options, picture, device, explanation, of, a, b);
     return 0;
 }
 
 }  // namespace
 
 int runExplain(const Options& options) {
-    refuseOut(options);
+    if (!options.out.empty()) outputFolder(options, "", "explanation", explanationManifest);
     if (options.cameras.size() != 1)
         throw std::runtime_error(fmt::format(
             "--camera {}: an explanation is of one view; run it once for each", options.cameras[1]));

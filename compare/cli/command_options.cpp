@@ -22,7 +22,7 @@ const Command commands[] = {
      "diptych tradeoff helmet.glb --size 320x180 -o helmet-tradeoff", true},
     {"explain",
      "The causes of a difference of lit, ranked: which channels and Settings, by how much, and where",
-     "diptych explain helmet.glb --gbuffer compact", true},
+     "diptych explain helmet.glb --gbuffer compact -o helmet-causes", true},
     {"choose", "The fastest Settings within an error, or the most accurate within a time or a memory",
      "diptych choose helmet.glb --max-error 0.02", true},
     {"audit", "Pushes scene and camera to numerical extremes", "diptych audit helmet.glb --quantity near,fov",
@@ -220,11 +220,10 @@ void hideUnread(CLI::App& app, const std::string& command) {
         hide(app, {"--debug", "--heat"});
         app.get_option("--path")->description("which path --update-baseline writes (that of the file)");
     }
-    if (command == "bench" || command == "tradeoff" || command == "choose")
+    if (command == "bench" || command == "tradeoff" || command == "choose" || command == "explain")
         hide(app, {"--debug", "--heat", "--channels", "--list-channels"});
     if (command == "explain") {
-        hideGroup(app, picture_group);
-        hide(app, {"--path", "--out", "--force", "--runs"});
+        hide(app, {"--path", "--runs"});
     }
     if (command == "bench" || command == "choose") hideGroup(app, picture_group);
     if (command == "choose") hide(app, {"--path", "--runs"});
@@ -361,6 +360,9 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addTolerances(app, options);
         app.add_flag("--allow-noise", options.allow_noise,
                      "GPU: grant what two runs of one path differ by on top of a tolerance");
+        app.add_flag("--explain", options.explain,
+                     "name the causes of a difference of lit also where it passes")
+            ->group(output_group);
         addLater(app, parsed, "--pixel", "X,Y", "one pixel's whole story");
     } else if (command == "render") {
         addFiles(app, options,
@@ -373,7 +375,7 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         addFiles(app, options, "X.json: the chosen Settings; without it nothing is written");
         addGrid(app, options, "each by itself, and those that help together");
     } else if (command == "explain") {
-        addFiles(app, options, "refused: explain writes no file, --json prints one");
+        addFiles(app, options, "folder of the page, the maps and the JSON; without it nothing is written");
         app.add_option("--baseline", parsed.baseline, "the picture that is right (deferred)")
             ->type_name("deferred|forward_plus");
         app.add_option("--scene", options.scene_file, "the scene of two EXR files that do not say it")

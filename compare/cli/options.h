@@ -56,6 +56,7 @@ struct Options {
     Keep keep = Keep::all;                // compare, diff: of which comparisons a report keeps pictures, EXRs
     SelectionOptions selection;           // compare: pixels
     bool allow_noise = false;             // compare
+    bool explain = false;                 // compare: why lit differs also where it passes
     std::filesystem::path baseline_file;  // compare: instead of a path; empty: none
     std::string scene_file;  // explain, of two EXR files: their scene; empty: the one that they name
     // explain: Settings of the test that are others than the baseline's, in the words of Settings::set().

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/explain.h"
 
+#include "compare/explain/lighting_stages.h"
 #include "compare/metrics/flip.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
@@ -26,7 +27,8 @@ namespace diptych {
 namespace {
 
 constexpr int litMode = static_cast<int>(gpu::DEBUG_lit), idMode = static_cast<int>(gpu::DEBUG_material_id),
-              lightmapMode = static_cast<int>(gpu::DEBUG_lightmap);
+              lightmapMode = static_cast<int>(gpu::DEBUG_lightmap),
+              emissionMode = static_cast<int>(gpu::DEBUG_emission);
 constexpr int sampledOrderCount = 40;  // beyond mostExactCauses; each of as many subsets as there are causes
 constexpr double namedPair = 0.05;
 
@@ -125,6 +127,7 @@ public:
         upload();
         findRest();
         found_.dominant = Image(lit_[0]->width, lit_[0]->height, 1, -1.0f);
+        found_.unexplained_map = imageOf(errors_);
         if (found_.distance > 0) {
             findCauses();
             share();
@@ -134,10 +137,10 @@ public:
     }
 
 private:
-    enum class Kind { channel, rest, setting };
+    enum class Kind { channel, rest, stage, setting };
     struct Swapped {
         Kind kind;
-        std::size_t channel = 0;  // of surfaceChannels()
+        std::size_t place = 0;  // of surfaceChannels(), or of LightingStages::stages()
         std::string name, shows;
     };
 
@@ -195,7 +198,8 @@ private:
     void findRest() {
         for (std::size_t side = 0; side < 2; ++side) {
             const Frame& frame = *frames_.at(side);
-            const Image& own = shade(frame.settings, side == 0 ? 0u : ~0u);
+            const std::uint32_t sides = side == 0 ? 0u : ~0u;
+            const Image& own = shade(frame.settings, sides);
             const Image& all = *lit_.at(side);
             Image& rest = rest_.at(side) = Image(all.width, all.height, 3);
             double sum = 0, off = 0;
@@ -221,6 +225,25 @@ private:
         return {};
     }
 
+    // Where both say the terms of their lit, in which of them the rest is.
+    void findStages() {
+        if (!restName().empty() || sameBits(rest_[0], rest_[1]) || !haveTerms(*frames_[0], *frames_[1]))
+            return;
+        std::array<LitSurfaces, 2> own;
+        for (std::size_t side = 0; side < 2; ++side)
+            own.at(side) = surfaces(frames_.at(side)->settings, side == 0 ? 0u : ~0u);
+        stages_.emplace(*frames_[0], *frames_[1], own);
+    }
+
+    // Our lighting of surfaces, and its terms.
+    LitSurfaces surfaces(const Settings& settings, std::uint32_t sides) {
+        LitSurfaces made{shade(settings, sides), shading_->terms(sides), nullptr};
+        const auto channel = static_cast<std::size_t>(std::ranges::find(surfaceChannels(), emissionMode) -
+                                                      surfaceChannels().begin());
+        made.emission = &channelOf(*frames_.at(sides >> channel & 1u), emissionMode);
+        return made;
+    }
+
     void findCauses() {
         const Settings &a = frames_[0]->settings, &b = frames_[1]->settings;
         std::vector<Swapped> settings;
@@ -242,6 +265,9 @@ private:
         if (!restName().empty() && !sameBits(rest_[0], rest_[1]))
             causes_.push_back(
                 {Kind::rest, 0, restName(), "what the lighting of a side's own channels leaves of its lit"});
+        findStages();
+        for (std::size_t i = 0; stages_ && i < stages_->stages().size(); ++i)
+            causes_.push_back({Kind::stage, i, stages_->stages()[i].name, stages_->stages()[i].shows});
         // Last, so that subsets of the same Settings follow each other: they need a frame each.
         causes_.insert(causes_.end(), settings.begin(), settings.end());
         if (causes_.size() > sizeOf(mostCauses))
@@ -267,17 +293,21 @@ private:
 
     // lit of the test with a subset of the causes taken from the baseline.
     Image swapped(Subset subset) {
+        if (subset == 0) return *lit_[1];
         std::uint32_t sides = ~0u;
+        std::vector<bool> stages(stages_ ? stages_->stages().size() : 0);
         std::size_t rest = 1;
         Settings settings = frames_[1]->settings;
         for (std::size_t i = 0; i < causes_.size(); ++i) {
             if ((subset >> i & 1) == 0) continue;
             const Swapped& cause = causes_[i];
-            if (cause.kind == Kind::channel) sides &= ~(std::uint32_t{1} << cause.channel);
+            if (cause.kind == Kind::channel) sides &= ~(std::uint32_t{1} << cause.place);
             if (cause.kind == Kind::rest) rest = 0;
+            if (cause.kind == Kind::stage) stages[cause.place] = true;
             if (cause.kind == Kind::setting)
                 settings.set(cause.name, frames_[0]->settings.valueOf(cause.name));
         }
+        if (stages_) return stages_->lit(surfaces(settings, sides), stages);
         Image lit = shade(settings, sides);
         const Image& added = rest_.at(rest);
         for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] += added.data[i];
@@ -299,6 +329,7 @@ private:
             values[subsets[s].subset] = -meanOf(errors_);
             if (subsets[s].subset == all) {
                 found_.unexplained = meanOf(errors_);
+                found_.unexplained_map = imageOf(errors_);
                 found_.flip_unexplained = hdrFlip(*lit_[0], lit).mean;
             }
             tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t i) {
@@ -311,6 +342,14 @@ private:
         const Shares shares =
             exact ? exactShares(count, value) : sampledShares(count, value, sampledOrderCount, 1);
         rank(shares, maps);
+    }
+
+    // Of a value a pixel.
+    Image imageOf(const std::vector<double>& values) const {
+        Image image(lit_[0]->width, lit_[0]->height, 1);
+        std::ranges::transform(values, image.data.begin(),
+                               [](double value) { return static_cast<float>(value); });
+        return image;
     }
 
     std::vector<MaterialShare> byMaterial(const std::vector<double>& map, double sign) const {
@@ -352,7 +391,7 @@ private:
             found_.causes.push_back({nameOfCause(causes_[i]), causes_[i].shows, shares.share[i],
                                      shares.interval[i], shares.alone[i], shares.last[i], maps[i][worst],
                                      static_cast<int>(worst % width), static_cast<int>(worst / width),
-                                     byMaterial(maps[i], sign)});
+                                     byMaterial(maps[i], sign), imageOf(maps[i])});
         }
         for (std::size_t p = 0; p < errors_.size(); ++p)
             for (std::size_t k = 0; k < order.size(); ++k) {
@@ -381,6 +420,7 @@ private:
     SurfaceImages images_;
     const std::array<const Image*, 2> lit_;
     std::array<Image, 2> rest_;
+    std::optional<LightingStages> stages_;
     std::vector<std::size_t> channel_causes_;
     std::vector<Swapped> causes_;
     std::optional<ChannelShading> shading_;

@@ -37,6 +37,9 @@ struct Cause {
     double worst = 0;            // the share at the pixel where it is largest, W/(sr m^2)
     int worst_x = 0, worst_y = 0;
     std::vector<MaterialShare> materials;  // of the baseline's pixels; descending
+    // W x H x 1: what the pixel adds to the share, times the number of pixels: W/(sr m^2). Its mean is the
+    // share; it is negative where the cause makes up for others.
+    Image map;
 };
 
 // Two causes that do more or less together than each by itself.
@@ -61,6 +64,7 @@ struct Explanation {
     // W x H x 1: the place in `causes` of that with the largest share at the pixel; -1 where no cause brings
     // lit nearer.
     Image dominant;
+    Image unexplained_map;  // W x H x 1, as Cause::map; all maps together are the difference at the pixel
 
     // What all causes bring, as a share of the distance: 0 where there is none.
     double shareOf(double share) const { return distance > 0 ? share / distance : 0.0; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/words.h"
 
+#include "compare/files/our_files.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,20 +16,6 @@ namespace {
 
 constexpr std::size_t namedMaterials = 3;  // in words
 constexpr double namedMaterial = 0.01;     // of a cause's share, in JSON
-
-std::string materialName(const MaterialShare& material) {
-    if (material.material < 0) return "background";
-    return material.name.empty() ? fmt::format("material {}", material.material)
-                                 : fmt::format("material {}, {}", material.material, material.name);
-}
-
-// Of the pixels where some cause counts, how many have the cause as the one with the largest share.
-double dominatedShare(const Explanation& explanation, std::size_t cause) {
-    const auto& data = explanation.dominant.data;
-    const auto differ = std::ranges::count_if(data, [](float place) { return place >= 0; });
-    const auto own = std::ranges::count(data, static_cast<float>(cause));
-    return differ > 0 ? static_cast<double>(own) / static_cast<double>(differ) : 0.0;
-}
 
 std::string causeLine(const Explanation& all, std::size_t place) {
     const Cause& cause = all.causes[place];
@@ -44,15 +32,45 @@ std::string causeLine(const Explanation& all, std::size_t place) {
     return line;
 }
 
+}  // namespace
+
+std::string materialName(const MaterialShare& material) {
+    if (material.material < 0) return "background";
+    return material.name.empty() ? fmt::format("material {}", material.material)
+                                 : fmt::format("material {}, {}", material.material, material.name);
+}
+
+double dominatedShare(const Explanation& explanation, std::size_t cause) {
+    const auto& data = explanation.dominant.data;
+    const auto differ = std::ranges::count_if(data, [](float place) { return place >= 0; });
+    const auto own = std::ranges::count(data, static_cast<float>(cause));
+    return differ > 0 ? static_cast<double>(own) / static_cast<double>(differ) : 0.0;
+}
+
 std::string pairLine(const Explanation& all, const CausePair& pair) {
     return fmt::format(
-        "{} and {}: {} ({:+.1f} % together beyond each alone)\n", all.causes[pair.first].name,
+        "{} and {}: {} ({:+.1f} % together beyond each alone)", all.causes[pair.first].name,
         all.causes[pair.second].name,
         pair.interaction < 0 ? "either does what the other does" : "each hides what the other does",
         100 * all.shareOf(pair.interaction));
 }
 
-}  // namespace
+std::string reproductionLine(const Explanation& e, const ExplainedPictures& of) {
+    if (std::max(e.reproduction[0], e.reproduction[1]) == 0) return {};
+    return fmt::format(
+        "the lighting of its own channels is off lit by {:.2g} % of it in {}, by {:.2g} % in {}",
+        100 * e.reproduction[0], of.baseline, 100 * e.reproduction[1], of.test);
+}
+
+std::string inShort(const Explanation& e) {
+    if (e.distance == 0) return "lit does not differ";
+    std::string causes;
+    for (const Cause& cause : e.causes)
+        causes += fmt::format("{} {} {:.1f} %", causes.empty() ? " because of" : ",", cause.name,
+                              100 * e.shareOf(cause.share));
+    return fmt::format("lit differs{}; unexplained {:.1f} %",
+                       causes.empty() ? " by nothing that is known" : causes, 100 * e.shareOf(e.unexplained));
+}
 
 std::string inWords(const Explanation& e, const ExplainedPictures& of) {
     std::string text = fmt::format(
@@ -71,12 +89,9 @@ std::string inWords(const Explanation& e, const ExplainedPictures& of) {
                         ? "unexplained: with every cause swapped lit still differs by so much, so something "
                           "else does it that no channel and no Setting says"
                         : "unexplained");
-    for (const CausePair& pair : e.pairs) text += pairLine(e, pair);
+    for (const CausePair& pair : e.pairs) text += pairLine(e, pair) + "\n";
     if (!e.inert.empty()) text += fmt::format("differs and changes no pixel: {}\n", fmt::join(e.inert, ", "));
-    if (std::max(e.reproduction[0], e.reproduction[1]) > 0)
-        text += fmt::format(
-            "the lighting of its own channels is off lit by {:.2g} % of it in {}, by {:.2g} % in {}\n",
-            100 * e.reproduction[0], of.baseline, 100 * e.reproduction[1], of.test);
+    if (const std::string line = reproductionLine(e, of); !line.empty()) text += line + "\n";
     return text + fmt::format("{} pictures shaded, {} frames drawn for them\n", e.subsets, e.frames);
 }
 
@@ -105,6 +120,7 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
         pairs.push_back({{"causes", {e.causes[pair.first].name, e.causes[pair.second].name}},
                          {"interaction", e.shareOf(pair.interaction)}});
     return {{"schema", 1},
+            {"software", softwareName},
             {"scene", of.scene},
             {"baseline", of.baseline},
             {"test", of.test},
@@ -118,7 +134,8 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
             {"reproduction", {e.reproduction[0], e.reproduction[1]}},
             {"shaded", e.subsets},
             {"nonfinite", e.nonfinite},
-            {"drawn", e.frames}};
+            {"drawn", e.frames},
+            {"command", of.commands.empty() ? Json(nullptr) : Json(of.commands.front().line)}};
 }
 
 }  // namespace diptych

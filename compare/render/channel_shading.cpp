@@ -100,6 +100,13 @@ struct ChannelShading::State {
         lit = addChannelLighting(frame.passes, frame.view.inputs, frame.images.depth, sets);
         sets->image(0, gpu::BINDING_DEPTH, frame.passes.view(frame.images.depth), nearest,
                     VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+        last = frame.passes.size();
+    }
+
+    void bind(std::uint32_t sides) {
+        for (std::size_t channel = 0; channel < channelCount; ++channel)
+            sets->image(0, channelBindings.at(channel), images.view(sides >> channel & 1u, channel), nearest,
+                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 
     const Settings settings;  // which the view refers to
@@ -107,8 +114,9 @@ struct ChannelShading::State {
     PreparedFrame frame;
     std::shared_ptr<DescriptorSets> sets;
     VkSampler nearest;
-    std::size_t first = 0;
+    std::size_t first = 0, last = 0;  // passes of lit
     ImageRef lit;
+    std::optional<std::array<ImageRef, 5>> terms;  // made when they are asked for
 };
 
 ChannelShading::ChannelShading(Device& device, SharedResources& shared, const SceneView& view,
@@ -118,14 +126,25 @@ ChannelShading::ChannelShading(ChannelShading&&) noexcept = default;
 ChannelShading::~ChannelShading() = default;
 
 Image ChannelShading::shade(std::uint32_t sides) {
-    for (std::size_t channel = 0; channel < channelCount; ++channel)
-        state_->sets->image(0, channelBindings.at(channel),
-                            state_->images.view(sides >> channel & 1u, channel), state_->nearest,
-                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    state_->bind(sides);
     PassList& passes = state_->frame.passes;
-    passes.run(state_->first, passes.size());
+    passes.run(state_->first, state_->last);
     const PassList::ReadBack request{state_->lit, 3};
     return std::move(readImages(passes, std::span(&request, 1)).front());
+}
+
+ChannelTerms ChannelShading::terms(std::uint32_t sides) {
+    PassList& passes = state_->frame.passes;
+    if (!state_->terms)
+        state_->terms =
+            addChannelTerms(passes, state_->frame.view.inputs, state_->frame.images.depth, state_->sets);
+    state_->bind(sides);
+    passes.run(state_->last, passes.size());
+    std::vector<PassList::ReadBack> requests;
+    for (const ImageRef term : *state_->terms) requests.push_back({term, 3});
+    std::vector<Image> read = readImages(passes, requests);
+    return {std::move(read[0]), std::move(read[1]), std::move(read[2]), std::move(read[3]),
+            std::move(read[4])};
 }
 
 }  // namespace diptych

@@ -39,6 +39,12 @@ private:
     std::unique_ptr<State> state_;
 };
 
+// What lit of opaque surfaces is the sum of: ((diffuse + specular + ambient) + emission) transmittance +
+// haze. W x H x 3 each, 0 in the background.
+struct ChannelTerms {
+    Image diffuse, specular, ambient, haze, transmittance;
+};
+
 // One view under one Settings. What it is made of must outlive it.
 class ChannelShading {
 public:
@@ -52,6 +58,8 @@ public:
 
     // lit, W x H x 3. Bit i of `sides`: of which side channel i is.
     Image shade(std::uint32_t sides);
+    // The terms of the same, before anything is blended.
+    ChannelTerms terms(std::uint32_t sides);
 
 private:
     struct State;

@@ -263,9 +263,11 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
     const bool several = report.comparisons.size() > 1;
     return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", index,
                        several ? markup(titleOf(report, layout, comparison)) : "Channels") +
-           overview(comparison, index) + channelCards(report, layout, index) +
-           checksSection(report, layout, index) + "<h2>What was compared</h2>\n" +
-           frameTables(report, comparison) + exrLinks(layout, comparison) + "</section>\n";
+           overview(comparison, index) +
+           (comparison.explained ? comparison.explained->html(layout.source(layout.cause_maps[index])) : "") +
+           channelCards(report, layout, index) + checksSection(report, layout, index) +
+           "<h2>What was compared</h2>\n" + frameTables(report, comparison) + exrLinks(layout, comparison) +
+           "</section>\n";
 }
 
 // With --single-file the later sections are text, from which the browser builds nothing until one is opened.

@@ -148,6 +148,7 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         {"failures", comparison.failures},
         {"notes", comparison.notes},
         {"channels", channels},
+        {"explanation", comparison.explained ? Json::parse(comparison.explained->json) : Json(nullptr)},
         {"marks", checks},
         {"marks_found", found}};
 }

@@ -108,6 +108,7 @@ std::vector<std::string> ReportLayout::files() const {
                      {&channel.baseline, &channel.test, &channel.difference, &channel.values})
                     add(*name);
         for (const auto& channels : closer_paths) std::ranges::for_each(channels, add);
+        std::ranges::for_each(cause_maps, add);
     }
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -140,6 +141,9 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
         const auto lit = left.channels.find(gpu::DEBUG_lit);
         const Exposure exposure = exposureFor(
             options.picture, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);
+        layout.cause_maps.push_back(kept && comparison.explained && comparison.explained->map
+                                        ? folders.comparisons[i] + "causes.png"
+                                        : "");
         auto& channels = layout.pictures.emplace_back();
         for (const ChannelDiff& channel : comparison.channels) {
             channels.push_back(picturesOf(report, comparison, channel, folders.comparisons[i], exposure));

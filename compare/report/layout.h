@@ -40,6 +40,7 @@ inline constexpr std::size_t comparisonsInPage = 4;
 struct ReportLayout {
     std::vector<std::string> exr;                        // per frame; empty: it gets none
     std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
+    std::vector<std::string> cause_maps;  // per comparison: of Comparison::explained; empty: it has none
     // A picture's name per Report::closer_paths and channel of it.
     std::vector<std::vector<std::string>> closer_paths;
     std::string folder;                           // of all scenes: names in the page leave it out

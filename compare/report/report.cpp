@@ -44,6 +44,10 @@ public:
             for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)
                 addPictures(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
                             layout_.pictures[i][k]);
+        for (std::size_t i = 0; i < report_.comparisons.size(); ++i)
+            if (!layout_.cause_maps[i].empty())
+                tasks.push_back(
+                    [this, i] { write(layout_.cause_maps[i], *report_.comparisons[i].explained->map); });
         for (std::size_t i = 0; i < report_.closer_paths.size(); ++i)
             for (std::size_t k = 0; k < report_.closer_paths[i].channels.size(); ++k)
                 if (!layout_.closer_paths[i][k].empty())

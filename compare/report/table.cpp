@@ -112,6 +112,7 @@ std::string reportTable(const Report& report) {
                 out += fmt::format(" ({}{}{})\n", channel.rule, channel.rule.empty() ? "" : ", because ",
                                    channel.tolerance.because);
             }
+        if (comparison.explained) out += "  " + comparison.explained->words + "\n";
         for (const ChannelDiff& channel : comparison.channels)
             if (!channel.rule.empty() && channel.verdict == Verdict::pass)
                 out += fmt::format("  {}: {}\n", channel.mode->name, channel.rule);

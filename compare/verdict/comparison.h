@@ -8,6 +8,7 @@
 #include "compare/verdict/after_blending.h"
 #include "compare/verdict/channel_diff.h"
 #include "compare/verdict/closer_path.h"
+#include "compare/verdict/explained.h"
 #include "compare/verdict/rules.h"
 #include "compare/verdict/selection.h"
 #include "shared/frame/frame.h"
@@ -33,6 +34,7 @@ struct Comparison {
     std::vector<std::string>
         command;  // the command line that repeats this comparison; --channels may be added
     std::vector<FeatureChecks> visual_checks;  // places that a person must look at
+    std::optional<Explained> explained;        // where it was asked for, and where lit fails
 
     bool passed() const;
 };

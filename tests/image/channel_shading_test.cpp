@@ -13,10 +13,14 @@
 namespace diptych::tests {
 namespace {
 
+constexpr gpu::uint litTerms[] = {gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular, gpu::DEBUG_lit_ambient,
+                                  gpu::DEBUG_lit_haze, gpu::DEBUG_transmittance};
+
 std::vector<int> shadedChannels() {
     std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
     modes.push_back(lit);
     modes.push_back(static_cast<int>(gpu::DEBUG_material_id));
+    for (const gpu::uint term : litTerms) modes.push_back(static_cast<int>(term));
     return modes;
 }
 
@@ -50,11 +54,20 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
                            mode == static_cast<int>(gpu::DEBUG_lightmap) ? lightmapped(scene, ids)
                                                                          : std::vector<std::uint8_t>{});
             }
-            const Image shaded = renderer.shadeChannels(settings, images).shade(0);
+            ChannelShading shading = renderer.shadeChannels(settings, images);
+            const ChannelTerms own_terms = shading.terms(0);
+            const Image shaded = shading.shade(0);
             const Image& own = frame.channels.at(lit);
             std::size_t differ = 0;
             for (std::size_t p = 0; p < own.pixels(); ++p)
                 differ += !std::equal(own.pixel(p), own.pixel(p) + 3, shaded.pixel(p));
+            const Image* const made[] = {&own_terms.diffuse, &own_terms.specular, &own_terms.ambient,
+                                         &own_terms.haze, &own_terms.transmittance};
+            for (std::size_t t = 0; t < std::size(litTerms); ++t) {
+                const Image& theirs = frame.channels.at(static_cast<int>(litTerms[t]));
+                for (std::size_t i = 0; i < theirs.data.size(); ++i)
+                    differ += theirs.data[i] != std::as_const(made[t]->data)[i];
+            }
             // Elsewhere the two pipelines may round apart.
             EXPECT_EQ(device().profile().bit_exact ? differ : 0u, 0u) << "of " << own.pixels();
         }

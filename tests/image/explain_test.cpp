@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Explanations of differences whose causes are known, because they were planted.
 #include "compare/explain/explain.h"
+#include "compare/explain/lighting_stages.h"
 #include "compare/picture/picture.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
@@ -108,6 +109,29 @@ double sumOfShares(const Explanation& e) {
                            [](double sum, const Cause& cause) { return sum + cause.share; });
 }
 
+// All maps together are the difference at each pixel, and each one's mean is its share.
+void expectMapsAddUp(const Explanation& e, const Frame& baseline, const Frame& test) {
+    const Image &a = baseline.channels.at(lit), &b = test.channels.at(lit);
+    const auto mean = [](const Image& map) {
+        return std::accumulate(map.data.begin(), map.data.end(), 0.0) / static_cast<double>(map.pixels());
+    };
+    for (const Cause& cause : e.causes) EXPECT_NEAR(mean(cause.map), cause.share, 1e-6 * e.distance);
+    EXPECT_NEAR(mean(e.unexplained_map), e.unexplained, 1e-6 * e.distance);
+    double all = mean(e.unexplained_map), worst = 0;
+    for (const Cause& cause : e.causes) all += mean(cause.map);
+    EXPECT_NEAR(all, e.distance, 1e-6 * e.distance);
+    for (std::size_t p = 0; p < a.pixels(); ++p) {
+        double difference = 0, sum = double{e.unexplained_map.pixel(p)[0]}, size = sum;
+        for (int c = 0; c < 3; ++c) difference += std::abs(double{a.pixel(p)[c]} - b.pixel(p)[c]) / 3;
+        for (const Cause& cause : e.causes) {
+            sum += double{cause.map.pixel(p)[0]};
+            size += std::abs(double{cause.map.pixel(p)[0]});
+        }
+        if (size > 0) worst = std::max(worst, std::abs(sum - difference) / size);
+    }
+    EXPECT_LE(worst, 1e-6);
+}
+
 std::vector<std::string> names(const Explanation& e) {
     std::vector<std::string> all;
     for (const Cause& cause : e.causes) all.push_back(cause.name);
@@ -136,9 +160,10 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
         EXPECT_EQ(e.causes.front().name, fault.channel);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
         EXPECT_LE(e.unexplained, 1e-6 * e.distance);
+        const Frame test = planted.with({fault});
+        expectMapsAddUp(e, planted.right, test);
         if (e.causes.size() > 1) continue;
         // The map: of one cause it is the difference itself.
-        const Frame test = planted.with({fault});
         const Image &a = planted.right.channels.at(lit), &b = test.channels.at(lit);
         std::size_t wrong = 0;
         for (std::size_t p = 0; p < a.pixels(); ++p)
@@ -210,6 +235,7 @@ TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
     ASSERT_FALSE(e.pairs.empty());
     EXPECT_GT(e.pairs.front().interaction, 0);
     for (const Cause& cause : e.causes) EXPECT_LT(cause.alone, 0) << "alone it makes things worse";
+    expectMapsAddUp(e, planted.right, hidden);
     EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
@@ -226,6 +252,7 @@ TEST(Explain, SettingsAreCauses) {
         ASSERT_FALSE(e.causes.empty()) << option;
         EXPECT_EQ(e.causes.front().name, "--" + option);
         EXPECT_GT(e.frames, 1u);
+        expectMapsAddUp(e, planted.right, test);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
 }
@@ -245,8 +272,111 @@ TEST(Explain, APackedGBufferIsExplainedByItsChannels) {
         EXPECT_LE(e.unexplained, 1e-6 * e.distance);
         EXPECT_EQ(e.reproduction[0], 0) << name;
         EXPECT_EQ(e.reproduction[1], 0) << name;
+        expectMapsAddUp(e, baseline, test);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
+}
+
+std::vector<int> withTerms() {
+    std::vector<int> modes = explainedChannels();
+    for (const int term : termChannels()) modes.push_back(term);
+    for (const gpu::uint more :
+         {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility, gpu::DEBUG_light_count})
+        modes.push_back(mode(more));
+    return modes;
+}
+
+// lit as another renderer with these terms would have it, where nothing is blended.
+void sumTerms(Frame& frame) {
+    const auto data = [&](gpu::uint number) { return frame.channels.at(mode(number)).data.data(); };
+    Image& sum = frame.channels.at(lit);
+    const float *const ids = data(gpu::DEBUG_material_id), *const d = data(gpu::DEBUG_lit_diffuse),
+                       *const s = data(gpu::DEBUG_lit_specular), *const a = data(gpu::DEBUG_lit_ambient),
+                       *const e = data(gpu::DEBUG_emission), *const t = data(gpu::DEBUG_transmittance),
+                       *const h = data(gpu::DEBUG_lit_haze);
+    float* const out = sum.data.data();
+    for (std::size_t i = 0; i < sum.data.size(); ++i)
+        if (ids[i / 3] >= 0) out[i] = (((d[i] + s[i]) + a[i]) + e[i]) * t[i] + h[i];
+}
+
+// A renderer that does one stage otherwise is told which, and all its difference is there.
+TEST(Explain, NamesTheStageThatTermsDifferIn) {
+    const Scene scene = loadScene("builtin:points");
+    Renderer renderer(device(), scene, pipelines());
+    Settings settings = explained({64, 36});
+    settings.haze = true;
+    const Frame right = drawnBy(Path::forward_plus, renderer, settings, withTerms());
+    struct Scaled {
+        const char* stage;
+        std::vector<gpu::uint> terms;
+        float scale;
+    };
+    for (const Scaled& fault : {Scaled{"direct diffuse", {gpu::DEBUG_lit_diffuse}, 0.8f},
+                                {"direct specular", {gpu::DEBUG_lit_specular}, 1.5f},
+                                {"ambient light", {gpu::DEBUG_lit_ambient}, 0.5f},
+                                {"haze in the air", {gpu::DEBUG_lit_haze, gpu::DEBUG_transmittance}, 0.9f},
+                                {"sum of terms", {}, 1.1f}}) {
+        SCOPED_TRACE(fault.stage);
+        Frame test = right;
+        for (const gpu::uint term : fault.terms)
+            for (float& value : test.channels.at(mode(term)).data) value *= fault.scale;
+        if (fault.terms.empty()) {
+            const Image& ids = test.channels.at(mode(gpu::DEBUG_material_id));
+            Image& all = test.channels.at(lit);
+            for (std::size_t p = 0; p < all.pixels(); ++p)
+                for (int c = 0; c < 3 && ids.pixel(p)[0] >= 0; ++c) all.pixel(p)[c] *= fault.scale;
+        } else {
+            sumTerms(test);
+        }
+        const Explanation e = explain(device(), renderer, scene, right, test);
+        ASSERT_GT(e.distance, 0);
+        ASSERT_FALSE(e.causes.empty());
+        EXPECT_EQ(e.causes.front().name, fault.stage);
+        EXPECT_NEAR(e.causes.front().share, e.distance, 1e-5 * e.distance);
+        EXPECT_LE(e.unexplained, 1e-5 * e.distance);
+        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        expectMapsAddUp(e, right, test);
+    }
+}
+
+// A channel and a stage at once, and direct light that is seen otherwise.
+TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
+    const Scene scene = loadScene("builtin:points");
+    Renderer renderer(device(), scene, pipelines());
+    const Settings settings = explained({64, 36});
+    const Frame right = drawnBy(Path::forward_plus, renderer, settings, withTerms());
+    Frame test = right;
+    for (const gpu::uint term : {gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
+        for (float& value : test.channels.at(mode(term)).data) value *= 0.5f;
+    for (float& share : test.channels.at(mode(gpu::DEBUG_shadow_visibility)).data) share *= 0.5f;
+    sumTerms(test);
+    Explanation e = explain(device(), renderer, scene, right, test);
+    ASSERT_FALSE(e.causes.empty());
+    EXPECT_EQ(names(e), std::vector<std::string>{"shadow_visibility"});
+    EXPECT_NEAR(e.causes.front().share, e.distance, 1e-5 * e.distance);
+
+    for (float& value : test.channels.at(mode(gpu::DEBUG_emission)).data) value += 0.01f;
+    const Image& ids = test.channels.at(mode(gpu::DEBUG_material_id));
+    for (std::size_t p = 0; p < ids.pixels(); ++p)
+        if (ids.pixel(p)[0] < 0) std::fill_n(test.channels.at(mode(gpu::DEBUG_emission)).pixel(p), 3, 0.0f);
+    sumTerms(test);
+    e = explain(device(), renderer, scene, right, test);
+    const std::vector<std::string> both = names(e);
+    EXPECT_EQ(both.size(), 2u);
+    EXPECT_EQ(std::ranges::count(both, "shadow_visibility") + std::ranges::count(both, "emission"), 2);
+    EXPECT_LE(e.unexplained, 1e-5 * e.distance);
+    EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+}
+
+// Without terms the same difference is what no cause explains.
+TEST(Explain, WithoutTermsTheRestStaysUnexplained) {
+    Planted planted("builtin:points", {32, 18});
+    Frame test = planted.right;
+    for (std::size_t p = 0; p < test.channels.at(lit).pixels(); ++p)
+        if (planted.covered(p)) test.channels.at(lit).pixel(p)[0] *= 1.1f;
+    const Explanation e = explain(device(), planted.renderer, planted.scene, planted.right, test);
+    EXPECT_TRUE(e.causes.empty());
+    EXPECT_EQ(e.unexplained, e.distance);
 }
 
 TEST(Explain, MissingChannelsAreNamed) {

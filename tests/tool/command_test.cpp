@@ -206,7 +206,7 @@ TEST(Command, DevicesCanBeLimitedToOne) {
 
 TEST(Command, WhatWritesNoFileRefusesAPlaceForIt) {
     const Folder folder;
-    for (const std::string command : {"plan", "devices", "explain"}) {
+    for (const std::string command : {"plan", "devices"}) {
         const Ran ran = runTool(folder, command + " -o p");
         EXPECT_EQ(ran.code, 2);
         EXPECT_NE(ran.err.find("-o p"), std::string::npos) << ran.err;
@@ -234,6 +234,42 @@ TEST(Command, ExplainNamesCausesAndTheirShares) {
     EXPECT_NE(same.out.find("no cause"), std::string::npos) << same.out;
 }
 
+TEST(Command, ExplainLeavesAPageWithItsMaps) {
+    const Folder folder;
+    const std::string view = "explain builtin:points --gbuffer compact --size 64x36";
+    const Ran ran = runTool(folder, view + " -o why --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.out, contentsOf(folder / "why/explain.json")) << "--json prints it and nothing else";
+    const Json found = parsed(ran);
+    std::set<std::string> listed, there;
+    for (const Json& name : found["files"]) listed.insert(name);
+    for (const auto& entry : fs::directory_iterator(folder / "why")) there.insert(entry.path().filename());
+    EXPECT_EQ(listed, there);
+    for (const char* name :
+         {"index.html", "explain.json", "dominant.png", "lit.baseline.png", "lit.test.png"})
+        EXPECT_TRUE(there.contains(name)) << name;
+    EXPECT_TRUE(there.contains("share-1." + found["causes"][0]["name"].get<std::string>() + ".png"));
+    const std::string page = contentsOf(folder / "why/index.html");
+    for (const std::string& name : there)
+        EXPECT_TRUE(name.ends_with(".html") || page.find(name) != std::string::npos ||
+                    (name == "unexplained.png" && found["unexplained"] == 0))
+            << name;
+    EXPECT_EQ(page.find("http"), std::string::npos) << "no external resources";
+    // The command explains the same, and what is ours may be replaced.
+    const std::string again = found["command"];
+    ASSERT_TRUE(again.starts_with("diptych explain ")) << again;
+    const Ran second = runTool(folder, again.substr(8) + " -o why");
+    EXPECT_EQ(second.code, 0) << second.err;
+    EXPECT_NE(second.out.find("why/index.html"), std::string::npos) << second.out;
+    EXPECT_EQ(readJson(folder / "why/explain.json")["causes"], found["causes"]);
+    fs::create_directory(folder / "theirs");
+    std::ofstream(folder / "theirs/a.txt") << "mine";
+    const Ran refused = runTool(folder, view + " -o theirs");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+    EXPECT_EQ(runTool(folder, view + " -o x.png").code, 2);
+}
+
 // Of two files, which say of what they are.
 TEST(Command, ExplainReadsPictures) {
     const Folder folder;
@@ -258,6 +294,32 @@ TEST(Command, ExplainReadsPictures) {
     EXPECT_EQ(other.code, 2);
     EXPECT_NE(other.err.find("--scene"), std::string::npos) << other.err;
     EXPECT_EQ(runTool(folder, "explain a.exr b.exr --test haze=on").code, 2);
+}
+
+// A file of another renderer that has the terms of its lit: of which term the difference is.
+TEST(Command, ExplainNamesTheStageOfAnotherRenderer) {
+    const Folder folder;
+    const std::string scene = "builtin:points";
+    ASSERT_EQ(runTool(folder, "render " + scene + " --size 64x36 --path forward_plus -o a.exr").code, 0);
+    PictureFile theirs = readExr(folder / "a.exr");
+    const auto layer = [&](std::string_view name) -> Image& {
+        return std::ranges::find(theirs.layers, name, &PictureLayer::name)->image;
+    };
+    Image &lit = layer(""), &specular = layer("lit_specular");
+    for (std::size_t p = 0; p < lit.pixels(); ++p)
+        for (int c = 0; c < 3; ++c) {
+            lit.pixel(p)[c] += 0.5f * specular.pixel(p)[c];
+            specular.pixel(p)[c] *= 1.5f;
+        }
+    std::vector<ExrLayerView> views;
+    for (const PictureLayer& one : theirs.layers) views.push_back({one.channels, &one.image});
+    writeExr(folder / "b.exr", views);
+    const Ran ran = runTool(folder, "explain a.exr b.exr -o why --json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json found = parsed(ran);
+    EXPECT_EQ(found["causes"][0]["name"], "direct specular") << ran.out;
+    EXPECT_NEAR(found["causes"][0]["share"], 1, 1e-3);
+    EXPECT_TRUE(fs::exists(folder / "why/share-1.direct-specular.png"));
 }
 
 TEST(Command, ExplainRefusesWhatItCannotSwap) {

@@ -53,10 +53,11 @@ std::vector<Without> withouts() {
            "        Hazed hazed = hazeBeyond(rayOrigin(gl_FragCoord.xy), away);\n"
            "        radiance = radiance * hazed.transmittance + hazed.scattered;\n"
            "    }\n"}},
-         {"background.frag", "deferred_capture.frag.1", "deferred_channels.frag", "deferred_further.frag",
-          "deferred_shade.frag", "deferred_shade.frag.area", "forward_blended.frag",
-          "forward_blended_list.frag", "forward_blended_moments.frag", "forward_blended_weighted.frag",
-          "forward_capture.frag.1", "forward_shade.frag"}},
+         {"background.frag", "deferred_capture.frag.1", "deferred_channel_terms.frag",
+          "deferred_channels.frag", "deferred_further.frag", "deferred_shade.frag",
+          "deferred_shade.frag.area", "forward_blended.frag", "forward_blended_list.frag",
+          "forward_blended_moments.frag", "forward_blended_weighted.frag", "forward_capture.frag.1",
+          "forward_shade.frag"}},
         {"lights_in_front",
          gpu::FEATURE_lights_in_front,
          {{"shaders/pass/light_depths.comp", "on(feature_lights_in_front) ? -1.0 : 0.0", "0.0"},

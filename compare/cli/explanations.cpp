@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/explanations.h"
+
+#include "compare/cli/commands.h"
+#include "compare/explain/explained.h"
+#include "compare/explain/write.h"
+#include "compare/run/command_text.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+namespace diptych::cli {
+
+namespace {
+
+bool isWanted(const Options& options, const Comparison& comparison) {
+    return options.explain || std::ranges::any_of(comparison.channels, [](const ChannelDiff& channel) {
+               return channel.mode->number == static_cast<int>(gpu::DEBUG_lit) &&
+                      channel.verdict == Verdict::fail;
+           });
+}
+
+// A scene on the device.
+struct Drawing {
+    Drawing(const Options& options, Device& device, const Frame& frame, const Stage& progress)
+        : name(frame.scene),
+          scene(loadShown(name, options.settings, progress)),
+          views(scene),
+          renderer(device, views) {}
+
+    const std::string name;
+    const Scene scene;
+    SceneViews views;
+    Renderer renderer;
+};
+
+bool hasAll(const Frame& frame, const std::vector<int>& channels) {
+    return std::ranges::all_of(channels, [&](int mode) { return frame.channels.contains(mode); });
+}
+
+// A Frame of a file of another renderer does not say how it was lit: as ours, then.
+Frame asOurs(const Frame& file, const Frame& drawn) {
+    Frame frame = file;
+    frame.settings = drawn.settings;
+    return frame;
+}
+
+Explained explained(const Options& options, Device& device, Drawing& drawing, const Frame& left,
+                    const Frame& right, const Stage& progress) {
+    const std::vector<int> channels = explainedChannels();
+    const bool file = !left.origin.file.empty();
+    // Where --channels left some out.
+    std::optional<Frame> again[2];
+    RenderOptions render = renderOptions(options);
+    render.channels = channels;
+    render.runs = 0;
+    if (!hasAll(right, channels) || (!file && !hasAll(left, channels))) {
+        if (!file) again[0] = drawing.renderer.draw(left.settings, render);
+        again[1] = drawing.renderer.draw(right.settings, render);
+    }
+    if (file && left.scene.empty()) again[0] = asOurs(left, right);
+    const Frame &a = again[0] ? *again[0] : left, &b = again[1] ? *again[1] : right;
+    ExplainedPictures of{right.scene, left.name, right.name};
+    if (!file)
+        of.commands = {
+            {"With every cause's own map",
+             shellLine(withOption(explainWords(right.scene, right.settings, left.settings.path, {}), "-o",
+                                  "diptych-explanation"))}};
+    const Explanation explanation = explain(device, drawing.renderer, drawing.scene, a, b, progress);
+    return explainedOf(explanation, of, litPicture(b, a, options.picture));
+}
+
+}  // namespace
+
+bool isExplained(const Options& options, const Report& report) {
+    return std::ranges::any_of(report.comparisons,
+                               [&](const Comparison& one) { return isWanted(options, one); });
+}
+
+void addExplanations(const Options& options, Device& device, Report& report, const Stage& progress) {
+    const auto all = static_cast<double>(report.comparisons.size());
+    std::optional<Drawing> drawing;
+    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+        Comparison& comparison = report.comparisons[i];
+        if (!isWanted(options, comparison)) continue;
+        const Frame &left = report.baseline(comparison), &right = report.test(comparison);
+        if (isReferenceFrame(left)) {
+            comparison.explained = notExplained(
+                "the reference lights otherwise than the channels that are swapped; both paths against each "
+                "other are explained");
+            continue;
+        }
+        const auto done = static_cast<double>(i);
+        const Stage stage = progress.part(done / all, (done + 1) / all).about(right.scene);
+        try {
+            if (!drawing || drawing->name != right.scene) {
+                drawing.reset();
+                drawing.emplace(options, device, right, stage.part(0, 0.2));
+            }
+            comparison.explained = explained(options, device, *drawing, left, right, stage.part(0.2, 1));
+        } catch (const std::runtime_error& error) {
+            comparison.explained = notExplained(error.what());
+        }
+        letGo(left);
+        letGo(right);
+    }
+    checkValidation(device);
+}
+
+std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
+                                      const std::vector<std::pair<std::string, std::string>>& test) {
+    Settings given = settings;
+    given.path = Settings().path;
+    std::vector<std::string> words = commandWords("explain", scene, given);
+    if (baseline != Path::deferred)
+        words = withOption(std::move(words), "--baseline", std::string(nameOf(baseline)));
+    for (const auto& [option, value] : test)
+        words = withOption(std::move(words), "--test", fmt::format("{}={}", option, value));
+    return words;
+}
+
+}  // namespace diptych::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Why lit differs, for a report.
+#pragma once
+
+#include "compare/cli/options.h"
+#include "compare/run/progress.h"
+#include "compare/verdict/comparison.h"
+#include "shared/vulkan/device.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::cli {
+
+// Whether some comparison gets an explanation: with --explain all do, else those whose lit fails.
+bool isExplained(const Options& options, const Report& report);
+
+// Adds them. Verdicts stay as they are. What cannot be explained says why.
+void addExplanations(const Options& options, Device& device, Report& report, const Stage& progress);
+
+// The words of the command line that explains a scene: the other path, or what `test` names, against
+// `baseline`.
+std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
+                                      const std::vector<std::pair<std::string, std::string>>& test);
+
+}  // namespace diptych::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/explained.h"
+
+#include "compare/explain/html.h"
+#include "compare/explain/pictures.h"
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace diptych {
+
+Explained explainedOf(const Explanation& explanation, const ExplainedPictures& of, const Image8& shown) {
+    Explained explained;
+    explained.words = inShort(explanation);
+    explained.json = toJson(explanation, of).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!explanation.causes.empty()) explained.map = dominantPicture(explanation, shown);
+    // Without the maps of the single causes, which the report does not show.
+    const auto kept = std::make_shared<Explanation>(explanation);
+    for (Cause& cause : kept->causes) cause.map = Image();
+    kept->unexplained_map = Image();
+    explained.html = [kept, of](const std::string& map) {
+        return explanationSection(
+            *kept, of, [&](const std::string& name) { return name == dominantFile ? map : std::string(); });
+    };
+    return explained;
+}
+
+Explained notExplained(const std::string& because) {
+    return {"why lit differs is not known: " + because,
+            nlohmann::json{{"not_explained", because}}.dump(-1, ' ', false,
+                                                            nlohmann::json::error_handler_t::replace),
+            {},
+            [because](const std::string&) {
+                return fmt::format("<p class=\"soft\">Why lit differs is not known: {}</p>\n",
+                                   page::markup(because));
+            }};
+}
+
+}  // namespace diptych

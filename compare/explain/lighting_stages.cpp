@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/lighting_stages.h"
+
+#include "shared/contract/debug_mode.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+constexpr std::size_t diffuseTerm = 0, specularTerm = 1, ambientTerm = 2, hazeTerm = 3, transmittanceTerm = 4,
+                      wholeTerm = 5;
+constexpr std::array<gpu::uint, 5> termModes{gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular,
+                                             gpu::DEBUG_lit_ambient, gpu::DEBUG_lit_haze,
+                                             gpu::DEBUG_transmittance};
+
+using Terms = std::array<const Image*, 5>;
+
+Terms termsOf(const ChannelTerms& terms) {
+    return {&terms.diffuse, &terms.specular, &terms.ambient, &terms.haze, &terms.transmittance};
+}
+
+Terms termsOf(const Frame& frame) {
+    Terms terms{};
+    for (std::size_t t = 0; t < termModes.size(); ++t)
+        terms.at(t) = &frame.channels.at(static_cast<int>(termModes.at(t)));
+    return terms;
+}
+
+const Image* channelIn(const Frame& frame, gpu::uint mode) {
+    const auto found = frame.channels.find(static_cast<int>(mode));
+    return found == frame.channels.end() ? nullptr : &found->second;
+}
+
+// What terms add up to, in the order of lit(Radiance) in shaders/lib/radiance.glsl, so that a sum in another
+// order is seen.
+float sumOf(const std::array<float, 5>& t, float emission) {
+    return (((t[diffuseTerm] + t[specularTerm]) + t[ambientTerm]) + emission) * t[transmittanceTerm] +
+           t[hazeTerm];
+}
+
+std::array<float, 5> termsAt(const Terms& terms, std::size_t i) {
+    std::array<float, 5> values{};
+    for (std::size_t t = 0; t < values.size(); ++t) values.at(t) = terms.at(t)->data[i];
+    return values;
+}
+
+void forEach(std::size_t count, const auto& what) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) what(i);
+    });
+}
+
+// How much of a direct term's `change` a change of what is seen of a light from `test` to `baseline` makes,
+// where the test has `value`: as much as scaling by both does, never more than all.
+float shadowPart(float change, float value, float baseline, float test) {
+    if (baseline == test || change == 0) return 0;
+    if (!(test > 0)) return change;
+    const float scaled = value * (baseline / test - 1);
+    if (scaled * change <= 0) return 0;
+    return std::abs(scaled) < std::abs(change) ? scaled : change;
+}
+
+bool isNothing(const Image& image) {
+    return std::ranges::all_of(image.data, [](float value) { return value == 0; });
+}
+
+}  // namespace
+
+std::vector<int> termChannels() {
+    return {termModes.begin(), termModes.end()};
+}
+
+bool haveTerms(const Frame& baseline, const Frame& test) {
+    return std::ranges::all_of(termModes, [&](gpu::uint mode) {
+        const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
+        return a && b && a->width == b->width && a->height == b->height && a->components == 3 &&
+               b->components == 3;
+    });
+}
+
+LightingStages::LightingStages(const Frame& baseline, const Frame& test,
+                               const std::array<LitSurfaces, 2>& own) {
+    const Image& lit = *channelIn(test, gpu::DEBUG_lit);
+    const auto blank = [&] { return Image(lit.width, lit.height, 3); };
+    const std::array<const Frame*, 2> frames{&baseline, &test};
+    const std::array<Terms, 2> files{termsOf(baseline), termsOf(test)},
+        ours{termsOf(own[0].terms), termsOf(own[1].terms)};
+    // The rest of each term, and of lit: what stands beyond the sum of a side's terms, less the same of our
+    // lighting, which is what lies behind surfaces and what is blended over them.
+    std::array<std::array<Image, 6>, 2> rest;
+    Image blended = blank();  // not 0: where something lies behind or over surfaces
+    for (std::size_t side = 0; side < 2; ++side) {
+        for (Image& image : rest.at(side)) image = blank();
+        std::array<float*, 6> out{};
+        for (std::size_t t = 0; t < out.size(); ++t) out.at(t) = rest.at(side).at(t).data.data();
+        const Image& seen = *channelIn(*frames.at(side), gpu::DEBUG_lit);
+        float* const over = blended.data.data();
+        forEach(seen.data.size(), [&](std::size_t i) {
+            const auto theirs = termsAt(files.at(side), i), mine = termsAt(ours.at(side), i);
+            const float emission = std::as_const(*own.at(side).emission).data[i];
+            const float beyond = seen.data[i] - sumOf(theirs, emission);
+            const float our_beyond = std::as_const(own.at(side).lit).data[i] - sumOf(mine, emission);
+            for (std::size_t t = 0; t < theirs.size(); ++t) {
+                const float left = theirs.at(t) - mine.at(t);
+                out.at(t)[i] = std::isfinite(left) ? left : 0.0f;
+            }
+            const float left = beyond - our_beyond;
+            out.at(wholeTerm)[i] = std::isfinite(left) ? left : 0.0f;
+            if (our_beyond != 0) over[i] = 1;
+        });
+    }
+    // What a term changes by when it is the baseline's.
+    std::array<Image, 6> change;
+    for (std::size_t t = 0; t < change.size(); ++t) {
+        change.at(t) = blank();
+        float* const out = change.at(t).data.data();
+        const float *const a = std::as_const(rest[0].at(t)).data.data(), *const b =
+                                                                             std::as_const(rest[1].at(t))
+                                                                                 .data.data();
+        forEach(change.at(t).data.size(), [&](std::size_t i) { out[i] = a[i] - b[i]; });
+    }
+    const auto add = [&](std::string name, std::string shows, std::array<Image, 6> adds) {
+        bool nothing = true;
+        for (Image& image : adds) {
+            if (!image.empty() && isNothing(image)) image = Image();
+            nothing = nothing && image.empty();
+        }
+        if (!nothing) stages_.push_back({std::move(name), std::move(shows), std::move(adds)});
+    };
+    // Direct light that changes as what is seen of lights does, and where other lights are evaluated.
+    const auto share = [&](std::string name, std::string shows, gpu::uint mode, const auto& part) {
+        const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
+        if (!a || !b || a->pixels() != lit.pixels() || b->pixels() != lit.pixels()) return;
+        std::array<Image, 6> adds;
+        for (const std::size_t t : {diffuseTerm, specularTerm}) {
+            adds.at(t) = blank();
+            float *const out = adds.at(t).data.data(), *const left = change.at(t).data.data();
+            const float* const value = files[1].at(t)->data.data();
+            forEach(lit.data.size(), [&](std::size_t i) {
+                out[i] = part(left[i], value[i], a->pixel(i / 3)[0], b->pixel(i / 3)[0]);
+                left[i] -= out[i];
+            });
+        }
+        add(std::move(name), std::move(shows), std::move(adds));
+    };
+    share("shadow_visibility", "direct light that changes as what is seen of the sun does",
+          gpu::DEBUG_shadow_visibility, shadowPart);
+    share("local_visibility", "direct light that changes as what is seen of points and spots does",
+          gpu::DEBUG_local_visibility, shadowPart);
+    share("light_count", "direct light where another number of lights is evaluated", gpu::DEBUG_light_count,
+          [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
+    const auto term = [&](std::string name, std::string shows, std::size_t t) {
+        std::array<Image, 6> adds;
+        adds.at(t) = std::move(change.at(t));
+        add(std::move(name), std::move(shows), std::move(adds));
+    };
+    term("direct diffuse", "light of lights that the diffuse lobe reflects", diffuseTerm);
+    term("direct specular", "light of lights that the specular lobe reflects", specularTerm);
+    term("ambient light", "reflected ambient light and that of an environment", ambientTerm);
+    std::array<Image, 6> air;
+    air.at(hazeTerm) = std::move(change.at(hazeTerm));
+    air.at(transmittanceTerm) = std::move(change.at(transmittanceTerm));
+    add("haze in the air", "what haze lets through and adds", std::move(air));
+    std::array<Image, 6> over, order;
+    over.at(wholeTerm) = blank();
+    order.at(wholeTerm) = blank();
+    for (std::size_t i = 0; i < lit.data.size(); ++i)
+        (std::as_const(blended).data[i] != 0 ? over : order).at(wholeTerm).data[i] =
+            std::as_const(change.at(wholeTerm)).data[i];
+    add("transparency", "what is blended over surfaces, and the background behind them", std::move(over));
+    add("sum of terms",
+        "what lit has beyond the sum of its terms: another order, or a term that is none of them",
+        std::move(order));
+    rest_ = std::move(rest[1]);
+}
+
+Image LightingStages::lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const {
+    Image lit(surfaces.lit.width, surfaces.lit.height, 3);
+    const Terms terms = termsOf(surfaces.terms);
+    std::array<std::vector<const float*>, 6> added;
+    for (std::size_t t = 0; t < added.size(); ++t) {
+        added.at(t).push_back(rest_.at(t).data.data());
+        for (std::size_t s = 0; s < stages_.size(); ++s)
+            if (taken.at(s) && !stages_[s].adds.at(t).empty())
+                added.at(t).push_back(stages_[s].adds.at(t).data.data());
+    }
+    float* const out = lit.data.data();
+    forEach(lit.data.size(), [&](std::size_t i) {
+        const std::array<float, 5> mine = termsAt(terms, i);
+        std::array<float, 5> theirs = mine;
+        for (std::size_t t = 0; t < theirs.size(); ++t)
+            for (const float* const more : added.at(t)) theirs.at(t) += more[i];
+        const float emission = std::as_const(*surfaces.emission).data[i];
+        float value = sumOf(theirs, emission) + (std::as_const(surfaces.lit).data[i] - sumOf(mine, emission));
+        for (const float* const more : added.at(wholeTerm)) value += more[i];
+        out[i] = value;
+    });
+    return lit;
+}
+
+}  // namespace diptych

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// An explanation as a folder.
+#pragma once
+
+#include "compare/explain/explain.h"
+#include "compare/explain/words.h"
+#include "compare/picture/picture.h"
+
+#include <filesystem>
+#include <string>
+
+namespace diptych {
+
+inline constexpr const char* explanationManifest = "explain.json";
+
+// Both sides' lit as a picture, on one exposure: channelPicture().
+Image8 litPicture(const Frame& frame, const Frame& baseline, const PictureChoice& choice);
+
+// index.html, explain.json and the pictures. The folder is put in place as a whole; an earlier explanation is
+// replaced, anything else only with `force`. `device`: its name. Returns the text of explain.json. Throws
+// std::runtime_error naming folder or file.
+std::string writeExplanation(const Explanation& explanation, const ExplainedPictures& of,
+                             const Frame& baseline, const Frame& test, const PictureChoice& choice,
+                             const std::string& device, const std::filesystem::path& folder, bool force);
+
+}  // namespace diptych

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The terms that deferred_channels.frag adds up to lit, one an attachment, before anything is blended.
+#define FLAT_VIEW
+#include "shaders/lib/shade.glsl"
+#include "shaders/lib/stored_depth.glsl"
+#include "shaders/lib/surface_channels.glsl"
+
+layout(location = 0) out vec4 out_diffuse;
+layout(location = 1) out vec4 out_specular;
+layout(location = 2) out vec4 out_ambient;
+layout(location = 3) out vec4 out_haze;
+layout(location = 4) out vec4 out_transmittance;
+
+void main() {
+    Surface s = surfaceFromChannels(ivec2(gl_FragCoord.xy));
+    Radiance radiance = shade(s, lightsAt(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))));
+    out_diffuse = vec4(radiance.diffuse, 1.0);
+    out_specular = vec4(radiance.specular, 1.0);
+    out_ambient = vec4(radiance.ambient, 1.0);
+    out_haze = vec4(radiance.haze, 1.0);
+    out_transmittance = vec4(radiance.transmittance, 1.0);
+}
