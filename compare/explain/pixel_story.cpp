@@ -63,10 +63,9 @@ constexpr std::array stepOrder{numberOf(gpu::DEBUG_material_id),
                                numberOf(gpu::DEBUG_lit_haze),
                                numberOf(gpu::DEBUG_lit)};
 
-constexpr std::array<std::pair<PixelTerm::Kind, std::string_view>, 12> kindNames{
+constexpr std::array<std::pair<PixelTerm::Kind, std::string_view>, 11> kindNames{
     {{PixelTerm::Kind::light, "light"},
      {PixelTerm::Kind::other_lights, "other_lights"},
-     {PixelTerm::Kind::per_object, "per_object"},
      {PixelTerm::Kind::environment, "environment"},
      {PixelTerm::Kind::ambient, "ambient"},
      {PixelTerm::Kind::emission, "emission"},
@@ -149,6 +148,8 @@ public:
         story_.mode = question_.reference.reference_mode;
         story_.names = {frames_[0].name, frames_[1].name};
         findSurface();
+        const std::array<Rgb3, 3> blended = blendedOver();
+        story_.blended = largest(blended[0]) > 0 || largest(blended[1]) > 0;
         for (const int mode : stepOrder) takeStep(debugMode(mode));
         takeFacts();
         if (story_.shown) takeTerms();
@@ -312,8 +313,6 @@ private:
             return std::array{alone[0].at(shining, question_.x, question_.y),
                               alone[1].at(shining, question_.x, question_.y)};
         };
-        // Black but for what is no light of a list: what whole objects have gathered.
-        const std::array<Rgb3, 2> gathered = both({});
         const auto reference = [&](std::span<const std::size_t> lights, double& uncertainty) {
             Rgb3 sum{};
             for (const std::size_t i : lights) {
@@ -324,9 +323,7 @@ private:
             return std::optional(sum);
         };
         const auto take = [&](PixelTerm::Kind kind, std::vector<std::size_t> lights) {
-            std::array<Rgb3, 2> values = both(lights);
-            for (std::size_t side = 0; side < 2; ++side)
-                values.at(side) = plus(values.at(side), gathered.at(side), -1);
+            const std::array<Rgb3, 2> values = both(lights);
             double uncertainty = 0;
             const std::optional<Rgb3> truth = reference(lights, uncertainty);
             add(kind, std::move(lights), values, truth, uncertainty);
@@ -347,8 +344,6 @@ private:
             std::ranges::sort(others);
             take(PixelTerm::Kind::other_lights, std::move(others));
         }
-        if (question_.baseline.assign == Assignment::per_object)
-            add(PixelTerm::Kind::per_object, {}, gathered, Rgb3{});
     }
 
     void takeTerms() {
@@ -363,8 +358,7 @@ private:
             for (std::size_t side = 0; side < 2; ++side) {
                 const Settings& settings = side == 0 ? question_.baseline : question_.test;
                 LightTerms with = renderer_.lightTerms(settings, true);
-                values.at(side) = plus(with.at({}, question_.x, question_.y),
-                                       alone.at(side).at({}, question_.x, question_.y), -1);
+                values.at(side) = with.at({}, question_.x, question_.y);
             }
             add(PixelTerm::Kind::environment, {}, values,
                 rgb(rest.reflected.diffuse + rest.reflected.specular), rest.uncertainty);
@@ -383,17 +377,23 @@ private:
         takeSum();
     }
 
-    void takeBlended() {
-        if (frames_[0].unblended.empty() || frames_[1].unblended.empty()) return;
-        std::array<Rgb3, 2> values{};
+    // What blended surfaces change of lit, of the baseline, the test and the reference.
+    std::array<Rgb3, 3> blendedOver() const {
+        if (frames_[0].unblended.empty() || frames_[1].unblended.empty()) return {};
+        std::array<Rgb3, 3> values{};
         for (std::size_t side = 0; side < 2; ++side) {
             const float* const before = frames_.at(side).unblended.pixel(pixel_);
             values.at(side) = plus(colorOf(side, gpu::DEBUG_lit),
                                    {double{before[0]}, double{before[1]}, double{before[2]}}, -1);
         }
-        const Rgb3 reference = plus(referenceOf(gpu::DEBUG_lit), rgb(reference_.unblended), -1);
-        if (largest(values[0]) > 0 || largest(values[1]) > 0 || largest(reference) > 0)
-            add(PixelTerm::Kind::blended, {}, values, reference);
+        values[2] = plus(referenceOf(gpu::DEBUG_lit), rgb(reference_.unblended), -1);
+        return values;
+    }
+
+    void takeBlended() {
+        const auto [baseline, test, reference] = blendedOver();
+        if (largest(baseline) > 0 || largest(test) > 0 || largest(reference) > 0)
+            add(PixelTerm::Kind::blended, {}, {baseline, test}, reference);
     }
 
     void takeSum() {

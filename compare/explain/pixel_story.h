@@ -55,7 +55,6 @@ struct PixelTerm {
     enum class Kind {
         light,         // one light alone, with its shadow: what the surface reflects of it
         other_lights,  // those that were not drawn alone, together
-        per_object,    // what --assign per_object gathers of lights for whole objects
         environment,
         ambient,        // ambient light and lightmaps
         emission,       // what the surface emits, an unlit one its colour
@@ -93,7 +92,8 @@ struct PixelStory {
     std::array<Settings, 2> settings;  // baseline, test
     ReferenceMode mode = ReferenceMode::surface;
     std::array<std::string, 2> names;  // "deferred"
-    bool shown = false;                // a surface, in either path; else the background
+    bool shown = false;                // an opaque surface, in either path; else the background
+    bool blended = false;              // something blended changes lit in either path
     int material = -1;                 // of the baseline's, or else of the test's
     std::string material_name;         // fit for a line; may be empty
     std::array<double, 3> position{};  // of the same, world, m

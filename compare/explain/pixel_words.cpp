@@ -85,7 +85,9 @@ std::vector<std::string> stepRow(const PixelStep& step) {
     std::vector<std::span<const double>> values;
     for (const PixelValue* value : {&step.values[0], &step.values[1], &step.reference})
         values.emplace_back(*value);
-    const Digits digits(values);
+    // Both paths' own digits, where both have it: the reference is in double.
+    const std::span all(values);
+    const Digits digits(all.first(step.isCompared() ? 2 : 3));
     std::string because = step.tolerance.because;
     if (step.explained == false)
         because = fmt::format(
@@ -115,8 +117,6 @@ std::string titleOf(const PixelStory& story, const PixelTerm& term) {
             return lightTitle(story, term.lights.front());
         case PixelTerm::Kind::other_lights:
             return fmt::format("{} other light{}", term.lights.size(), term.lights.size() == 1 ? "" : "s");
-        case PixelTerm::Kind::per_object:
-            return "gathered per object";
         case PixelTerm::Kind::environment:
             return "environment";
         case PixelTerm::Kind::ambient:
@@ -200,10 +200,10 @@ std::string listWords(const PixelStory& story) {
                                 lists.at(side).size(), story.lights.size(), nameOf(settings.assign),
                                 lists.at(side).empty() ? "" : ": ", fmt::join(lists.at(side), ", "));
         else
-            text += fmt::format("{}: which lights its list holds is not told{}\n", story.names.at(side),
-                                settings.assign == Assignment::per_object
-                                    ? ": lists are of objects, not of pixels"
-                                    : ": the list that was read is not as long as light_count says");
+            text += fmt::format(
+                "{}: which lights its list holds is not told: what was read is not as long as light_count "
+                "says\n",
+                story.names.at(side));
     }
     return text;
 }
@@ -278,7 +278,11 @@ std::string headline(const PixelStory& story) {
     std::string text = fmt::format("{}{}{}: pixel {},{} of {}x{}, {} against {}\n", story.scene,
                                    story.camera.empty() ? "" : ", ", story.camera, story.x, story.y,
                                    story.size.width, story.size.height, story.names[1], story.names[0]);
-    if (!story.shown) return text + "background: no surface is drawn there\n";
+    if (!story.shown)
+        return text +
+               (story.blended
+                    ? "background: no opaque surface is drawn there, something blended lies before it\n"
+                    : "background: no surface is drawn there\n");
     const PixelStep* const ids = stepOf(story, gpu::DEBUG_material_id);
     text += fmt::format("material {}{}", story.material,
                         story.material_name.empty() ? "" : fmt::format(", \"{}\"", story.material_name));
@@ -411,6 +415,7 @@ nlohmann::ordered_json toJson(const PixelStory& story) {
             {"test", story.names[1]},
             {"settings", {Json::parse(toJson(story.settings[0])), Json::parse(toJson(story.settings[1]))}},
             {"background", !story.shown},
+            {"blended", story.blended},
             {"material",
              story.shown ? Json{{"id", story.material}, {"name", story.material_name}} : Json(nullptr)},
             {"position", story.shown ? numbers(story.position) : Json(nullptr)},

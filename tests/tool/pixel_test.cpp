@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // compare --pixel as users see it.
+#include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
@@ -62,8 +63,7 @@ TEST(PixelTool, WithAFullGBufferNoStepDiffers) {
         const json story = storyOf(folder, command);
         EXPECT_EQ(story["first_difference"], nullptr) << story["summary"];
         EXPECT_EQ(story["summary"], "no step differs by more than rounding");
-        for (const json& step : story["steps"])
-            if (step.contains("difference")) EXPECT_EQ(step["difference"], 0.0) << step;
+        for (const json& step : story["steps"]) EXPECT_EQ(step.value("difference", 0.0), 0.0) << step;
         expectTermsAddUp(story);
         expectListsAreTold(story);
     }
@@ -77,50 +77,78 @@ TEST(PixelTool, WithAFullGBufferNoStepDiffers) {
 
 TEST(PixelTool, NamesTheStepThatAnEncodingChanges) {
     const Folder folder;
-    const json story = storyOf(folder, "builtin:gallery --size 64x36 --gbuffer compact --pixel 30,24");
-    EXPECT_EQ(story["first_difference"], "normals") << story["summary"];
-    const json& normals = named(story["steps"], "name", "normals");
-    EXPECT_GT(normals["difference"], 0.0);
-    EXPECT_LE(normals["difference"], normals["tolerance"]);
-    EXPECT_NE(normals["because"].get<std::string>().find("octahedral in"), std::string::npos) << normals;
+    const json story = storyOf(folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24");
+    EXPECT_EQ(story["first_difference"], "albedo") << story["summary"];
+    const json& albedo = named(story["steps"], "name", "albedo");
+    EXPECT_GT(albedo["difference"], 0.0);
+    EXPECT_LE(albedo["difference"], albedo["tolerance"]);
+    EXPECT_NE(albedo["because"].get<std::string>().find("square root in 8 bits"), std::string::npos)
+        << albedo;
     EXPECT_EQ(named(story["steps"], "name", "lit")["explained"], true);
     expectTermsAddUp(story);
     // The other way round both columns change places.
     const json turned = storyOf(
-        folder, "builtin:gallery --size 64x36 --gbuffer compact --pixel 30,24 --baseline forward_plus");
+        folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24 --baseline forward_plus");
     EXPECT_EQ(turned["baseline"], "forward_plus");
-    EXPECT_EQ(named(turned["steps"], "name", "normals")["test"], normals["baseline"]);
+    EXPECT_EQ(named(turned["steps"], "name", "albedo")["test"], albedo["baseline"]);
 }
 
 // A rule of the user decides in place of the encoding.
 TEST(PixelTool, ARuleDecidesWhatIsBeyond) {
     const Folder folder;
-    folder.write("t.json",
-                 R"({"rules": [{"channel": "normals", "max": 0, "because": "no bit may change"}]})");
+    folder.write("t.json", R"({"rules": [{"channel": "albedo", "max": 0, "because": "no bit may change"}]})");
     const Ran ran = runTool(
-        folder, "compare builtin:gallery --size 64x36 --gbuffer compact --pixel 30,24 --tolerances t.json");
+        folder, "compare builtin:points --size 64x36 --gbuffer compact --pixel 30,24 --tolerances t.json");
     EXPECT_EQ(ran.code, 0) << "the story could be told: " << ran.err;
     EXPECT_NE(ran.out.find("FAIL beyond it: no bit may change"), std::string::npos) << ran.out;
-    EXPECT_NE(ran.out.find("\nFAIL: at this pixel beyond tolerance: normals"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("\nFAIL: at this pixel beyond tolerance: albedo"), std::string::npos) << ran.out;
 }
 
-// Shadows of the sun and of points, haze, ambient light, an environment's absence: all of it adds up, and the
-// other lights stay in lists and maps while one is drawn.
-TEST(PixelTool, TermsAddUpWithShadowsHazeAndAmbientLight) {
+// Whatever lights the pixel is a term of its own, and the other lights stay in lists and maps while one is
+// drawn.
+TEST(PixelTool, TermsAddUpWithShadowsHazeEnvironmentAndBlendedSurfaces) {
     const Folder folder;
-    expectTermsAddUp(
-        storyOf(folder,
-                "builtin:gallery --size 64x36 --pixel 30,24 --shadow-lights 4 --haze on --haze-density 50 "
-                "--ambient 0.1,0.2,0.3"));
-    for (const std::string assign : {"every", "tiled", "per_object"}) {
+    Image sky(8, 4, 3, 0.2f);
+    sky.at(2, 1, 0) = 3;
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    const auto has = [](const json& story, const std::string& kind) {
+        return std::ranges::any_of(story["terms"], [&](const json& term) { return term["kind"] == kind; });
+    };
+    const json hall = storyOf(folder,
+                              "builtin:gallery --size 64x36 --pixel 30,24 --shadow-lights 4 --haze on "
+                              "--haze-density 50 --ambient 0.1,0.2,0.3 --env sky.exr");
+    expectTermsAddUp(hall);
+    expectListsAreTold(hall);
+    for (const std::string kind :
+         {"light", "other_lights", "environment", "ambient", "transmittance", "haze"})
+        EXPECT_TRUE(has(hall, kind)) << kind;
+    EXPECT_FALSE(has(hall, "blended"));
+    EXPECT_TRUE(
+        std::ranges::any_of(hall["lights"], [](const json& light) { return light["casts"] == true; }));
+    const json glass =
+        storyOf(folder, "builtin:glass --size 64x36 --pixel 50,20 --haze on --haze-density 50");
+    expectTermsAddUp(glass);
+    EXPECT_TRUE(has(glass, "blended"));
+    for (const std::string assign : {"every", "tiled"}) {
         const json story = storyOf(folder, "builtin:points --size 64x36 --pixel 30,24 --assign " + assign);
-        const json& residual = named(story["terms"], "kind", "residual");
-        for (std::size_t side = 0; side < 2; ++side)
-            EXPECT_LE(largest(residual[side == 0 ? "baseline" : "test"]),
-                      story["residual_rounding"][side].get<double>())
-                << assign;
-        if (assign != "per_object") expectListsAreTold(story);
+        expectTermsAddUp(story);
+        expectListsAreTold(story);
     }
+}
+
+// Of several samples lit is the mean; the story says so where its terms, of the first, do not add up.
+TEST(PixelTool, SaysWhyTermsOfOneSampleAreNotTheMeanOfFour) {
+    const Folder folder;
+    const std::string command = "compare builtin:points --size 64x36 --msaa 4 --pixel ";
+    bool said = false;
+    for (const std::string pixel : {"20,18", "32,18", "30,8", "40,20"}) {
+        const Ran ran = runTool(folder, command + pixel);
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        EXPECT_EQ(ran.out.find("that rounding explains"), std::string::npos) << ran.out;
+        said =
+            said || ran.out.find("lit is the mean of 4 samples, the terms are of the first") != ran.out.npos;
+    }
+    EXPECT_TRUE(said);
 }
 
 TEST(PixelTool, SaysThatNothingIsDrawnInTheBackground) {
@@ -129,6 +157,12 @@ TEST(PixelTool, SaysThatNothingIsDrawnInTheBackground) {
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_NE(ran.out.find("\nbackground: no surface is drawn there\n"), std::string::npos) << ran.out;
     EXPECT_EQ(ran.out.find("albedo"), std::string::npos) << ran.out;
+    // What is blended before it is light, and no opaque surface.
+    const Ran pane = runTool(folder, "compare builtin:glass --size 64x36 --pixel 20,14");
+    EXPECT_NE(
+        pane.out.find("\nbackground: no opaque surface is drawn there, something blended lies before it\n"),
+        std::string::npos)
+        << pane.out;
 }
 
 TEST(PixelTool, RefusesWhatNoStoryIsOf) {
