@@ -158,7 +158,7 @@ TEST(PixelTool, SaysThatNothingIsDrawnInTheBackground) {
     EXPECT_NE(ran.out.find("\nbackground: no surface is drawn there\n"), std::string::npos) << ran.out;
     EXPECT_EQ(ran.out.find("albedo"), std::string::npos) << ran.out;
     // What is blended before it is light, and no opaque surface.
-    const Ran pane = runTool(folder, "compare builtin:glass --size 64x36 --pixel 20,14");
+    const Ran pane = runTool(folder, "compare builtin:glass --size 64x36 --pixel 10,20");
     EXPECT_NE(
         pane.out.find("\nbackground: no opaque surface is drawn there, something blended lies before it\n"),
         std::string::npos)
