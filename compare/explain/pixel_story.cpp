@@ -9,6 +9,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
 #include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/lights_json.h"
 #include "shared/text/one_line.h"
 
 #include <glm/geometric.hpp>
@@ -75,24 +76,6 @@ constexpr std::array<std::pair<PixelTerm::Kind, std::string_view>, 11> kindNames
      {PixelTerm::Kind::sum, "sum"},
      {PixelTerm::Kind::lit, "lit"},
      {PixelTerm::Kind::residual, "residual"}}};
-
-std::string_view kindOf(const Light& light) {
-    switch (light.kind) {
-        case LightKind::directional:
-            return "directional";
-        case LightKind::point:
-            return "point";
-        case LightKind::spot:
-            return "spot";
-        case LightKind::rect:
-            return "rect";
-        case LightKind::disc:
-            return "disc";
-        case LightKind::tube:
-            return "tube";
-    }
-    return "light";
-}
 
 Rgb3 rgb(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -246,7 +229,7 @@ private:
             const Light& light = view_.lights[i];
             const glm::dvec3 place(story_.position[0], story_.position[1], story_.position[2]);
             story_.lights.push_back({.name = oneLine(light.name),
-                                     .kind = kindOf(light),
+                                     .kind = nameOf(light.kind),
                                      .distance = light.kind == LightKind::directional
                                                      ? std::numeric_limits<double>::infinity()
                                                      : glm::distance(light.position, place),
