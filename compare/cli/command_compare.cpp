@@ -235,6 +235,7 @@ Report reportOf(const Options& options, CompareOptions compare, Drawn& drawn, st
 }  // namespace
 
 int runCompare(const Options& options) {
+    if (options.pixel) return runPixel(options);
     const std::vector<Settings> settings = settingsOf(options, pathsOf(options));
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     if (options.path_given && !options.update_baseline)

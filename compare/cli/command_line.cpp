@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -224,6 +225,22 @@ Keep keepOf(const std::string& word) {
     throw std::runtime_error(fmt::format("--keep {}: takes all, failing or none", word));
 }
 
+// "X,Y", from the top left.
+Options::Pixel pixelOf(const std::string& words) {
+    Options::Pixel pixel;
+    const char *at = words.data(), *const end = at + words.size();
+    const auto [comma, first] = std::from_chars(at, end, pixel.x);
+    bool sound = first == std::errc() && comma != end && *comma == ',';
+    if (sound) {
+        const auto [last, second] = std::from_chars(comma + 1, end, pixel.y);
+        sound = second == std::errc() && last == end && pixel.x >= 0 && pixel.y >= 0;
+    }
+    if (!sound)
+        throw std::runtime_error(
+            fmt::format("--pixel {}: is X,Y in pixels from the top left, as 320,180", words));
+    return pixel;
+}
+
 // What each word means together with the others.
 void resolve(Options& options, const ParsedOptions& parsed) {
     options.settings = settingsOf(parsed);
@@ -248,6 +265,7 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     options.keep = keepOf(parsed.keep);
     resolveBaseline(options, parsed);
     resolveTest(options, parsed);
+    if (parsed.pixel) options.pixel = pixelOf(*parsed.pixel);
     resolveWhatCounts(options, parsed);
     resolveBench(options.bench, parsed);
     resolveChoose(options.choose, parsed);

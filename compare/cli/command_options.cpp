@@ -363,7 +363,11 @@ void addAll(CLI::App& app, const std::string& command, Options& options, ParsedO
         app.add_flag("--explain", options.explain,
                      "name the causes of a difference of lit also where it passes")
             ->group(output_group);
-        addLater(app, parsed, "--pixel", "X,Y", "one pixel's whole story");
+        app.option_defaults()->group(output_group);
+        app.add_option("--pixel", parsed.pixel,
+                       "instead of a report one pixel's whole story on stdout: both surfaces, each light's "
+                       "term, which step differs first; exit code 0 where it could be told")
+            ->type_name("X,Y");
     } else if (command == "render") {
         addFiles(app, options,
                  "X.exr: every channel; X.png: the picture; else a folder for both (diptych-render)");

@@ -29,6 +29,7 @@ struct ParsedOptions {
     std::vector<std::string> test;
     std::optional<std::string> times;
     std::string baseline = "deferred", crop, metric;
+    std::optional<std::string> pixel;
     std::optional<double> tolerance;
     std::vector<std::string> not_built;  // options that parse but cannot be done
     std::optional<int> frames;

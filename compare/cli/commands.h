@@ -26,6 +26,7 @@ namespace diptych::cli {
 int runCommand(const Options& options);
 
 int runCompare(const Options& options);
+int runPixel(const Options& options);  // compare --pixel
 int runRender(const Options& options);
 int runDiff(const Options& options);
 int runTradeoff(const Options& options);

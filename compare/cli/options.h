@@ -61,6 +61,10 @@ struct Options {
     std::string scene_file;  // explain, of two EXR files: their scene; empty: the one that they name
     // explain: Settings of the test that are others than the baseline's, in the words of Settings::set().
     std::vector<std::pair<std::string, std::string>> test;
+    struct Pixel {
+        int x = 0, y = 0;
+    };
+    std::optional<Pixel> pixel;  // compare: that whose story is told, from the top left
     bool update_baseline = false;
     bool strict = false;               // compare, diff
     bool allow_empty = false;          // compare, diff

@@ -196,4 +196,10 @@ std::uint64_t unequalPixels(const Image& a, const Image& b, int ulps) {
     return count;
 }
 
+Image onePixel(const Image& image, std::size_t pixel) {
+    Image one(1, 1, image.components);
+    std::copy_n(image.pixel(pixel), image.components, one.data.data());
+    return one;
+}
+
 }  // namespace diptych

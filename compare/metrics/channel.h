@@ -75,4 +75,7 @@ constexpr int gpuUlps = 16;
 // `ulps` > 0, further apart than that many units in the last place of the pixel's largest component.
 std::uint64_t unequalPixels(const Image& a, const Image& b, int ulps);
 
+// One pixel as a picture of 1x1; `pixel` counts row by row from 0.
+Image onePixel(const Image& image, std::size_t pixel);
+
 }  // namespace diptych

@@ -196,13 +196,41 @@ public:
     }
 
     Pixel render(int x, int y) const {
-        const std::uint64_t seed =
-            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(request_.view.width) +
-            static_cast<std::uint64_t>(x);
+        const std::uint64_t seed = seedOf(x, y);
         return request_.mode == ReferenceMode::surface ? renderCaptured(x, y, seed) : renderScene(x, y, seed);
     }
 
+    // What the surface at the pixel's middle sends of each light alone, and of all else; nothing in the
+    // background.
+    void takeTerms(int x, int y, PixelLight& pixel) const {
+        const std::optional<Standing> standing = request_.mode == ReferenceMode::surface
+                                                     ? capturedAt(x, y)
+                                                     : tracedAt(rays_.through(x + 0.5, y + 0.5));
+        if (!standing) return;
+        const Visibility visible = visibilityFrom(standing->foot);
+        const auto shade = [&](std::span<const Light> lights, const Environment* environment,
+                               const glm::dvec3& ambient, std::span<const std::size_t> casters) {
+            return Lighting(lights, environment, request_.environment_factor, eye_, ambient, casters,
+                            request_.shadowed_environment, request_.multiscatter,
+                            request_.environment_turned)(standing->surface, visible, seedOf(x, y));
+        };
+        constexpr std::size_t first = 0;
+        for (std::size_t i = 0; i < request_.lights.size(); ++i) {
+            const bool casts = std::ranges::find(request_.casters, i) != request_.casters.end();
+            Shading shading = shade(request_.lights.subspan(i, 1), nullptr, glm::dvec3(0),
+                                    std::span(&first, casts ? 1 : 0));
+            shading.ambient = glm::dvec3(0);  // of a lightmap, which shines beside every light
+            pixel.lights.push_back(shading);
+        }
+        pixel.without_lights = shade({}, request_.environment(), request_.ambient, {});
+    }
+
 private:
+    std::uint64_t seedOf(int x, int y) const {
+        return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(request_.view.width) +
+               static_cast<std::uint64_t>(x);
+    }
+
     // Where a shadow ray begins, relative to the point's distance from the camera: far above rounding errors
     // in double, far below modelled detail. A captured position is only as exact as a float32 depth.
     static constexpr double exactOffset = 1e-9, capturedOffset = 1e-5;
@@ -326,24 +354,55 @@ private:
         });
     }
 
-    Pixel renderCaptured(int x, int y, std::uint64_t seed) const {
+    // A surface, and where rays from it begin.
+    struct Standing {
+        Surface surface;
+        Foot foot;
+        double depth = 0;
+    };
+
+    // That of a path's capture; nothing in the background.
+    std::optional<Standing> capturedAt(int x, int y) const {
         const Captured captured(*request_.surfaces, materialsOf(request_.scene, request_.pose));
+        const std::uint64_t pixel = seedOf(x, y);
+        if (!captured.isSurface(pixel)) return {};
+        const Surface s = captured.surface(pixel, rays_);
+        const double depth = captured.depth(pixel);
+        Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
+        if (request_.shadows() || request_.surroundings) {
+            // Finds the exact position again, if the camera ray meets a surface at the captured depth.
+            const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5));
+            if (hit && std::abs(hit->t - depth) <= 1e-4 * depth)
+                foot = {hit->position, s.geometric_normal, hit->id, exactOffset};
+        }
+        return Standing{s, foot, depth};
+    }
+
+    // That of the nearest hit; nothing in the background.
+    std::optional<Standing> tracedAt(const PixelRay& ray) const {
+        const std::optional<Hit> hit = nearest(ray);
+        return hit ? std::optional(standingAt(*hit, ray)) : std::nullopt;
+    }
+
+    Standing standingAt(const Hit& hit, const PixelRay& ray) const {
+        Surface s = materials_.surface(hit, ray);
+        s.to_viewer = rays_.toViewer(s.position);
+        return {s, Foot{s.position, s.geometric_normal, hit.id, exactOffset}, hit.t};
+    }
+
+    Pixel renderCaptured(int x, int y, std::uint64_t seed) const {
         Pixel pixel;
         const PixelRay ray = rays_.through(x + 0.5, y + 0.5);
-        if (!captured.isSurface(seed)) {
+        const std::optional<Standing> standing = capturedAt(x, y);
+        if (!standing) {
             pixel.lit = background(ray);
             return withBlended(std::move(pixel), nowhere, ray, seed);
         }
-        Surface s = captured.surface(seed, rays_);
-        pixel.depth = captured.depth(seed);
+        const auto& [s, foot, depth] = *standing;
+        pixel.depth = depth;
         Visibility visible;
         pixel.sun_visibility = pixel.local_visibility = 1;
         if (request_.shadows() || request_.surroundings) {
-            // Finds the exact position again, if the camera ray meets a surface at the captured depth.
-            const std::optional<Hit> hit = nearest(ray);
-            Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
-            if (hit && std::abs(hit->t - pixel.depth) <= 1e-4 * pixel.depth)
-                foot = {hit->position, s.geometric_normal, hit->id, exactOffset};
             visible = visibilityFrom(foot);
             takeShadow(pixel, s, foot, seed);
             takeLocalShadows(pixel, s, foot);
@@ -358,10 +417,8 @@ private:
 
     Pixel shaded(const Hit& hit, const PixelRay& ray, std::uint64_t seed) const {
         Pixel pixel;
-        Surface s = materials_.surface(hit, ray);
-        s.to_viewer = rays_.toViewer(s.position);
-        pixel.depth = hit.t;
-        const Foot foot{s.position, s.geometric_normal, hit.id, exactOffset};
+        const auto [s, foot, depth] = standingAt(hit, ray);
+        pixel.depth = depth;
         pixel.shading = lighting_(s, visibilityFrom(foot), seed);
         takeShadow(pixel, s, foot, seed);
         takeLocalShadows(pixel, s, foot);
@@ -629,6 +686,26 @@ std::vector<int> surfaceChannels() {
     for (const DebugMode& mode : debugModes())
         if (!isShaded(mode.number) && isMadeByReference(mode)) modes.push_back(mode.number);
     return modes;
+}
+
+PixelLight drawPixel(const Request& request, int x, int y) {
+    const PixelRenderer renderer(request);
+    const Pixel pixel = renderer.render(x, y);
+    PixelLight result;
+    const std::size_t place = static_cast<std::size_t>(y) * static_cast<std::size_t>(request.view.width) +
+                              static_cast<std::size_t>(x);
+    for (const DebugMode& mode : debugModes()) {
+        if (!isMadeByReference(mode)) continue;
+        glm::dvec3& value = result.channels[mode.number] = channelValue(mode.number, pixel);
+        if (request.mode == ReferenceMode::scene || isShaded(mode.number)) continue;
+        // Not shaded: the capture's own.
+        const Image& image = request.surfaces->at(mode.number);
+        for (int c = 0; c < mode.width; ++c) value[c] = double{image.pixel(place)[c]};
+    }
+    result.uncertainty = pixel.shading.uncertainty + pixel.blended.uncertainty;
+    result.unblended = request.blended && blendsSomewhere(request) ? pixel.unblended : pixel.lit;
+    renderer.takeTerms(x, y, result);
+    return result;
 }
 
 Picture draw(const Request& request) {

@@ -3,8 +3,11 @@
 // definitions. It uses no Vulkan, no shader and none of the paths' code.
 #pragma once
 
+#include "compare/reference/lighting.h"
 #include "compare/reference/request.h"
 #include "shared/image/image.h"
+
+#include <glm/vec3.hpp>
 
 #include <map>
 #include <vector>
@@ -44,5 +47,19 @@ std::vector<int> surfaceChannels();
 // Draws the picture, multithreaded. The result does not depend on the number of threads or on interruptions.
 // Throws std::runtime_error, one line, if finished tiles cannot be kept.
 Picture draw(const Request& request);
+
+// One pixel, and what each light alone sends from it.
+struct PixelLight {
+    std::map<int, glm::dvec3> channels;  // by debug mode number, as Picture::channels at the pixel
+    double uncertainty = 0;              // as Picture::uncertainty there
+    glm::dvec3 unblended{0};             // lit without what is blended, W/(sr m^2)
+    // At the pixel's middle, before any haze; empty in the background. By the places of Request::lights: each
+    // light with its shadow and without the environment and ambient light; and all that without lights.
+    std::vector<Shading> lights;
+    Shading without_lights;
+};
+
+// The pixel of the picture that draw() makes, by itself. Its surface is lit once for each light.
+PixelLight drawPixel(const Request& request, int x, int y);
 
 }  // namespace diptych::reference

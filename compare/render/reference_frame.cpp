@@ -99,42 +99,51 @@ std::string hiddenLightNote(const Frame::HiddenLight& hidden) {
         100 * hidden.mean, 100 * hidden.pixels, 100 * hidden.p99);
 }
 
+// What decides every pixel.
+reference::Request requestOf(const Scene& scene, const SceneView& view, const Settings& settings,
+                             const Frame* surfaces) {
+    return {.scene = scene,
+            .pose = view.pose,
+            .view = view.view,
+            .lights = view.lights,
+            .residual = view.environment == view.background ? nullptr : view.environment,
+            .environment_factor = double{settings.ibl_intensity},
+            .environment_turned = glm::radians(double{settings.env_rotation}),
+            .ambient = doubles(settings.ambient),
+            .multiscatter = settings.multiscatter,
+            .air = airOf(view.lights, settings),
+            .blended = settings.transparency != Transparency::off,
+            .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}
+                                                        : castingLights(view.lights, settings.shadow_lights),
+            .mode = settings.reference_mode,
+            .samples = settings.spp,
+            .resolve = settings.resolve,
+            .surfaces = surfaces ? &surfaces->channels : nullptr};
+}
+
 }  // namespace
+
+reference::PixelLight drawReferencePixel(const Scene& scene, const SceneView& view, const Settings& settings,
+                                         const Frame* surfaces, int x, int y) {
+    return reference::drawPixel(requestOf(scene, view, settings, surfaces), x, y);
+}
 
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     std::string step = settings.reference_mode == ReferenceMode::surface ? "reference: shade every surface"
                                                                          : "reference: trace every pixel";
-    const reference::Request request{
-        .scene = scene,
-        .pose = view.pose,
-        .view = view.view,
-        .lights = view.lights,
-        .residual = view.environment == view.background ? nullptr : view.environment,
-        .environment_factor = double{settings.ibl_intensity},
-        .environment_turned = glm::radians(double{settings.env_rotation}),
-        .ambient = doubles(settings.ambient),
-        .multiscatter = settings.multiscatter,
-        .air = airOf(view.lights, settings),
-        .blended = settings.transparency != Transparency::off,
-        .casters = settings.shadows == Shadows::off ? std::vector<std::size_t>{}
-                                                    : castingLights(view.lights, settings.shadow_lights),
-        .environment_costs = options.environment_errors && scene.environment && settings.ibl_intensity > 0,
-        .surroundings = options.environment_errors && isLitFromEverywhere(scene, settings),
-        .mode = settings.reference_mode,
-        .samples = settings.spp,
-        .resolve = settings.resolve,
-        .surfaces = surfaces ? &surfaces->channels : nullptr,
-        .keep = options.keep,
-        .program = commitName(),
-        .progress = [&](double fraction) { options.progress.at(fraction, step); },
-        // Before any tile is drawn.
-        .expected =
-            [&](double seconds) {
-                step += fmt::format(", about {} in all", clockText(seconds));
-                options.progress.at(0, step);
-            }};
+    reference::Request request = requestOf(scene, view, settings, surfaces);
+    request.environment_costs = options.environment_errors && scene.environment && settings.ibl_intensity > 0;
+    request.surroundings = options.environment_errors && isLitFromEverywhere(scene, settings);
+    request.keep = options.keep;
+    request.program = commitName();
+    request.progress = [&](double fraction) { options.progress.at(fraction, step); };
+    // Before any tile is drawn.
+    request.expected = [&](double seconds) {
+        step += fmt::format(", about {} in all", clockText(seconds));
+        options.progress.at(0, step);
+    };
     reference::Picture picture = reference::draw(request);
 
     Frame frame = describedFrame(scene, view, settings);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/reference/checkpoint.h"
+#include "compare/reference/reference.h"
 #include "compare/render/render_options.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
@@ -21,6 +22,10 @@ namespace diptych {
 // reference::surfaceChannels(); nullptr in mode scene.
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options);
+
+// One pixel of that Frame and what each light adds to it, as reference::drawPixel() has it.
+reference::PixelLight drawReferencePixel(const Scene& scene, const SceneView& view, const Settings& settings,
+                                         const Frame* surfaces, int x, int y);
 
 // Whether a Frame of these Settings is drawn with a Vulkan device: all but the reference of mode scene, which
 // makes its surfaces itself.

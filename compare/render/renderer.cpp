@@ -254,13 +254,32 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
     const SceneView& view = state_->views.at(viewRequest(settings));
     if (settings.reference_mode == ReferenceMode::scene)
         return drawReferenceFrame(scene, view, settings, nullptr, options);
+    const Frame surfaces = surfacesFor(settings, options);
+    return drawReferenceFrame(scene, view, settings, &surfaces, options);
+}
+
+// What the reference shades in mode surface.
+Frame Renderer::surfacesFor(const Settings& settings, const RenderOptions& options) {
     RenderOptions capture;
     capture.channels = reference::surfaceChannels();
     capture.runs = 0;
     capture.on_step = options.on_step;
-    const Frame surfaces =
-        FrameMaker(state_->device, state_->shared, state_->views, surfaceSettings(settings), capture).make();
-    return drawReferenceFrame(scene, view, settings, &surfaces, options);
+    return FrameMaker(state_->device, state_->shared, state_->views, surfaceSettings(settings), capture)
+        .make();
+}
+
+reference::PixelLight Renderer::referencePixel(const Settings& settings, int x, int y) {
+    const Scene& scene = state_->views.scene();
+    const SceneView& view = state_->views.at(viewRequest(settings));
+    if (settings.reference_mode == ReferenceMode::scene)
+        return drawReferencePixel(scene, view, settings, nullptr, x, y);
+    const Frame surfaces = surfacesFor(settings, {});
+    return drawReferencePixel(scene, view, settings, &surfaces, x, y);
+}
+
+LightTerms Renderer::lightTerms(const Settings& settings, bool environment) {
+    checkSize(state_->device, settings.size);
+    return {state_->device, state_->shared, state_->views.at(viewRequest(settings)), settings, environment};
 }
 
 void Renderer::clearPipelines(Path path) {

@@ -2,7 +2,9 @@
 // From a scene and Settings to Frames, on one device.
 #pragma once
 
+#include "compare/reference/reference.h"
 #include "compare/render/channel_shading.h"
+#include "compare/render/light_terms.h"
 #include "compare/render/prepared_frames.h"
 #include "compare/render/render_options.h"
 #include "compare/render/timing.h"
@@ -43,6 +45,10 @@ public:
     std::vector<TimedFrame> time(std::span<const Settings> settings, const RenderOptions& options);
     // Lighting of channels as one Settings has it.
     ChannelShading shadeChannels(const Settings& settings, const SurfaceImages& images);
+    // What single lights add to a pixel of one of the two paths (light_terms.h).
+    LightTerms lightTerms(const Settings& settings, bool environment);
+    // One pixel of the reference, and what each light adds to it.
+    reference::PixelLight referencePixel(const Settings& settings, int x, int y);
     // Destroys the pipelines of one path, of all Renderers that share them. Frames of it that are prepared
     // must be gone.
     void clearPipelines(Path path);
@@ -51,6 +57,7 @@ public:
 
 private:
     Frame drawReference(const Settings& settings, const RenderOptions& options);
+    Frame surfacesFor(const Settings& settings, const RenderOptions& options);
 
     struct State;
     std::unique_ptr<State> state_;

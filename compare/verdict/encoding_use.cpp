@@ -23,27 +23,53 @@ const Image* boundOf(const Frame& forward, const DebugMode& mode) {
     return found == forward.encoding_bound.end() ? nullptr : &found->second;
 }
 
+// What every pixel of two paths may differ by; nothing of other pairs and channels, and without bounds.
+class Allowance {
+public:
+    static std::optional<Allowance> of(const DebugMode& mode, const FramePair& pair) {
+        const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+        if (!isLit(mode.number) || !deferred || !forward ||
+            deferred->settings.gbuffer != forward->settings.gbuffer || forward->encoding_bound.empty())
+            return {};
+        return Allowance(mode, pair, *deferred, *forward);
+    }
+
+    EncodingAllowed operator()(std::size_t i) const {
+        const double size = std::max(metrics::largestFinite(own_->pixel(i), own_->components),
+                                     metrics::largestFinite(read_->pixel(i), read_->components));
+        const double allowed =
+            (bound_ ? double{*bound_->pixel(i)} : 0) + shadingRounding * std::max(size, dark_ * floor_);
+        return {
+            allowed,
+            allowed / std::max(metrics::largestFinite(baseline_->pixel(i), baseline_->components), floor_)};
+    }
+    // Deferred's image, and that of forward+.
+    const Image& read() const { return *read_; }
+    const Image& own() const { return *own_; }
+
+private:
+    Allowance(const DebugMode& mode, const FramePair& pair, const Frame& deferred, const Frame& forward)
+        : read_(&deferred.channels.at(mode.number)),
+          own_(&forward.channels.at(mode.number)),
+          baseline_(&pair.baseline.channels.at(mode.number)),
+          bound_(boundOf(forward, mode)),
+          dark_(cancelling(pair.needs)),
+          floor_(PixelError(mode.metric, mode.kind, *baseline_, pair.coverage).floor()) {}
+
+    const Image *read_, *own_, *baseline_, *bound_;
+    double dark_, floor_;
+};
+
 }  // namespace
 
 std::optional<EncodingUse> encodingUse(const DebugMode& mode, const FramePair& pair) {
-    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
-    if (!isLit(mode.number) || !deferred || !forward ||
-        deferred->settings.gbuffer != forward->settings.gbuffer || forward->encoding_bound.empty())
-        return {};
-    const Image& read = deferred->channels.at(mode.number);
-    const Image& own = forward->channels.at(mode.number);
-    const Image& baseline = pair.baseline.channels.at(mode.number);
-    const Image* const bound = boundOf(*forward, mode);
-    const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
+    const std::optional<Allowance> allowance = Allowance::of(mode, pair);
+    if (!allowance) return {};
+    const Image &read = allowance->read(), &own = allowance->own();
     EncodingUse use;
     for (std::size_t i = 0; i < own.pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
-        const double size = std::max(metrics::largestFinite(own.pixel(i), own.components),
-                                     metrics::largestFinite(read.pixel(i), read.components));
-        const double allowed = (bound ? double{*bound->pixel(i)} : 0) +
-                               shadingRounding * std::max(size, cancelling(pair.needs) * floor);
-        const double inMetric =
-            allowed / std::max(metrics::largestFinite(baseline.pixel(i), baseline.components), floor);
+        const auto [allowed, inMetric] = (*allowance)(i);
         if (std::isfinite(inMetric)) {
             use.most = std::max(use.most, inMetric);
             use.mean += inMetric;
@@ -60,6 +86,12 @@ std::optional<EncodingUse> encodingUse(const DebugMode& mode, const FramePair& p
     }
     if (pair.coverage.count > 0) use.mean /= static_cast<double>(pair.coverage.count);
     return use;
+}
+
+std::optional<EncodingAllowed> encodingAllowed(const DebugMode& mode, const FramePair& pair,
+                                               std::size_t pixel) {
+    const std::optional<Allowance> allowance = Allowance::of(mode, pair);
+    return allowance ? std::optional((*allowance)(pixel)) : std::nullopt;
 }
 
 const Image* allowedByBits(const DebugMode& mode, const FramePair& pair) {

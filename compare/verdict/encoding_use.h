@@ -5,6 +5,7 @@
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -26,6 +27,14 @@ struct EncodingUse {
 // surfaces and the bits (Frame::encoding_bound), and float32's rounding. Empty for other pairs and channels,
 // and where forward+ has no bounds.
 std::optional<EncodingUse> encodingUse(const DebugMode& mode, const FramePair& pair);
+
+// What one pixel may differ by, of which encodingUse() tells the share that is used.
+struct EncodingAllowed {
+    double radiance = 0;   // W/(sr m^2): the bits' bound and rounding
+    double in_metric = 0;  // the same in the channel's metric
+};
+std::optional<EncodingAllowed> encodingAllowed(const DebugMode& mode, const FramePair& pair,
+                                               std::size_t pixel);
 
 // Of a packed deferred Frame against the reference, the bound of each pixel, W x H x 1: what forward+ has of
 // the same view. nullptr where there is none, and for forward+ and a full G-buffer, which need none.

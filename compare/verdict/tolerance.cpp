@@ -350,4 +350,11 @@ std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const Fram
     return unequalPixels(pair.of(Path::deferred)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
 }
 
+std::optional<bool> encodingExplains(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
+    const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
+    if (!through) return {};
+    const Image& read = pair.of(Path::deferred)->channels.at(mode.number);
+    return unequalPixels(onePixel(read, pixel), onePixel(*through, pixel), pair.cpu ? 0 : gpuUlps) == 0;
+}
+
 }  // namespace diptych

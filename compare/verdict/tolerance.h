@@ -6,6 +6,7 @@
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,5 +44,8 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair);
 // The number of pixels where deferred differs from what forward+ shades from a surface that went through the
 // G-buffer's encoding: differences that the encoding does not explain. Empty if forward+ has no such image.
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair);
+
+// Whether it does so at one pixel, row by row from 0: false where the two differ there.
+std::optional<bool> encodingExplains(const DebugMode& mode, const FramePair& pair, std::size_t pixel);
 
 }  // namespace diptych

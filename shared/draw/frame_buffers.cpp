@@ -65,4 +65,9 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     objects_.bind(sets_);
 }
 
+void FrameBuffers::replaceLights(Uploader& uploader, std::span<const gpu::Light> lights) const {
+    uploader.buffer(lights_, std::as_bytes(lights));
+    uploader.flush();
+}
+
 }  // namespace diptych

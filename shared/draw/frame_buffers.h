@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace diptych {
 
@@ -28,6 +29,9 @@ public:
     const Placeholders& placeholders() const { return placeholders_; }
     LightLists& lists() { return lists_; }
     const ObjectLightBuffers& objects() const { return objects_; }
+    // Takes other lights in the place of those that this was made of, equal in number: what chooses them,
+    // lists and bounds, stays. No frame may be in flight.
+    void replaceLights(Uploader& uploader, std::span<const gpu::Light> lights) const;
     std::uint64_t bytes() const {
         return view_.size() + packed_view_.size() + draws_.size() + sorted_indices_.size() + lights_.size() +
                spot_cones_.size() + area_lights_.size() + ltc_.bytes() + albedo_.size() + lists_.bytes() +

@@ -165,6 +165,14 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
     return bounds;
 }
 
+gpu::uint cellOf(const gpu::LightGrid& grid, int x, int y, float depth) {
+    const gpu::uint column = static_cast<gpu::uint>(x) >> grid.tile_shift,
+                    row = static_cast<gpu::uint>(y) >> grid.tile_shift;
+    const gpu::uint slice =
+        grid.slices == 1 ? 0 : std::min(sliceOf(grid, static_cast<double>(depth)), grid.slices - 1);
+    return (slice * grid.tiles.y + row) * grid.tiles.x + column;
+}
+
 SliceDepths sliceDepths(const gpu::LightGrid& grid, gpu::uint s) {
     const auto depthOf = [&](gpu::uint slice) {
         return std::bit_cast<float>(std::bit_cast<gpu::uint>(grid.slice_offset) +

@@ -30,6 +30,9 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, const View& view, const GpuLights&
 std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
                            std::span<const gpu::LightBound> bounds);
 
+// The cell that holds a pixel at a view depth, m, as cellOf() of shaders/lib/light_grid.glsl.
+gpu::uint cellOf(const gpu::LightGrid& grid, int x, int y, float depth);
+
 // View depths of slice `s`, m, a little more than float32 can round; the last reaches to MAX_BOUND_RADIUS.
 struct SliceDepths {
     float near = 0, far = 0;

@@ -252,6 +252,35 @@ std::uint64_t LightLists::overflowed() const {
     return lists;
 }
 
+std::vector<gpu::uint> LightLists::lightsAt(int x, int y, float depth) const {
+    if (!any()) return {};
+    const auto read = [&](const GpuBuffer& from, std::uint64_t first, std::size_t count) {
+        std::vector<gpu::uint> words(count);
+        if (count == 0) return words;
+        const GpuBuffer seen(device_, "light list, read back", count * sizeof(gpu::uint),
+                             VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+        device_.submit([&](VkCommandBuffer commands) {
+            memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                          VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
+                          VK_ACCESS_2_TRANSFER_READ_BIT);
+            const VkBufferCopy copy{first * sizeof(gpu::uint), 0, count * sizeof(gpu::uint)};
+            vkCmdCopyBuffer(commands, from.handle(), seen.handle(), 1, &copy);
+            memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                          VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+        });
+        std::memcpy(words.data(), seen.mapped(), count * sizeof(gpu::uint));
+        return words;
+    };
+    constexpr std::uint64_t headWords = sizeof(gpu::LightListHead) / sizeof(gpu::uint);
+    const std::vector<gpu::uint> words = read(heads_, headWords * cellOf(grid_, x, y, depth), headWords);
+    gpu::LightListHead head{};
+    std::memcpy(&head, words.data(), sizeof head);
+    std::vector<gpu::uint> lights = read(indices_, std::uint64_t{head.begin} * grid_.width,
+                                         std::size_t{head.end - head.begin} * grid_.width);
+    std::erase(lights, grid_.null_light);
+    return lights;
+}
+
 std::uint64_t LightLists::bytes() const {
     std::uint64_t sum = 0;
     for (const GpuBuffer* buffer : {&grid_buffer_, &bounds_, &candidates_, &masks_, &counts_, &used_words_,

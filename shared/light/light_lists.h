@@ -68,6 +68,10 @@ public:
 
     std::uint64_t overflowed() const;  // lists of the last frame that found no room; reads back
     std::uint64_t bytes() const;
+    // The local lights that the last frame's list at a pixel holds, as their places in GpuLights::lights, in
+    // ascending order; empty without lists. `depth`: what the pixel shows, view depth, m. Reads back. A
+    // surface of several samples that lies behind its tile's depths has another list, that of all lights.
+    std::vector<gpu::uint> lightsAt(int x, int y, float depth) const;
     // What the last frame left, for tests: heads, then all numbers of the index buffer.
     const GpuBuffer& heads() const { return heads_; }
     const GpuBuffer& indices() const { return indices_; }

@@ -189,7 +189,6 @@ TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
         {{"choose", "--max-ms", "4", "--max-bytes", "100"}, "choose"},
         {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},
         {{"view", "a.glb", "--size", "64x64"}, "view"},
-        {{"compare", "--pixel", "3,4"}, "--pixel 3,4"},
     };
     for (const auto& [words, name] : later) {
         const std::string what = whatIsThrown(words);
@@ -355,6 +354,19 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
     }
 }
 
+TEST(CommandLine, APixelIsTwoNumbersFromTheTopLeft) {
+    const Options options = parseCommandLine({"compare", "--pixel", "3,40"});
+    ASSERT_TRUE(options.pixel);
+    EXPECT_EQ(options.pixel->x, 3);
+    EXPECT_EQ(options.pixel->y, 40);
+    EXPECT_FALSE(parseCommandLine({"compare"}).pixel);
+    for (const std::string wrong :
+         {"3", "3,", ",4", "3,4,5", "3;4", "3.5,4", "a,b", "3, 4", "-1,4", "3,-4", "99999999999,0"})
+        EXPECT_EQ(whatIsThrown({"compare", "--pixel=" + wrong}),
+                  "--pixel " + wrong + ": is X,Y in pixels from the top left, as 320,180");
+    EXPECT_NE(parseCommandLine({"compare", "--help"}).help.find("--pixel X,Y"), std::string::npos);
+}
+
 TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
     const std::string what = whatIsThrown({"render", "--channels", "gloss"});
     for (const DebugMode& mode : debugModes())
@@ -366,7 +378,7 @@ TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
 TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     const auto help = [](const std::string& command) { return parseCommandLine({command, "--help"}).help; };
     const std::pair<const char*, std::vector<const char*>> unread[] = {
-        {"compare", {"--debug", "--heat", "--frames", "--fps", "--pixel"}},
+        {"compare", {"--debug", "--heat", "--frames", "--fps"}},
         {"render", {"--times"}},
         {"bench", {"--debug", "--channels", "--exposure"}},
         {"plan", {"--exposure", "--runs", "--out", "--channels"}},

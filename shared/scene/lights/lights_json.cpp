@@ -189,6 +189,12 @@ std::vector<Light> lightsFromJson(std::string_view text, const std::string& name
     return named(name, [&] { return readDocument(parseJson(text)); });
 }
 
+std::string_view nameOf(LightKind kind) {
+    for (const auto& [of, name] : types)
+        if (of == kind) return name;
+    return "light";
+}
+
 std::vector<Light> readLights(const std::filesystem::path& file) {
     const std::vector<unsigned char> bytes = bytesOf(file);
     return lightsFromJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());

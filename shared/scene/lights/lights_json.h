@@ -36,6 +36,9 @@ class JsonFields;
 std::vector<Light> readLights(const std::filesystem::path& file);
 std::vector<Light> lightsFromJson(std::string_view text, const std::string& name);
 
+// "rect": the "type" of such an object.
+std::string_view nameOf(LightKind kind);
+
 // Reads one object of such a file. Throws std::runtime_error: "WHO: range: ...".
 Light lightFromJson(const nlohmann::json& object, const std::string& who);
 // "angle" of a directional light, 0 to pi; 0 if the key is absent.

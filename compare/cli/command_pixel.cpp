@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "compare/cli/commands.h"
+#include "compare/cli/verdict_words.h"
+#include "compare/explain/pixel_words.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace diptych::cli {
+
+namespace {
+
+// What no story can be told of.
+void checkOnePixel(const Options& options) {
+    const auto [x, y] = *options.pixel;
+    const std::string pixel = fmt::format("--pixel {},{}", x, y);
+    if (options.scenes.size() != 1)
+        throw std::runtime_error(
+            fmt::format("{}: is told of one scene, and {} are given; run it once for each", pixel,
+                        options.scenes.size()));
+    if (options.cameras.size() != 1 || options.times.size() != 1)
+        throw std::runtime_error(fmt::format(
+            "{}: is told of one picture; give one --camera and one --time, or run it once for each", pixel));
+    if (options.baseline == Path::reference || !options.baseline_file.empty())
+        throw std::runtime_error(fmt::format(
+            "--baseline {}: {} tells of the two paths, with the reference beside them; take deferred or "
+            "forward_plus",
+            options.baseline_file.empty() ? "reference" : options.baseline_file.string(), pixel));
+    const Size& size = options.settings.size;
+    if (x >= size.width || y >= size.height)
+        throw std::runtime_error(
+            fmt::format("{}: outside the picture, whose pixels are 0,0 to {},{}; --size sets how large it is",
+                        pixel, size.width - 1, size.height - 1));
+    if (!options.out.empty())
+        throw std::runtime_error(fmt::format(
+            "-o {}: --pixel writes no file; compare --pixel {},{} --json > FILE keeps what it says",
+            options.out.string(), x, y));
+}
+
+}  // namespace
+
+int runPixel(const Options& options) {
+    checkOnePixel(options);
+    const Path test = options.baseline == Path::deferred ? Path::forward_plus : Path::deferred;
+    const std::vector<Settings> settings = settingsOf(options, {Path::reference, options.baseline, test});
+    const CompareOptions compare = compareOptions(options);
+    if (options.selection.any())
+        note(options, "--mask, --ids, --ignore-edges and --crop are not used: --pixel says which pixel");
+    if (!options.channels.empty()) note(options, "--channels is not used: --pixel tells of every channel");
+    const std::string& where = options.scenes.front();
+    Progress progress(progressOutput(options));
+    const Stage stage(progress, where);
+    const Scene scene = loadShown(where, options.settings, stage.part(0, 0.1));
+    Device device(deviceOptions(options));
+    say(options, "on " + device.info().name);
+    SceneViews views(scene);
+    Renderer renderer(device, views);
+    const PixelStory story = pixelStory(renderer, views,
+                                        {.x = options.pixel->x,
+                                         .y = options.pixel->y,
+                                         .baseline = settings[1],
+                                         .test = settings[2],
+                                         .reference = settings[0],
+                                         .device = reportDevice(device),
+                                         .rules = compare.rules,
+                                         .progress = stage.part(0.1, 1)});
+    checkValidation(device);
+    wipeProgress();
+    if (options.json)
+        fmt::print("{}\n", toJson(story).dump(2));
+    else if (!options.quiet)
+        printColored(options, inWords(story));
+    return 0;
+}
+
+}  // namespace diptych::cli

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/pixel_words.h"
+
+#include "compare/files/frame_json.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers of one row: as many digits as it takes to see that they differ, at least 6.
+class Digits {
+public:
+    explicit Digits(std::span<const std::span<const double>> values) {
+        for (; digits_ < 9; ++digits_) {
+            bool told = true;
+            for (std::size_t i = 1; i < values.size() && told; ++i)
+                for (std::size_t c = 0; c < values[i].size() && told; ++c)
+                    told = values[0].size() != values[i].size() || values[0][c] == values[i][c] ||
+                           one(values[0][c]) != one(values[i][c]);
+            if (told) break;
+        }
+    }
+    std::string operator()(std::span<const double> value) const {
+        if (value.empty()) return "-";
+        std::string text;
+        for (const double v : value) text += fmt::format("{}{}", text.empty() ? "" : " ", one(v));
+        return text;
+    }
+
+private:
+    std::string one(double v) const { return fmt::format("{:.{}g}", v, digits_); }
+    int digits_ = 6;
+};
+
+// Rows of cells in columns; the last cell of a row is as long as it is.
+class Columns {
+public:
+    void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+    std::size_t size() const { return rows_.size(); }
+    // Rows [first, last), as wide as all are.
+    std::string text(std::size_t first, std::size_t last) const {
+        std::vector<std::size_t> widths;
+        for (const auto& row : rows_) {
+            widths.resize(std::max(widths.size(), row.size()));
+            for (std::size_t i = 0; i + 1 < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+        }
+        std::string text;
+        for (const auto& row : std::span(rows_).subspan(first, last - first)) {
+            std::string line;
+            for (std::size_t i = 0; i < row.size(); ++i)
+                line += fmt::format("  {:<{}}", row[i], i + 1 == row.size() ? 0 : widths[i]);
+            line.erase(line.find_last_not_of(' ') + 1);
+            text += fmt::format("{}\n", line);
+        }
+        return text;
+    }
+
+private:
+    std::vector<std::vector<std::string>> rows_;
+};
+
+std::string toleranceText(const PixelStep& step) {
+    if (!step.isCompared()) return "-";
+    return std::isinf(step.tolerance.max) ? "none" : fmt::format("{:.3g}", step.tolerance.max);
+}
+
+std::string differenceText(double difference, bool differs) {
+    if (difference == 0) return "0";
+    return fmt::format("{:.3g}{}", difference, differs ? "" : " (rounding)");
+}
+
+std::vector<std::string> stepRow(const PixelStep& step) {
+    std::vector<std::span<const double>> values;
+    for (const PixelValue* value : {&step.values[0], &step.values[1], &step.reference})
+        values.emplace_back(*value);
+    // Both paths' own digits, where both have it: the reference is in double.
+    const std::span all(values);
+    const Digits digits(all.first(step.isCompared() ? 2 : 3));
+    std::string because = step.tolerance.because;
+    if (step.explained == false)
+        because = fmt::format(
+            "FAIL is not what the encoding explains: forward+ shades other light from the decoded surface; "
+            "{}",
+            step.tolerance.because);
+    else if (step.beyond)
+        because = fmt::format("FAIL beyond it: {}", step.tolerance.because);
+    return {std::string(step.mode->name),
+            digits(values[0]),
+            digits(values[1]),
+            digits(values[2]),
+            step.isCompared() ? differenceText(step.difference, step.differs) : "-",
+            toleranceText(step),
+            because};
+}
+
+std::string lightTitle(const PixelStory& story, std::size_t light) {
+    const PixelLightFacts& facts = story.lights.at(light);
+    return fmt::format("light {}, {}{}", light, facts.kind,
+                       facts.name.empty() ? "" : fmt::format(" \"{}\"", facts.name));
+}
+
+std::string titleOf(const PixelStory& story, const PixelTerm& term) {
+    switch (term.kind) {
+        case PixelTerm::Kind::light:
+            return lightTitle(story, term.lights.front());
+        case PixelTerm::Kind::other_lights:
+            return fmt::format("{} other light{}", term.lights.size(), term.lights.size() == 1 ? "" : "s");
+        case PixelTerm::Kind::environment:
+            return "environment";
+        case PixelTerm::Kind::ambient:
+            return "ambient, lightmap";
+        case PixelTerm::Kind::emission:
+            return "emission";
+        case PixelTerm::Kind::transmittance:
+            return "times transmittance";
+        case PixelTerm::Kind::haze:
+            return "haze";
+        case PixelTerm::Kind::blended:
+            return "what is blended over";
+        case PixelTerm::Kind::sum:
+            return "sum of the terms";
+        case PixelTerm::Kind::lit:
+            return "lit";
+        case PixelTerm::Kind::residual:
+            return "lit less the sum";
+    }
+    return {};
+}
+
+bool isNothing(const PixelTerm& term) {
+    const auto dark = [](const std::array<double, 3>& v) {
+        return std::ranges::all_of(v, [](double c) { return c == 0; });
+    };
+    return dark(term.values[0]) && dark(term.values[1]) && (!term.reference || dark(*term.reference));
+}
+
+std::string lightWords(const PixelStory& story, const PixelTerm& term) {
+    const PixelLightFacts& facts = story.lights.at(term.lights.front());
+    std::string words;
+    const auto say = [&](const std::string& what) {
+        words += fmt::format("{}{}", words.empty() ? "" : ", ", what);
+    };
+    if (std::isfinite(facts.distance))
+        say(fmt::format("{:.4g} m away{}", facts.distance,
+                        std::isfinite(facts.range) ? fmt::format(" of {:.4g}", facts.range) : ""));
+    if (facts.casts) say("casts a shadow");
+    for (std::size_t side = 0; side < 2; ++side)
+        if (story.lists_known.at(side) && !facts.listed.at(side))
+            say(fmt::format("not in the list of {}", story.names.at(side)));
+    return words;
+}
+
+std::vector<std::string> termRow(const PixelStory& story, const PixelTerm& term) {
+    std::vector<std::span<const double>> values{term.values[0], term.values[1]};
+    if (term.reference) values.emplace_back(*term.reference);
+    // The sum and what is left are worked out here: of them no more digits are known.
+    const bool derived = term.kind == PixelTerm::Kind::residual;
+    const Digits digits(derived ? std::span(values).first(1) : std::span(values).first(2));
+    std::string words = term.kind == PixelTerm::Kind::light ? lightWords(story, term) : "";
+    if (term.uncertainty > 0)
+        words +=
+            fmt::format("{}the reference is known to {:.2g}", words.empty() ? "" : ", ", term.uncertainty);
+    return {titleOf(story, term),
+            digits(values[0]),
+            digits(values[1]),
+            values.size() > 2 ? digits(values[2]) : "-",
+            derived ? "" : differenceText(term.difference, term.differs || term.kind == PixelTerm::Kind::sum),
+            words};
+}
+
+std::vector<std::size_t> listOf(const PixelStory& story, std::size_t side) {
+    std::vector<std::size_t> listed;
+    for (std::size_t i = 0; i < story.lights.size(); ++i)
+        if (story.lights[i].listed.at(side)) listed.push_back(i);
+    return listed;
+}
+
+std::string listWords(const PixelStory& story) {
+    const std::array known{story.lists_known[0], story.lists_known[1]};
+    const std::array lists{listOf(story, 0), listOf(story, 1)};
+    const bool same = known[0] && known[1] && lists[0] == lists[1];
+    std::string text;
+    for (std::size_t side = 0; side < (same ? 1u : 2u); ++side) {
+        const Settings& settings = story.settings.at(side);
+        if (known.at(side))
+            text += fmt::format("{} {} of {} lights (--assign {}){}{}\n",
+                                same ? "both paths evaluate" : story.names.at(side) + " evaluates",
+                                lists.at(side).size(), story.lights.size(), nameOf(settings.assign),
+                                lists.at(side).empty() ? "" : ": ", fmt::join(lists.at(side), ", "));
+        else
+            text += fmt::format(
+                "{}: which lights its list holds is not told: what was read is not as long as light_count "
+                "says\n",
+                story.names.at(side));
+    }
+    return text;
+}
+
+std::string termsText(const PixelStory& story) {
+    Columns columns;
+    columns.add({"term, W/(sr m^2)", story.names[0], story.names[1], "reference", "difference", ""});
+    std::vector<std::size_t> dark;
+    for (const PixelTerm& term : story.terms) {
+        if (term.kind == PixelTerm::Kind::light && isNothing(term))
+            dark.push_back(term.lights.front());
+        else
+            columns.add(termRow(story, term));
+    }
+    std::string text = columns.text(0, columns.size());
+    if (!dark.empty()) {
+        std::ranges::sort(dark);
+        text += fmt::format("{} light{} drawn alone add{} nothing in all three: {}\n", dark.size(),
+                            dark.size() == 1 ? "" : "s", dark.size() == 1 ? "s" : "", fmt::join(dark, ", "));
+    }
+    return text;
+}
+
+double worstOf(const std::array<double, 3>& v) {
+    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+}
+
+// Why lit is not the sum, of a path (0, 1) or the reference (2).
+std::string residualReason(const PixelStory& story, std::size_t side, const PixelTerm& residual) {
+    const double left = worstOf(side < 2 ? residual.values.at(side) : residual.reference.value());
+    if (left == 0) return "nothing is left";
+    if (left <= story.residual_rounding.at(side))
+        return fmt::format("{:.2g} is left, {} ({:.2g} at most)", left,
+                           side < 2 ? "the rounding of float32 sums" : "what it is known to",
+                           story.residual_rounding.at(side));
+    if (side < 2 && story.settings.at(side).msaa > 1)
+        return fmt::format("{:.2g} is left: lit is the mean of {} samples, the terms are of the first", left,
+                           story.settings.at(side).msaa);
+    if (side == 2 && story.mode == ReferenceMode::scene)
+        return fmt::format("{:.2g} is left: lit is the mean over the pixel, the terms are of its middle",
+                           left);
+    return fmt::format("{:.2g} is left, over the {:.2g} that rounding explains", left,
+                       story.residual_rounding.at(side));
+}
+
+std::string residualText(const PixelStory& story) {
+    const PixelTerm& residual = story.terms.back();
+    return fmt::format("lit less the sum: {}: {}; {}: {}; reference: {}\n", story.names[0],
+                       residualReason(story, 0, residual), story.names[1], residualReason(story, 1, residual),
+                       residualReason(story, 2, residual));
+}
+
+std::string howTermsWereMade(const PixelStory& story) {
+    const std::size_t all = story.lights.size(), alone = story.drawn_alone;
+    if (all == 0) return "there are no lights\n";
+    std::string text = fmt::format("{} of {} lights drawn alone by both paths", alone, all);
+    if (alone > 0) text += ", all others black in the same lists and shadow maps";
+    if (alone == lightsDrawnAlone)
+        text += fmt::format(": the {} that send most by the reference", lightsDrawnAlone);
+    else if (alone < all)
+        text += ": those that are evaluated here";
+    return text + (alone < all ? fmt::format("; the other {} together\n", all - alone) : "\n");
+}
+
+const PixelStep* stepOf(const PixelStory& story, gpu::uint mode) {
+    for (const PixelStep& step : story.steps)
+        if (step.mode->number == static_cast<int>(mode)) return &step;
+    return nullptr;
+}
+
+std::string headline(const PixelStory& story) {
+    std::string text = fmt::format("{}{}{}: pixel {},{} of {}x{}, {} against {}\n", story.scene,
+                                   story.camera.empty() ? "" : ", ", story.camera, story.x, story.y,
+                                   story.size.width, story.size.height, story.names[1], story.names[0]);
+    if (!story.shown)
+        return text +
+               (story.blended
+                    ? "background: no opaque surface is drawn there, something blended lies before it\n"
+                    : "background: no surface is drawn there\n");
+    const PixelStep* const ids = stepOf(story, gpu::DEBUG_material_id);
+    text += fmt::format("material {}{}", story.material,
+                        story.material_name.empty() ? "" : fmt::format(", \"{}\"", story.material_name));
+    if (ids && ids->differs)
+        text += fmt::format(" (in one path alone, or another one in {})", story.names[1]);
+    const auto& p = story.position;
+    return text + fmt::format("; at {:.6g}, {:.6g}, {:.6g} m\n", p[0], p[1], p[2]);
+}
+
+// "0.301 against 0.298"
+std::string against(std::span<const double> a, std::span<const double> b) {
+    const std::array values{a, b};
+    const Digits digits(values);
+    return fmt::format("{} against {}", digits(b), digits(a));
+}
+
+std::string verdictLine(const PixelStory& story) {
+    std::vector<std::string> beyond;
+    std::size_t compared = 0;
+    for (const PixelStep& step : story.steps) {
+        compared += step.isCompared();
+        if (step.isCompared() && step.beyond) beyond.emplace_back(step.mode->name);
+    }
+    return beyond.empty()
+               ? fmt::format("pass: at this pixel all {} channels that both have are within tolerance\n",
+                             compared)
+               : fmt::format("FAIL: at this pixel beyond tolerance: {}\n", fmt::join(beyond, ", "));
+}
+
+}  // namespace
+
+std::string firstDifference(const PixelStory& story) {
+    const auto [step, term] = story.first();
+    if (step)
+        return fmt::format(
+            "the first step that differs by more than rounding: {} ({}, {:.3g} in its metric, {}, "
+            "tolerance {}: {})",
+            step->mode->name, against(step->values[0], step->values[1]), step->difference,
+            nameOf(step->mode->metric), toleranceText(*step), step->tolerance.because);
+    if (term)
+        return fmt::format(
+            "the first step that differs by more than rounding: {} ({} W/(sr m^2), {:.3g} of it; "
+            "the surfaces are the same)",
+            titleOf(story, *term), against(term->values[0], term->values[1]), term->difference);
+    return "no step differs by more than rounding";
+}
+
+std::string inWords(const PixelStory& story) {
+    Columns steps;
+    steps.add({"step", story.names[0], story.names[1], "reference", "difference", "tolerance", "because"});
+    std::size_t before = 1;  // rows that stand before the lights
+    for (const PixelStep& step : story.steps) {
+        const int mode = step.mode->number;
+        // Of the background lit alone says anything, and what tells that it is background.
+        if (!story.shown && !isAfterTerms(mode) && mode != static_cast<int>(gpu::DEBUG_material_id)) continue;
+        steps.add(stepRow(step));
+        before += !isAfterTerms(mode);
+    }
+    std::string text = headline(story) + steps.text(0, before);
+    if (story.shown)
+        text += listWords(story) + howTermsWereMade(story) + termsText(story) + residualText(story);
+    text += steps.text(before, steps.size());
+    std::vector<std::string_view> differing;
+    for (const PixelStep& step : story.steps)
+        if (step.differs) differing.push_back(step.mode->name);
+    text += fmt::format("{}\n", firstDifference(story));
+    if (differing.size() > 1)
+        text += fmt::format("{} channels differ: {}\n", differing.size(), fmt::join(differing, ", "));
+    return text + verdictLine(story);
+}
+
+nlohmann::ordered_json toJson(const PixelStory& story) {
+    const auto numbers = [](std::span<const double> values) {
+        Json list = Json::array();
+        for (const double v : values) list.push_back(finiteOrNull(v));
+        return list;
+    };
+    const auto orNull = [&](const PixelValue& value) {
+        return value.empty() ? Json(nullptr) : numbers(value);
+    };
+    Json steps = Json::array(), lights = Json::array(), terms = Json::array();
+    for (const PixelStep& step : story.steps) {
+        Json one{{"number", step.mode->number},         {"name", step.mode->name},
+                 {"metric", nameOf(step.mode->metric)}, {"baseline", orNull(step.values[0])},
+                 {"test", orNull(step.values[1])},      {"reference", orNull(step.reference)}};
+        if (step.isCompared()) {
+            one["difference"] = finiteOrNull(step.difference);
+            one["differs"] = step.differs;
+            one["tolerance"] = finiteOrNull(step.tolerance.max);
+            one["within"] = !step.beyond;
+            if (step.explained) one["explained"] = *step.explained;
+        }
+        one["because"] = step.tolerance.because;
+        steps.push_back(std::move(one));
+    }
+    for (std::size_t i = 0; i < story.lights.size(); ++i) {
+        const PixelLightFacts& facts = story.lights[i];
+        Json one{{"light", i},
+                 {"name", facts.name},
+                 {"kind", facts.kind},
+                 {"distance", finiteOrNull(facts.distance)},
+                 {"range", finiteOrNull(facts.range)},
+                 {"casts", facts.casts}};
+        for (std::size_t side = 0; side < 2; ++side)
+            one[side == 0 ? "in_baseline_list" : "in_test_list"] =
+                story.lists_known.at(side) ? Json(facts.listed.at(side)) : Json(nullptr);
+        lights.push_back(std::move(one));
+    }
+    for (const PixelTerm& term : story.terms)
+        terms.push_back({{"kind", nameOf(term.kind)},
+                         {"lights", term.lights},
+                         {"baseline", numbers(term.values[0])},
+                         {"test", numbers(term.values[1])},
+                         {"reference", term.reference ? numbers(*term.reference) : Json(nullptr)},
+                         {"uncertainty", term.uncertainty},
+                         {"difference", finiteOrNull(term.difference)},
+                         {"differs", term.differs}});
+    const auto [step, term] = story.first();
+    Json first = nullptr;
+    if (step) first = step->mode->name;
+    if (term)
+        first = term->kind == PixelTerm::Kind::light ? fmt::format("light {}", term->lights.front())
+                                                     : std::string(nameOf(term->kind));
+    return {{"schema", 1},
+            {"scene", story.scene},
+            {"camera", story.camera},
+            {"pixel", {story.x, story.y}},
+            {"size", {story.size.width, story.size.height}},
+            {"baseline", story.names[0]},
+            {"test", story.names[1]},
+            {"settings", {Json::parse(toJson(story.settings[0])), Json::parse(toJson(story.settings[1]))}},
+            {"background", !story.shown},
+            {"blended", story.blended},
+            {"material",
+             story.shown ? Json{{"id", story.material}, {"name", story.material_name}} : Json(nullptr)},
+            {"position", story.shown ? numbers(story.position) : Json(nullptr)},
+            {"steps", std::move(steps)},
+            {"lights", std::move(lights)},
+            {"drawn_alone", story.drawn_alone},
+            {"terms", std::move(terms)},
+            {"residual_rounding", numbers(story.residual_rounding)},
+            {"first_difference", std::move(first)},
+            {"summary", firstDifference(story)}};
+}
+
+}  // namespace diptych

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// A pixel's story in words and as JSON.
+#pragma once
+
+#include "compare/explain/pixel_story.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace diptych {
+
+std::string inWords(const PixelStory& story);
+nlohmann::ordered_json toJson(const PixelStory& story);
+
+// "the first step that differs by more than rounding: roughness (0.301 against 0.298, tolerance 0.002: ...)",
+// or that none does. One line without its end.
+std::string firstDifference(const PixelStory& story);
+
+}  // namespace diptych

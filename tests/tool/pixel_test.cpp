@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// compare --pixel as users see it.
+#include "shared/image/exr.h"
+#include "tests/tool/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace diptych {
+namespace {
+
+using nlohmann::json;
+
+json storyOf(const Folder& folder, const std::string& arguments) {
+    const Ran ran = runTool(folder, "compare " + arguments + " --json");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.code == 0 ? json::parse(ran.out) : json();
+}
+
+const json& named(const json& list, const std::string& key, const std::string& name) {
+    static const json none;
+    const auto found = std::ranges::find_if(list, [&](const json& one) { return one[key] == name; });
+    EXPECT_NE(found, list.end()) << name;
+    return found == list.end() ? none : *found;
+}
+
+double largest(const json& values) {
+    double most = 0;
+    for (const json& value : values) most = std::max(most, std::abs(value.get<double>()));
+    return most;
+}
+
+// Every term of lit, and nothing twice: what is left is the rounding of float32 sums, and of the reference,
+// which is double, next to nothing or what it is known to.
+void expectTermsAddUp(const json& story) {
+    const json& terms = story["terms"];
+    const json& residual = named(terms, "kind", "residual");
+    const std::array sides{"baseline", "test", "reference"};
+    for (std::size_t side = 0; side < 3; ++side)
+        EXPECT_LE(largest(residual[sides.at(side)]), story["residual_rounding"][side].get<double>())
+            << sides.at(side) << ": " << residual << named(terms, "kind", "lit");
+    EXPECT_GT(largest(named(terms, "kind", "lit")["test"]), 0) << "a pixel that nothing lights shows nothing";
+}
+
+// What was read of the lists must be as many lights as the pixel evaluates.
+void expectListsAreTold(const json& story) {
+    const json& count = named(story["steps"], "name", "light_count");
+    for (const std::string side : {"baseline", "test"}) {
+        const auto listed = std::ranges::count_if(
+            story["lights"], [&](const json& light) { return light["in_" + side + "_list"] == true; });
+        EXPECT_EQ(static_cast<double>(listed), count[side][0].get<double>()) << side;
+    }
+}
+
+TEST(PixelTool, WithAFullGBufferNoStepDiffers) {
+    const Folder folder;
+    for (const std::string scene : {"builtin:gallery", "builtin:points", "builtin:areas"}) {
+        const std::string command = scene + " --size 64x36 --gbuffer full --pixel 30,24";
+        const json story = storyOf(folder, command);
+        EXPECT_EQ(story["first_difference"], nullptr) << story["summary"];
+        EXPECT_EQ(story["summary"], "no step differs by more than rounding");
+        for (const json& step : story["steps"]) EXPECT_EQ(step.value("difference", 0.0), 0.0) << step;
+        expectTermsAddUp(story);
+        expectListsAreTold(story);
+    }
+    const Ran ran = runTool(folder, "compare builtin:points --size 64x36 --gbuffer full --pixel 30,24");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_NE(ran.out.find("\nno step differs by more than rounding\npass: at this pixel all "),
+              std::string::npos)
+        << ran.out;
+    EXPECT_FALSE(fs::exists(folder / "diptych-report")) << "a story is no report";
+}
+
+TEST(PixelTool, NamesTheStepThatAnEncodingChanges) {
+    const Folder folder;
+    const json story = storyOf(folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24");
+    EXPECT_EQ(story["first_difference"], "albedo") << story["summary"];
+    const json& albedo = named(story["steps"], "name", "albedo");
+    EXPECT_GT(albedo["difference"], 0.0);
+    EXPECT_LE(albedo["difference"], albedo["tolerance"]);
+    EXPECT_NE(albedo["because"].get<std::string>().find("square root in 8 bits"), std::string::npos)
+        << albedo;
+    EXPECT_EQ(named(story["steps"], "name", "lit")["explained"], true);
+    expectTermsAddUp(story);
+    // The other way round both columns change places.
+    const json turned = storyOf(
+        folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24 --baseline forward_plus");
+    EXPECT_EQ(turned["baseline"], "forward_plus");
+    EXPECT_EQ(named(turned["steps"], "name", "albedo")["test"], albedo["baseline"]);
+}
+
+// A rule of the user decides in place of the encoding.
+TEST(PixelTool, ARuleDecidesWhatIsBeyond) {
+    const Folder folder;
+    folder.write("t.json", R"({"rules": [{"channel": "albedo", "max": 0, "because": "no bit may change"}]})");
+    const Ran ran = runTool(
+        folder, "compare builtin:points --size 64x36 --gbuffer compact --pixel 30,24 --tolerances t.json");
+    EXPECT_EQ(ran.code, 0) << "the story could be told: " << ran.err;
+    EXPECT_NE(ran.out.find("FAIL beyond it: no bit may change"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("\nFAIL: at this pixel beyond tolerance: albedo"), std::string::npos) << ran.out;
+}
+
+// Whatever lights the pixel is a term of its own, and the other lights stay in lists and maps while one is
+// drawn.
+TEST(PixelTool, TermsAddUpWithShadowsHazeEnvironmentAndBlendedSurfaces) {
+    const Folder folder;
+    Image sky(8, 4, 3, 0.2f);
+    sky.at(2, 1, 0) = 3;
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    const auto has = [](const json& story, const std::string& kind) {
+        return std::ranges::any_of(story["terms"], [&](const json& term) { return term["kind"] == kind; });
+    };
+    const json hall = storyOf(folder,
+                              "builtin:gallery --size 64x36 --pixel 30,24 --shadow-lights 4 --haze on "
+                              "--haze-density 50 --ambient 0.1,0.2,0.3 --env sky.exr");
+    expectTermsAddUp(hall);
+    expectListsAreTold(hall);
+    for (const std::string kind :
+         {"light", "other_lights", "environment", "ambient", "transmittance", "haze"})
+        EXPECT_TRUE(has(hall, kind)) << kind;
+    EXPECT_FALSE(has(hall, "blended"));
+    EXPECT_TRUE(
+        std::ranges::any_of(hall["lights"], [](const json& light) { return light["casts"] == true; }));
+    const json glass =
+        storyOf(folder, "builtin:glass --size 64x36 --pixel 50,20 --haze on --haze-density 50");
+    expectTermsAddUp(glass);
+    EXPECT_TRUE(has(glass, "blended"));
+    for (const std::string assign : {"every", "tiled"}) {
+        const json story = storyOf(folder, "builtin:points --size 64x36 --pixel 30,24 --assign " + assign);
+        expectTermsAddUp(story);
+        expectListsAreTold(story);
+    }
+}
+
+// Of several samples lit is the mean; the story says so where its terms, of the first, do not add up.
+TEST(PixelTool, SaysWhyTermsOfOneSampleAreNotTheMeanOfFour) {
+    const Folder folder;
+    const std::string command = "compare builtin:points --size 64x36 --msaa 4 --pixel ";
+    bool said = false;
+    for (const std::string pixel : {"20,18", "32,18", "30,8", "40,20"}) {
+        const Ran ran = runTool(folder, command + pixel);
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        EXPECT_EQ(ran.out.find("that rounding explains"), std::string::npos) << ran.out;
+        said =
+            said || ran.out.find("lit is the mean of 4 samples, the terms are of the first") != ran.out.npos;
+    }
+    EXPECT_TRUE(said);
+}
+
+TEST(PixelTool, SaysThatNothingIsDrawnInTheBackground) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "compare builtin:spheres --size 64x36 --pixel 0,0");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.out.find("\nbackground: no surface is drawn there\n"), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.out.find("albedo"), std::string::npos) << ran.out;
+    // What is blended before it is light, and no opaque surface.
+    const Ran pane = runTool(folder, "compare builtin:glass --size 64x36 --pixel 10,20");
+    EXPECT_NE(
+        pane.out.find("\nbackground: no opaque surface is drawn there, something blended lies before it\n"),
+        std::string::npos)
+        << pane.out;
+}
+
+TEST(PixelTool, RefusesWhatNoStoryIsOf) {
+    const Folder folder;
+    const std::string pixel = " --size 64x36 --pixel 3,4 ";
+    EXPECT_TRUE(runTool(folder, "compare builtin:points --size 64x36 --pixel 64,0")
+                    .failedOver("--pixel 64,0: outside the picture, whose pixels are 0,0 to 63,35; --size "));
+    EXPECT_TRUE(
+        runTool(folder, "compare builtin:points --pixel 3").failedOver("--pixel 3: is X,Y in pixels"));
+    EXPECT_TRUE(runTool(folder, "compare builtin:points builtin:spheres" + pixel)
+                    .failedOver("--pixel 3,4: is told of one scene, and 2 are given"));
+    EXPECT_TRUE(
+        runTool(folder, "compare builtin:points --times 0,1" + pixel).failedOver("one picture; give one"));
+    EXPECT_TRUE(runTool(folder, "compare builtin:points --baseline reference" + pixel)
+                    .failedOver("--baseline reference: --pixel 3,4 tells of the two paths"));
+    EXPECT_TRUE(runTool(folder, "compare builtin:points --baseline old.exr" + pixel)
+                    .failedOver("--baseline old.exr: --pixel 3,4 tells of the two paths"));
+    EXPECT_TRUE(
+        runTool(folder, "compare builtin:points -o report" + pixel).failedOver("--pixel writes no file"));
+}
+
+}  // namespace
+}  // namespace diptych
