@@ -31,20 +31,30 @@ double meanOf(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Of a contender to another, over the rounds that both ran: the logarithm of the ratio and half its interval.
+// Of every contender to one of them, over the rounds that both ran: the logarithm of the ratio and half its
+// interval. The variance of a round's ratio is taken for that of all, so that a contender that ran few rounds
+// is judged by what the others tell of the noise.
 struct Paired {
     double mean = 0, half = std::numeric_limits<double>::infinity();
 };
-Paired paired(const Rounds& a, const Rounds& b, double doubt) {
-    const std::size_t n = std::min(a.size(), b.size());
-    std::vector<double> differences(n);
-    for (std::size_t i = 0; i < n; ++i) differences[i] = a[i] - b[i];
-    Paired result{meanOf(differences)};
-    if (n < 2) return result;
+std::vector<Paired> pairedTo(std::size_t winner, const std::vector<Rounds>& rounds, double doubt) {
+    std::vector<Paired> result(rounds.size());
     double squares = 0;
-    for (const double d : differences) squares += (d - result.mean) * (d - result.mean);
-    const auto count = static_cast<double>(n);
-    result.half = studentT(doubt, static_cast<int>(n) - 1) * std::sqrt(squares / (count - 1) / count);
+    std::size_t freedom = 0;
+    const auto together = [&](std::size_t i) { return std::min(rounds[i].size(), rounds[winner].size()); };
+    for (std::size_t i = 0; i < rounds.size(); ++i) {
+        if (i == winner) continue;
+        std::vector<double> ratios(together(i));
+        for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] = rounds[i][k] - rounds[winner][k];
+        result[i].mean = meanOf(ratios);
+        for (const double ratio : ratios) squares += (ratio - result[i].mean) * (ratio - result[i].mean);
+        freedom += ratios.size() - 1;
+    }
+    if (freedom == 0) return result;
+    const double t = studentT(doubt, static_cast<int>(freedom));
+    for (std::size_t i = 0; i < rounds.size(); ++i)
+        result[i].half =
+            t * std::sqrt(squares / static_cast<double>(freedom) / static_cast<double>(together(i)));
     return result;
 }
 
@@ -88,10 +98,11 @@ Race race(std::size_t contenders, const DrawInOrder& draw, const RaceRules& rule
         }
         std::ranges::sort(running, {}, [&](std::size_t i) { return meanOf(rounds[i]); });
         result.winner = running.front();
+        const std::vector<Paired> ratios = pairedTo(result.winner, rounds, doubt);
         bool decided = true, tied = true;  // every one of these is slower, or as fast as nobody cares
         std::vector<std::size_t> left;
         for (const std::size_t i : running) {
-            const Paired to = paired(rounds[i], rounds[result.winner], doubt);
+            const Paired& to = ratios[i];
             const bool slower = i != result.winner && to.mean - to.half > 0;
             const bool equal = std::abs(to.mean) + to.half < std::log1p(rules.tie);
             if (!slower) left.push_back(i);
@@ -102,13 +113,14 @@ Race race(std::size_t contenders, const DrawInOrder& draw, const RaceRules& rule
         left.resize(std::min(left.size(), std::max<std::size_t>(2, (running.size() + 1) / 2)));
         running = std::move(left);
     }
+    const std::vector<Paired> ratios = pairedTo(result.winner, rounds, doubt);
     result.sure = true;
     for (std::size_t i = 0; i < contenders; ++i) {
         Standing& standing = result.standings[i];
         standing.rounds = static_cast<int>(rounds[i].size());
         standing.ms = std::exp(meanOf(rounds[i]));
         if (i == result.winner) continue;
-        const Paired to = paired(rounds[i], rounds[result.winner], doubt);
+        const Paired& to = ratios[i];
         standing.ratio = std::exp(to.mean);
         standing.low = std::exp(to.mean - to.half);
         standing.high = std::exp(to.mean + to.half);

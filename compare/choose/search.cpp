@@ -26,7 +26,7 @@ constexpr double together = 0.8;
 constexpr double worthTime = -0.02;
 constexpr std::size_t changesAtOnce = 3, timedAtOnce = 6;
 // A time this near to its budget, in standard deviations, is timed again, up to so many frames.
-constexpr double doubtful = 2;
+constexpr double doubtful = 1;
 constexpr std::size_t mostAgain = 8;
 
 // Of two frames of the same passes: what disturbs a frame only lengthens it.
