@@ -398,10 +398,13 @@ private:
         add(PixelTerm::Kind::lit, {}, lit, truth, reference_.uncertainty);
         add(PixelTerm::Kind::residual, {}, {plus(lit[0], sums[0], -1), plus(lit[1], sums[1], -1)},
             plus(truth, sums[2], -1));
-        // Each of so many additions rounds a sum that is no larger than all summands together.
-        const double additions = static_cast<double>(view_.lights.size()) + 8;
-        story_.residual_rounding = {additions * 0x1p-23 * sizes[0], additions * 0x1p-23 * sizes[1],
-                                    std::max(2 * reference_.uncertainty, 1e-9 * sizes[2])};
+        // Each addition, one for a light that is evaluated and a few beside, rounds a sum that is no larger
+        // than all summands together.
+        for (std::size_t side = 0; side < 2; ++side) {
+            const PixelValue lights = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count)));
+            story_.residual_rounding.at(side) = (lights.at(0) + 8) * 0x1p-23 * sizes.at(side);
+        }
+        story_.residual_rounding[2] = std::max(2 * reference_.uncertainty, 1e-9 * sizes[2]);
     }
 
     Renderer& renderer_;
