@@ -21,15 +21,6 @@ struct UnseenCamera {
     bool holds = true;  // within the error of the budget; without one, no more than half as large again
 };
 
-// A property of the scene that can decide between the paths.
-struct Property {
-    std::string name;  // "lights at a pixel"
-    double value = 0;  // the scene's
-    // Where the path that was not chosen would be the faster one. Nothing: nowhere that was tried.
-    std::optional<double> turn;
-    std::string found;  // how that was found, and what was tried
-};
-
 struct ChoiceReport {
     std::string scene;
     std::vector<std::string> cameras;  // their titles
@@ -40,9 +31,8 @@ struct ChoiceReport {
     Choice choice;
     // Of each candidate: its Settings in words; and the command that draws it.
     std::vector<std::string> words, commands;
-    std::vector<std::string> why;        // sentences
-    std::vector<UnseenCamera> unseen;    // cameras of the scene that were not asked for
-    std::vector<Property> properties{};  // --explain-choice
+    std::vector<std::string> why;      // sentences
+    std::vector<UnseenCamera> unseen;  // cameras of the scene that were not asked for
     std::vector<std::string> notes{};
     std::size_t known_effects = 0;  // that earlier choices on this device taught
     double seconds = 0;
@@ -56,6 +46,6 @@ nlohmann::ordered_json toJson(const ChoiceReport& report);
 
 // Why the chosen path is faster than the other one's best, or that it is not, by what their passes take.
 // Empty where only one path was timed.
-std::vector<std::string> whyInWords(const Choice& choice, double overdraw, double lights);
+std::vector<std::string> whyInWords(const Choice& choice);
 
 }  // namespace diptych::choose

@@ -155,8 +155,6 @@ std::string inWords(const ChoiceReport& report) {
                                 100 * (1 - RaceRules().false_winner));
         text += unseenInWords(report);
     }
-    for (const Property& property : report.properties)
-        text += fmt::format("  {}: {:.4g}; {}\n", property.name, property.value, property.found);
     text += fmt::format("  {} candidates: {}\n  {} pictures judged, {} frames timed ({} of all), {:.1f} s\n",
                         choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings,
                         choice.candidates.size(), report.seconds);
@@ -167,16 +165,11 @@ std::string inWords(const ChoiceReport& report) {
 
 nlohmann::ordered_json toJson(const ChoiceReport& report) {
     const Choice& choice = report.choice;
-    Json ties = Json::array(), candidates = Json::array(), unseen = Json::array(), properties = Json::array();
+    Json ties = Json::array(), candidates = Json::array(), unseen = Json::array();
     for (const std::size_t i : choice.ties) ties.push_back(i);
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) candidates.push_back(jsonOf(report, i));
     for (const UnseenCamera& camera : report.unseen)
         unseen.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
-    for (const Property& property : report.properties)
-        properties.push_back({{"name", property.name},
-                              {"value", property.value},
-                              {"turn", property.turn ? Json(*property.turn) : Json()},
-                              {"found", property.found}});
     const auto place = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
     const auto limit = [](const auto& value) { return value ? Json(*value) : Json(); };
     Json json{
@@ -199,7 +192,6 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["sure"] = choice.sure;
     json["why"] = report.why;
     json["unseen_cameras"] = std::move(unseen);
-    json["properties"] = std::move(properties);
     json["judged"] = choice.judged;
     json["frames_timed"] = choice.timings;
     json["seconds"] = report.seconds;
@@ -208,7 +200,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     return json;
 }
 
-std::vector<std::string> whyInWords(const Choice& choice, double overdraw, double lights) {
+std::vector<std::string> whyInWords(const Choice& choice) {
     if (!choice.chosen) return {};
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Candidate* other = nullptr;
@@ -234,11 +226,7 @@ std::vector<std::string> whyInWords(const Choice& choice, double overdraw, doubl
     std::string line = fmt::format("{}: the best of {} takes {} more", path,
                                    diptych::nameOf(other->settings.path), percent(ratio));
     if (!words.empty()) line += fmt::format(": {}", fmt::join(words, ", "));
-    std::vector<std::string> why{std::move(line)};
-    if (overdraw > 0)
-        why.push_back(
-            fmt::format("{:.2f} fragments a covered pixel, {:.1f} lights at a pixel", overdraw, lights));
-    return why;
+    return {std::move(line)};
 }
 
 }  // namespace diptych::choose

@@ -34,6 +34,13 @@ void checkChooseOptions(const Options& options) {
     const ChooseOptions& choose = options.choose;
     if (!choose.max_error && !choose.max_ms && !choose.max_bytes)
         throw std::runtime_error("choose: a budget is missing; give --max-error, --max-ms or --max-bytes");
+    if (!options.out.empty() && options.out.extension() != ".json")
+        throw std::runtime_error(fmt::format(
+            "-o {}: the chosen Settings are a file; give a name that ends in .json", options.out.string()));
+    if (!options.out.empty() && options.scenes.size() > 1)
+        throw std::runtime_error(
+            fmt::format("-o {}: holds the Settings of one scene; choose for each by itself, or give none",
+                        options.out.string()));
     if (options.settings.path == Path::reference)
         throw std::runtime_error("--path reference: is what the others are measured against; use another");
     if (const auto problem = referenceSettings(options.settings).problem())
@@ -146,7 +153,7 @@ public:
             drawn.camera = options_.settings.camera;
             report.commands.push_back(shellLine(commandWords("render", where, drawn)));
         }
-        report.why = whyInWords(report.choice, 0, 0);
+        report.why = whyInWords(report.choice);
         if (report.choice.chosen)
             for (const std::string& camera : all)
                 if (std::ranges::count(cameras, camera) == 0)
@@ -189,6 +196,11 @@ int runChoose(const Options& options) {
     for (const std::string& scene : options.scenes) {
         const ChoiceReport report = chooser.choose(scene);
         fits = fits && report.choice.chosen;
+        if (!options.out.empty() && report.choice.chosen) {
+            Settings settings = report.choice.candidates[*report.choice.chosen].settings;
+            settings.camera = options.settings.camera;
+            writeFile(options.out, toJson(settings) + "\n");
+        }
         if (options.json)
             reports.push_back(toJson(report));
         else if (!options.quiet)

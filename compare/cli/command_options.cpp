@@ -256,8 +256,10 @@ void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed) {
     app.add_option("--max-bytes", parsed.max_bytes,
                    "a frame takes so much memory at most: bytes, or with KiB, MiB, GiB behind")
         ->type_name("B");
-    app.add_flag("--explain-choice", choose.explain,
-                 "name what of the scene decided it, and where that would have to be for the other path");
+    app.add_flag_callback(
+           "--explain-choice", [&parsed] { parsed.not_built.emplace_back("--explain-choice"); },
+           "what of the scene decided it")
+        ->group(later_group);
 }
 
 // What a report holds.

@@ -25,7 +25,6 @@ struct ChooseOptions {
     std::optional<double> max_error, max_ms;
     std::optional<std::uint64_t> max_bytes;
     std::string figure = "flip";  // of tradeoff::errorFigures
-    bool explain = false;         // what of the scene decided it
 };
 
 struct Options {

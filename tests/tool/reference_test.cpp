@@ -239,7 +239,7 @@ fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::
         return !own.empty() || tool.ended();
     });
     EXPECT_TRUE(there && !own.empty()) << tool.err();
-    ::kill(tool.process(), SIGKILL);
+    if (!tool.ended()) ::kill(tool.process(), SIGKILL);
     tool.wait();
     return own;
 }

@@ -11,9 +11,7 @@
 #include <fstream>
 #include <random>
 
-namespace diptych {
-
-using namespace choose;
+namespace diptych::choose {
 
 namespace {
 
@@ -134,4 +132,4 @@ TEST(ChooseModel, WhatItLearnedIsKeptForTheSameDeviceDriverAndProgram) {
 
 }  // namespace
 
-}  // namespace diptych
+}  // namespace diptych::choose

@@ -9,9 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace diptych {
-
-using namespace choose;
+namespace diptych::choose {
 
 namespace {
 
@@ -154,4 +152,4 @@ TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
 
 }  // namespace
 
-}  // namespace diptych
+}  // namespace diptych::choose

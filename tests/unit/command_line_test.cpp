@@ -185,8 +185,7 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
 
 TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
     const std::pair<std::vector<std::string>, const char*> later[] = {
-        {{"choose", "--max-error", "0.1"}, "choose"},
-        {{"choose", "--max-ms", "4", "--max-bytes", "100"}, "choose"},
+        {{"choose", "--max-error", "0.1", "--explain-choice"}, "--explain-choice"},
         {{"audit", "--quantity", "near,fov", "--require", "near=100"}, "audit"},
         {{"view", "a.glb", "--size", "64x64"}, "view"},
     };
@@ -195,6 +194,17 @@ TEST(CommandLine, WhatIsNotBuiltYetParsesAndIsNamed) {
         EXPECT_EQ(what.find(name), 0u) << what;
         EXPECT_NE(what.find("not built yet"), std::string::npos) << what;
     }
+}
+
+TEST(CommandLine, WhatIsChosenFor) {
+    const Options o = parseCommandLine({"choose", "a.glb", "--max-error", "0.1", "--max-bytes", "1.5MiB"});
+    EXPECT_EQ(o.choose.max_error, 0.1);
+    EXPECT_EQ(o.choose.max_bytes, 1572864u);
+    EXPECT_FALSE(o.choose.max_ms);
+    EXPECT_EQ(o.choose.figure, "flip");
+    EXPECT_EQ(parseCommandLine({"choose", "--max-bytes", "1000"}).choose.max_bytes, 1000u);
+    for (const char* wrong : {"5MB", "-1", "MiB", "0"})
+        EXPECT_NE(whatIsThrown({"choose", "--max-bytes", wrong}).find("--max-bytes"), std::string::npos);
 }
 
 TEST(CommandLine, WhatDiffCompares) {
