@@ -15,9 +15,18 @@ namespace diptych::choose {
 
 using Json = nlohmann::ordered_json;
 
+double Effect::mean() const {
+    double sum = 0;
+    for (const auto& [scene, value] : scenes) sum += value;
+    return sum / static_cast<double>(scenes.size());
+}
+
 double Effect::spread() const {
-    if (scenes < 2) return std::max(0.25, 0.5 * std::abs(mean));
-    return std::max(0.1, std::sqrt(squares / (scenes - 1)));
+    const double middle = mean();
+    if (scenes.size() < 2) return std::max(0.25, 0.5 * std::abs(middle));
+    double squares = 0;
+    for (const auto& [scene, value] : scenes) squares += (value - middle) * (value - middle);
+    return std::max(0.1, std::sqrt(squares / static_cast<double>(scenes.size() - 1)));
 }
 
 std::optional<Effect> Calibration::find(const PassChange& change) const {
@@ -25,12 +34,8 @@ std::optional<Effect> Calibration::find(const PassChange& change) const {
     return found == effects.end() ? std::optional<Effect>() : found->second;
 }
 
-void Calibration::learn(const PassChange& change, double logRatio) {
-    Effect& effect = effects[change];
-    ++effect.scenes;
-    const double before = logRatio - effect.mean;  // Welford 1962
-    effect.mean += before / effect.scenes;
-    effect.squares += before * (logRatio - effect.mean);
+void Calibration::learn(const PassChange& change, const std::string& scene, double logRatio) {
+    effects[change].scenes[scene] = logRatio;
 }
 
 std::filesystem::path calibrationFile(const std::filesystem::path& folder, const std::string& device) {
@@ -54,9 +59,8 @@ Calibration readCalibration(const std::filesystem::path& file, const std::string
         for (const Json& each : json.at("effects")) {
             Settings path;
             path.set("path", each.at("path").get<std::string>());
-            const Effect effect{each.at("mean"), each.at("squares"), each.at("scenes")};
-            if (!std::isfinite(effect.mean) || !(effect.squares >= 0) || effect.scenes < 1)
-                return {device, driver, program, {}};
+            const Effect effect{each.at("scenes").get<std::map<std::string, double>>()};
+            if (effect.scenes.empty()) return {device, driver, program, {}};
             result
                 .effects[{each.at("pass"), {path.path, each.at("option"), each.at("from"), each.at("to")}}] =
                 effect;
@@ -77,8 +81,6 @@ bool writeCalibration(const std::filesystem::path& file, const Calibration& cali
                            {"option", change.option},
                            {"from", change.from},
                            {"to", change.to},
-                           {"mean", effect.mean},
-                           {"squares", effect.squares},
                            {"scenes", effect.scenes}});
     }
     const Json json{{"schema", 1},

@@ -26,11 +26,10 @@ struct PassChange {
     auto operator<=>(const PassChange&) const = default;
 };
 
-// The logarithm of the ratio of a pass's times after and before: its mean over scenes, and their sum of
-// squared distances from it.
+// The logarithm of the ratio of a pass's times after and before, as each scene has it.
 struct Effect {
-    double mean = 0, squares = 0;
-    int scenes = 0;
+    std::map<std::string, double> scenes;  // at least one
+    double mean() const;
     // How far a scene's own is from the mean, standard deviation. One scene says nothing of that: half of it,
     // and a quarter at least.
     double spread() const;
@@ -42,7 +41,8 @@ struct Calibration {
     std::map<PassChange, Effect> effects;
 
     std::optional<Effect> find(const PassChange& change) const;
-    void learn(const PassChange& change, double logRatio);
+    // What a scene taught before is forgotten.
+    void learn(const PassChange& change, const std::string& scene, double logRatio);
 };
 
 // The file of a device in the cache folder (userCacheFolder()).

@@ -64,7 +64,7 @@ std::size_t CostModel::effectOf(const std::string& pass, const Change& change, c
     if (const auto there = knownEffectOf(pass, change)) return *there;
     double mean = 0, deviation = unknownEffect;
     if (const std::optional<Effect> known = calibration_.find({pass, change})) {
-        mean = known->mean;
+        mean = known->mean();
         deviation = known->spread();
     } else if (change.option == "size") {
         mean = perPixel * std::log(pixels(to) / pixels(paths_.at(change.path).first));
@@ -194,9 +194,10 @@ bool CostModel::knows(const Change& change, double deviation) const {
     return !path.passes.empty() && variance <= deviation * deviation * sum * sum;
 }
 
-void CostModel::teach(Calibration& calibration) const {
+void CostModel::teach(Calibration& calibration, const std::string& scene) const {
     for (const auto& [key, term] : effects_)
-        if (std::sqrt(covariance_[term][term]) < 0.5 * prior_[term]) calibration.learn(key, mean_[term]);
+        if (std::sqrt(covariance_[term][term]) < 0.5 * prior_[term])
+            calibration.learn(key, scene, mean_[term]);
 }
 
 }  // namespace diptych::choose

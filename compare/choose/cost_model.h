@@ -50,7 +50,7 @@ public:
     // Whether a change's effect on every pass is known to within `deviation`, relative to the whole frame.
     bool knows(const Change& change, double deviation) const;
     // The effects that timings narrowed: into `calibration`.
-    void teach(Calibration& calibration) const;
+    void teach(Calibration& calibration, const std::string& scene) const;
 
 private:
     struct Candidate {

@@ -31,10 +31,10 @@ struct ChoiceReport {
     Choice choice;
     // Of each candidate: its Settings in words; and the command that draws it.
     std::vector<std::string> words, commands;
-    std::vector<std::string> why;      // sentences
     std::vector<UnseenCamera> unseen;  // cameras of the scene that were not asked for
     std::vector<std::string> notes{};
-    std::size_t known_effects = 0;  // that earlier choices on this device taught
+    // Effects on passes that earlier choices on this device taught.
+    std::size_t known_effects = 0;
     double seconds = 0;
 };
 
@@ -43,9 +43,5 @@ std::string goalInWords(const ChoiceReport& report);
 // For a terminal; ends with a new line.
 std::string inWords(const ChoiceReport& report);
 nlohmann::ordered_json toJson(const ChoiceReport& report);
-
-// Why the chosen path is faster than the other one's best, or that it is not, by what their passes take.
-// Empty where only one path was timed.
-std::vector<std::string> whyInWords(const Choice& choice);
 
 }  // namespace diptych::choose

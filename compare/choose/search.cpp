@@ -233,8 +233,15 @@ private:
         std::vector<std::size_t> fit;
         for (std::size_t i = 0; i < all_.size(); ++i)
             if (all_[i].isFit()) fit.push_back(i);
-        std::ranges::sort(fit, {}, [&](std::size_t i) { return model_.predict(i).log_ms; });
-        return fit;
+        return fastestFirst(std::move(fit));
+    }
+    std::vector<std::size_t> fastestFirst(const std::vector<std::size_t>& which) const {
+        std::vector<std::pair<double, std::size_t>> times;
+        for (const std::size_t i : which) times.emplace_back(model_.predict(i).log_ms, i);
+        std::ranges::sort(times);
+        std::vector<std::size_t> sorted;
+        for (const auto& [time, i] : times) sorted.push_back(i);
+        return sorted;
     }
     double leastTime(std::size_t i) const {
         const Prediction prediction = model_.predict(i);
@@ -266,14 +273,15 @@ private:
             judge(next);
             if (all_[next].isFit()) time({next});
         }
-        if (fitting().empty()) return;
-        raceFor(fitting());
+        const std::vector<std::size_t> fit = fitting();
+        if (fit.empty()) return;
+        raceFor(fit);
         tooSlowIfOver();
     }
 
     // Races those of some that may be the fastest.
-    void raceFor(std::vector<std::size_t> fit) {
-        std::ranges::sort(fit, {}, [&](std::size_t i) { return model_.predict(i).log_ms; });
+    void raceFor(const std::vector<std::size_t>& some) {
+        const std::vector<std::size_t> fit = fastestFirst(some);
         const double best = model_.predict(fit.front()).log_ms;
         std::vector<std::size_t> contenders;
         for (const std::size_t i : fit)
@@ -314,9 +322,11 @@ private:
     // Nothing is chosen where the fastest takes too long.
     void tooSlowIfOver() {
         if (!budget_.ms || found_.ms <= *budget_.ms) return;
-        found_.nearest = found_.chosen;
         all_[*found_.chosen].fate = Fate::too_slow;
         found_.chosen.reset();
+        found_.runner_up.reset();
+        found_.ties.clear();
+        found_.sure = false;
     }
 
     double limit() const { return budget_.ms ? std::log(*budget_.ms) : infinity; }
@@ -367,7 +377,7 @@ private:
                 if (all_[i].isFit() && (i == best || leastTime(i) <= limit()) &&
                     all_[i].judged->error <= all_[best].judged->error * alike)
                     equals.push_back(i);
-            raceFor(std::move(equals));
+            raceFor(equals);
             if (!budget_.ms || found_.ms <= *budget_.ms) return;
             tooSlowIfOver();
             best = none;
@@ -387,7 +397,6 @@ private:
         return miss;
     }
     void findNearest() {
-        found_.nearest.reset();
         for (std::size_t i = 0; i < all_.size(); ++i)
             if (all_[i].judged && (!budget_.ms || all_[i].timings > 0) &&
                 (!found_.nearest || missOf(i) < missOf(*found_.nearest)))

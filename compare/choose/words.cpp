@@ -34,7 +34,7 @@ std::string figuresOf(const ChoiceReport& report, std::size_t i) {
 
 std::string standingOf(const ChoiceReport& report, std::size_t i) {
     const Standing& standing = *report.choice.candidates[i].standing;
-    return fmt::format("{}: {} of the time more ({} to {})", report.words[i], percent(standing.ratio),
+    return fmt::format("{}: takes {} more ({} to {})", report.words[i], percent(standing.ratio),
                        percent(standing.low), percent(standing.high));
 }
 
@@ -65,7 +65,8 @@ std::string tiesInWords(const ChoiceReport& report) {
 
 std::string unseenInWords(const ChoiceReport& report) {
     if (report.unseen.empty())
-        return "  not checked on a camera that it was not chosen on: the scene has no other one\n";
+        return fmt::format("  not checked on a camera that it was not chosen on: the scene has no other{}\n",
+                           report.cameras.size() > 1 ? "" : " one");
     std::string text;
     for (const UnseenCamera& camera : report.unseen)
         text +=
@@ -74,13 +75,51 @@ std::string unseenInWords(const ChoiceReport& report) {
     return text;
 }
 
+// How the chosen Settings compare with the best of the other path that were drawn and fit, pass by pass.
+std::string whyInWords(const ChoiceReport& report) {
+    const Choice& choice = report.choice;
+    if (!choice.chosen) return {};
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    const bool forSpeed = report.budget.isForSpeed();
+    const auto isBetter = [&](const Candidate& a, const Candidate& b) {
+        return forSpeed ? a.predicted.log_ms < b.predicted.log_ms : a.judged->error < b.judged->error;
+    };
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
+        if (const Candidate& candidate = choice.candidates[i];
+            candidate.settings.path != chosen.settings.path && candidate.isFit() &&
+            (!best || isBetter(candidate, choice.candidates[*best])))
+            best = i;
+    if (!best) return "of the other path nothing fits and was worth drawing";
+    const Candidate& other = choice.candidates[*best];
+    std::map<std::string, std::pair<double, double>> passes;  // chosen, other
+    constexpr double noPass = 2e-3;  // of a frame: the model's time of a pass that there is not is not 0
+    const auto there = [&](const PassTime& pass, const Candidate& of) {
+        return pass.ms < noPass * of.predicted.ms() ? 0 : pass.ms;
+    };
+    for (const PassTime& pass : chosen.passes) passes[pass.name].first = there(pass, chosen);
+    for (const PassTime& pass : other.passes) passes[pass.name].second = there(pass, other);
+    std::vector<std::pair<double, std::string>> parts;
+    constexpr double worthTelling = 0.03;  // of a frame
+    for (const auto& [name, ms] : passes)
+        if (std::abs(ms.first - ms.second) > worthTelling * other.predicted.ms())
+            parts.emplace_back(-std::abs(ms.first - ms.second),
+                               fmt::format("{} {:.3g} against {:.3g}", name, ms.second, ms.first));
+    std::ranges::sort(parts);
+    std::string line =
+        fmt::format("of the other path the {} that was drawn and fits, {}, takes about {:.3g} ms",
+                    forSpeed ? "fastest" : "most accurate", report.words[*best], other.predicted.ms());
+    for (std::size_t i = 0; i < parts.size(); ++i) line += (i == 0 ? ": " : ", ") + parts[i].second;
+    return line;
+}
+
 // "12 not better by the model"
 std::string fatesInWords(const Choice& choice) {
     std::map<Fate, std::size_t> counts;
     for (const Candidate& candidate : choice.candidates) ++counts[candidate.fate];
     std::vector<std::string> words;
     for (const auto& [fate, name] : {std::pair{Fate::raced, "raced"},
-                                     {Fate::fits, "drawn and slower"},
+                                     {Fate::fits, "drawn and no better"},
                                      {Fate::too_slow, "too slow"},
                                      {Fate::misses, "over the error or the memory"},
                                      {Fate::spoilt, "not drawn, as a change of theirs exceeds the error"},
@@ -146,7 +185,7 @@ std::string inWords(const ChoiceReport& report) {
         text += missInWords(report);
     } else {
         text += fmt::format("{}\n    {}\n", report.words[*choice.chosen], figuresOf(report, *choice.chosen));
-        for (const std::string& line : report.why) text += fmt::format("  {}\n", line);
+        text += fmt::format("  {}\n", whyInWords(report));
         if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
             text += fmt::format("  runner-up: {}\n", standingOf(report, *choice.runner_up));
         text += tiesInWords(report);
@@ -155,9 +194,10 @@ std::string inWords(const ChoiceReport& report) {
                                 100 * (1 - RaceRules().false_winner));
         text += unseenInWords(report);
     }
-    text += fmt::format("  {} candidates: {}\n  {} pictures judged, {} frames timed ({} of all), {:.1f} s\n",
-                        choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings,
-                        choice.candidates.size(), report.seconds);
+    text += fmt::format(
+        "  {} candidates: {}\n  {} pictures judged, {} frames timed, {} effects known before, {:.1f} s\n",
+        choice.candidates.size(), fatesInWords(choice), choice.judged, choice.timings, report.known_effects,
+        report.seconds);
     for (const std::string& note : report.notes) text += fmt::format("note: {}\n", note);
     if (choice.chosen) text += report.commands[*choice.chosen] + "\n";
     return text;
@@ -190,7 +230,7 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["nearest"] = place(choice.nearest);
     json["ties"] = std::move(ties);
     json["sure"] = choice.sure;
-    json["why"] = report.why;
+    json["why"] = whyInWords(report);
     json["unseen_cameras"] = std::move(unseen);
     json["judged"] = choice.judged;
     json["frames_timed"] = choice.timings;
@@ -198,35 +238,6 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     json["notes"] = report.notes;
     json["candidates"] = std::move(candidates);
     return json;
-}
-
-std::vector<std::string> whyInWords(const Choice& choice) {
-    if (!choice.chosen) return {};
-    const Candidate& chosen = choice.candidates[*choice.chosen];
-    const Candidate* other = nullptr;
-    for (const Candidate& candidate : choice.candidates)
-        if (candidate.settings.path != chosen.settings.path && candidate.isFit() &&
-            (!other || candidate.predicted.log_ms < other->predicted.log_ms))
-            other = &candidate;
-    const std::string_view path = diptych::nameOf(chosen.settings.path);
-    if (!other) return {fmt::format("{}: no Settings of the other path fit and were worth drawing", path)};
-    std::map<std::string, std::pair<double, double>> passes;  // chosen, other
-    for (const PassTime& pass : chosen.passes) passes[pass.name].first = pass.ms;
-    for (const PassTime& pass : other->passes) passes[pass.name].second = pass.ms;
-    std::vector<std::pair<double, std::string>> parts;
-    const double all = other->predicted.ms();
-    for (const auto& [name, ms] : passes)
-        if (std::abs(ms.first - ms.second) > 0.03 * all)
-            parts.emplace_back(-std::abs(ms.first - ms.second),
-                               fmt::format("{} {:.3g} ms against {:.3g}", name, ms.first, ms.second));
-    std::ranges::sort(parts);
-    std::vector<std::string> words;
-    for (const auto& [size, text] : parts) words.push_back(text);
-    const double ratio = std::exp(other->predicted.log_ms - chosen.predicted.log_ms);
-    std::string line = fmt::format("{}: the best of {} takes {} more", path,
-                                   diptych::nameOf(other->settings.path), percent(ratio));
-    if (!words.empty()) line += fmt::format(": {}", fmt::join(words, ", "));
-    return {std::move(line)};
 }
 
 }  // namespace diptych::choose

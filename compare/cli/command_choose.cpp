@@ -16,7 +16,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -30,6 +31,18 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Settings that an earlier choice left may be replaced, and nothing else without --force.
+void checkSettingsFile(const std::filesystem::path& file, bool force) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || force) return;
+    try {
+        settingsFromJson({std::istreambuf_iterator<char>(stream), {}});
+    } catch (const std::exception&) {
+        throw std::runtime_error(
+            fmt::format("-o {}: is there and holds no Settings; --force replaces it", file.string()));
+    }
+}
+
 void checkChooseOptions(const Options& options) {
     const ChooseOptions& choose = options.choose;
     if (!choose.max_error && !choose.max_ms && !choose.max_bytes)
@@ -41,6 +54,7 @@ void checkChooseOptions(const Options& options) {
         throw std::runtime_error(
             fmt::format("-o {}: holds the Settings of one scene; choose for each by itself, or give none",
                         options.out.string()));
+    if (!options.out.empty()) checkSettingsFile(options.out, options.force);
     if (options.settings.path == Path::reference)
         throw std::runtime_error("--path reference: is what the others are measured against; use another");
     if (const auto problem = referenceSettings(options.settings).problem())
@@ -89,6 +103,16 @@ std::vector<std::string> allCameras(const Scene& scene) {
     return cameras.empty() ? std::vector<std::string>{""} : cameras;
 }
 
+// The scene's cameras that are not among `cameras`, which are named as the command line names them.
+std::vector<std::string> unseenCameras(const Scene& scene, const std::vector<std::string>& cameras) {
+    std::vector<std::string> unseen;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+        if (std::ranges::count(cameras, std::to_string(i)) == 0 &&
+            std::ranges::count(cameras, scene.cameras[i].name) == 0)
+            unseen.push_back(std::to_string(i));
+    return unseen;
+}
+
 class Chooser {
 public:
     explicit Chooser(const Options& options)
@@ -107,8 +131,7 @@ public:
         const Stage stage(progress_, where);
         const Scene scene = loadShown(where, options_.settings, stage.part(0, 0.05));
         SceneViews views(scene);
-        const std::vector<std::string> all = allCameras(scene);
-        const std::vector<std::string> cameras = options_.camera_given ? options_.cameras : all;
+        const std::vector<std::string> cameras = options_.camera_given ? options_.cameras : allCameras(scene);
         Settings given = options_.settings;
         given.camera = cameras.front();
         Options asked = options_;
@@ -117,6 +140,7 @@ public:
 
         ChoiceReport report;
         report.scene = where;
+        report.notes = scene.notes;
         report.given = given;
         report.budget = {options_.choose.max_error, options_.choose.max_ms, options_.choose.max_bytes};
         report.figure = tradeoff::errorFigures.at(figure_).title;
@@ -144,7 +168,7 @@ public:
         search.progress = [&](double done, std::string_view what) { searching.at(done, std::string(what)); };
         report.choice = choose::search(candidates, lab, model, search);
         Calibration taught = calibration_;
-        model.teach(taught);
+        model.teach(taught, where);
         if (writeCalibration(calibration_file_, taught)) calibration_ = std::move(taught);
 
         for (const Candidate& candidate : report.choice.candidates) {
@@ -153,11 +177,9 @@ public:
             drawn.camera = options_.settings.camera;
             report.commands.push_back(shellLine(commandWords("render", where, drawn)));
         }
-        report.why = whyInWords(report.choice);
         if (report.choice.chosen)
-            for (const std::string& camera : all)
-                if (std::ranges::count(cameras, camera) == 0)
-                    report.unseen.push_back(fromUnseen(renderer, truth, report, camera));
+            for (const std::string& camera : unseenCameras(scene, cameras))
+                report.unseen.push_back(fromUnseen(renderer, truth, report, camera));
         checkValidation(device_);
         report.seconds = secondsSince(start);
         progress_.wipe();

@@ -210,12 +210,10 @@ std::optional<std::uint64_t> bytesOf(const std::string& word) {
 
 void resolveChoose(ChooseOptions& choose, const ParsedOptions& parsed) {
     choose.max_bytes = bytesOf(parsed.max_bytes);
-    const auto check = [](const std::optional<double>& value, const char* option) {
-        if (value && !(*value >= 0 && std::isfinite(*value)))
-            throw std::runtime_error(fmt::format("{} {}: 0 or more, finite", option, *value));
-    };
-    check(choose.max_error, "--max-error");
-    check(choose.max_ms, "--max-ms");
+    if (choose.max_error && !(*choose.max_error >= 0 && std::isfinite(*choose.max_error)))
+        throw std::runtime_error(fmt::format("--max-error {}: 0 or more, finite", *choose.max_error));
+    if (choose.max_ms && !(*choose.max_ms > 0 && std::isfinite(*choose.max_ms)))
+        throw std::runtime_error(fmt::format("--max-ms {}: above 0, finite", *choose.max_ms));
 }
 
 Keep keepOf(const std::string& word) {
@@ -245,7 +243,7 @@ Options::Pixel pixelOf(const std::string& words) {
 void resolve(Options& options, const ParsedOptions& parsed) {
     options.settings = settingsOf(parsed);
     options.cameras = parsed.cameras.empty() ? std::vector{options.settings.camera} : parsed.cameras;
-    options.camera_given = !parsed.cameras.empty();
+    options.camera_given = !options.settings.camera.empty();
     options.path_given =
         std::ranges::any_of(parsed.settings, [](const auto& pair) { return pair.first == "path"; });
     options.debug_given = !parsed.debug.empty();

@@ -36,7 +36,7 @@ struct Options {
     std::vector<double> times{0.0};        // compare: s, one Frame each, of every scene, camera and path
     int frames = 1;                        // render: so many pictures, the first at settings.time,
     double fps = 30;                       // and so many a second
-    bool camera_given = false;             // --camera stood on the command line
+    bool camera_given = false;             // --camera stood on the command line or in --settings
     bool path_given = false;               // --path stood on the command line
     Path baseline = Path::deferred;        // compare: the left panel
     int shown = 0;                         // debug mode of the picture

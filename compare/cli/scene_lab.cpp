@@ -9,8 +9,7 @@ choose::Judged SceneLab::judge(const Settings& settings) {
     RenderOptions drawing = options_;
     drawing.runs = 0;
     drawing.progress = {};
-    rows_.push_back(tradeoff::measureRow(renderer_, settings, references_, drawing));
-    const tradeoff::TradeoffRow& row = rows_.back().row;
+    const tradeoff::TradeoffRow row = tradeoff::measureRow(renderer_, settings, references_, drawing).row;
     return {row.errors.at(figure_), tradeoff::memoryOf(row)};
 }
 

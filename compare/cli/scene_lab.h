@@ -26,9 +26,6 @@ public:
     std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
                                                std::span<const std::size_t> order) override;
 
-    // What was judged, with its pictures, in the order of the judgements.
-    const std::vector<tradeoff::MeasuredRow>& rows() const { return rows_; }
-
 private:
     std::size_t cameras() const { return references_.frames.size(); }
     // Of each Settings a frame a camera, side by side, all drawn once.
@@ -38,7 +35,6 @@ private:
     const tradeoff::ReferenceFrames& references_;
     std::size_t figure_;
     RenderOptions options_;
-    std::vector<tradeoff::MeasuredRow> rows_;
 };
 
 }  // namespace diptych::cli

@@ -66,10 +66,13 @@ TEST(ChooseTool, TheMostAccurateWithinATime) {
 
 TEST(ChooseTool, RefusesWhatItCannotDo) {
     const Folder folder;
+    folder.write("foreign.json", "[ 1 ]");
     for (const auto& [options, word] : {std::pair{"", "--max-error"},
                                         {"--max-error -1", "--max-error"},
                                         {"--max-error 1 --figure ssim", "relative_rmse"},
+                                        {"--max-ms 0", "--max-ms"},
                                         {"--max-bytes 5MB", "MiB"},
+                                        {"--max-error 1 -o foreign.json", "--force"},
                                         {"--max-error 1 -o chosen.png", ".json"},
                                         {"--max-error 1 --explain-choice", "not built"},
                                         {"--max-error 1 --path reference", "reference"}}) {

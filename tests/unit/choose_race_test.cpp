@@ -116,13 +116,14 @@ TEST(ChooseModel, WhatItLearnedIsKeptForTheSameDeviceDriverAndProgram) {
     const std::filesystem::path file = calibrationFile(folder(), "a device (x)");
     Calibration calibration{"a device (x)", "driver 1", "program 1", {}};
     const PassChange change{"shade", {Path::deferred, "gbuffer", "standard", "full"}};
-    calibration.learn(change, 0.2);
-    calibration.learn(change, 0.4);
+    calibration.learn(change, "a", 5);
+    calibration.learn(change, "a", 0.2);
+    calibration.learn(change, "b", 0.4);
     ASSERT_TRUE(writeCalibration(file, calibration));
     const Calibration read = readCalibration(file, "a device (x)", "driver 1", "program 1");
     ASSERT_TRUE(read.find(change));
-    EXPECT_NEAR(read.find(change)->mean, 0.3, 1e-12);
-    EXPECT_EQ(read.find(change)->scenes, 2);
+    EXPECT_NEAR(read.find(change)->mean(), 0.3, 1e-12);
+    EXPECT_EQ(read.find(change)->scenes.size(), 2u) << "a scene that is chosen for again counts once";
     EXPECT_NEAR(read.find(change)->spread(), std::sqrt(0.02), 1e-9);
     EXPECT_TRUE(readCalibration(file, "a device (x)", "driver 2", "program 1").effects.empty());
     EXPECT_TRUE(readCalibration(file, "a device (x)", "driver 1", "program 2").effects.empty());
