@@ -3,10 +3,11 @@
 //
 // A frame takes the sum of its passes. The logarithm of a pass's time is that of its path's first candidate,
 // plus an effect for each Setting in which a candidate differs from that one. The logarithm of a frame's is
-// that of the sum, plus what the path's frames take beyond their passes, plus what no such model says (a
-// deviation of the candidate's own), plus the device's speed, which walks at random from one timing to the
-// next. All are unknown and normally distributed, and each timing narrows them: an extended Kalman filter
-// with these as its state (Kalman 1960). So a few timings predict many Settings, and how far off that may be.
+// that of the sum, plus what the path's frames take beyond their passes, plus what two changes do beyond what
+// each does alone, plus what no such model says (a deviation of the candidate's own), plus the device's
+// speed, which walks at random from one timing to the next. All are unknown and normally distributed, and
+// each timing narrows them: an extended Kalman filter with these as its state (Kalman 1960). So a few timings
+// predict many Settings, and how far off that may be.
 #pragma once
 
 #include "compare/choose/calibration.h"
@@ -58,10 +59,12 @@ private:
         std::vector<Change> changes;
         std::optional<std::size_t> own;  // its deviation's, once it was timed
     };
+    using ChangePair = std::pair<Change, Change>;
     struct PathTerms {
         Settings first;
         std::size_t beyond;                         // passes
         std::map<std::string, std::size_t> passes;  // of the first candidate
+        std::vector<std::size_t> profiled;          // candidates whose passes were observed
     };
     // Terms of the state, each with its factor.
     using Terms = std::vector<std::pair<std::size_t, double>>;
@@ -70,17 +73,26 @@ private:
     std::size_t effectOf(const std::string& pass, const Change& change, const Settings& to);
     std::optional<std::size_t> knownEffectOf(const std::string& pass, const Change& change) const;
     void addPass(const std::string& pass, PathTerms& path);
+    // What a candidate's pass took, of a frame that took `sum`, ms.
+    void observe(const Candidate& candidate, const std::string& pass, double ms, double sum);
     // The state of a pass of a candidate; of the whole frame: the logarithm, and the terms about it.
     Terms termsOf(const Candidate& candidate, const std::string& pass) const;
     std::pair<double, Terms> wholeOf(const Candidate& candidate) const;
-    void update(const Terms& terms, double left, double deviation);
+    // The logarithm by which a change alone makes its path's first candidate slower.
+    double wholeEffectOf(const Change& change) const;
+    // How far two changes may be from what each does alone.
+    double unknownPair(const Change& a, const Change& b) const;
+    // An observation of the sum of some terms was `left` above what they say. Where that is far beyond what
+    // they are known to, it is `blamed` terms that were thought too well of.
+    void update(const Terms& terms, double left, double deviation, const std::vector<std::size_t>& blamed);
     double valueOf(const Terms& terms) const;
 
     const Calibration& calibration_;
     std::vector<Candidate> candidates_;
     std::map<Path, PathTerms> paths_;
     std::map<PassChange, std::size_t> effects_;
-    std::vector<double> prior_;  // deviations
+    std::map<ChangePair, std::size_t> pairs_;  // that were timed together
+    std::vector<double> prior_;                // deviations
     std::vector<double> mean_;
     std::vector<std::vector<double>> covariance_;
     std::size_t speed_;

@@ -18,9 +18,9 @@ struct RaceRules {
     // That a race names a winner among equals, at most.
     double false_winner = 0.02;
     // Within this ratio of each other two times are one: nobody chooses by less.
-    double tie = 0.01;
+    double tie = 0.02;
     // Rounds after which it is decided who goes on: at most half of them, the faster, and two at least.
-    std::vector<int> rungs{2, 4, 8, 16};
+    std::vector<int> rungs{2, 4, 8, 12};
 };
 
 struct Standing {

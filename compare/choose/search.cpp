@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // An effect that is known so well is not measured anew.
 constexpr double knownEffect = 0.15;
 // So many standard deviations of its prediction a candidate may be better than predicted.
-constexpr double benefit = 1.0;
+constexpr double benefit = 1.75;
 // Errors of one picture are equal; those within this ratio are alike to whoever sets a budget.
 constexpr double alike = 1.01;
 // An error that two changes make together may be smaller than the larger of both by so much.
@@ -352,7 +352,9 @@ private:
         if (isInTime(i)) best = i;
     }
 
-    void findMostAccurate() {
+    // Draws candidates for as long as one may be more accurate than the best that is in time, which is
+    // returned; `none` where nothing is.
+    std::size_t mostAccurateInTime() {
         std::size_t best = none;
         for (std::size_t i = 0; i < all_.size(); ++i) consider(i, best);
         for (std::size_t seen = 0;; ++seen) {
@@ -366,22 +368,26 @@ private:
                 likely = error.likely;
                 next = i;
             }
-            if (next == none) break;
+            if (next == none) return best;
             say(0.6 + 0.2 * (1 - 1 / (1 + 0.1 * static_cast<double>(seen))), "candidates");
             judge(next);
             consider(next, best);
         }
-        while (best != none) {
+    }
+
+    void findMostAccurate() {
+        for (std::size_t best = mostAccurateInTime(); best != none; best = mostAccurateInTime()) {
             std::vector<std::size_t> equals;
             for (std::size_t i = 0; i < all_.size(); ++i)
-                if (all_[i].isFit() && (i == best || leastTime(i) <= limit()) &&
+                if (all_[i].isFit() && (i == best || model_.predict(i).log_ms <= limit()) &&
                     all_[i].judged->error <= all_[best].judged->error * alike)
                     equals.push_back(i);
             raceFor(equals);
             if (!budget_.ms || found_.ms <= *budget_.ms) return;
+            // The fastest of the race is too slow, and so are the others.
+            for (const std::size_t i : equals)
+                if (all_[i].fate == Fate::raced) all_[i].fate = Fate::too_slow;
             tooSlowIfOver();
-            best = none;
-            for (std::size_t i = 0; i < all_.size(); ++i) consider(i, best);
         }
     }
 

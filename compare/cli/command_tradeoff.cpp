@@ -20,7 +20,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <random>
+#include <span>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -75,9 +76,13 @@ double weightOf(const Settings& settings) {
     return static_cast<double>(settings.size.width) * settings.size.height;
 }
 
-// Timed frames of a row when it is drawn; the others follow once all are.
-int firstVisit(const Options& options) {
-    return (options.runs + 1) / 2;
+// Timed frames of each visit of a row: the first when it is drawn, the others once all are.
+std::vector<int> visitsOf(int runs) {
+    constexpr int mostAtOnce = 4;
+    std::vector<int> visits{std::min((runs + 1) / 2, mostAtOnce)};
+    for (int left = runs - visits.front(); left > 0; left -= visits.back())
+        visits.push_back(std::min(left, mostAtOnce));
+    return visits;
 }
 
 class Sweep {
@@ -169,7 +174,7 @@ private:
                 tradeoff_.rows.push_back(std::move(*kept));
             } else {
                 RenderOptions render = renderOptions(options_);
-                render.runs = firstVisit(options_);
+                render.runs = visitsOf(options_.runs).front();
                 render.progress = stage.part(from, done / all);
                 MeasuredRow measured = measureRow(renderer, settings, references, render);
                 tradeoff_.cost.drawing += measured.row.drawing_ms;
@@ -199,43 +204,40 @@ private:
         std::fflush(stdout);
     }
 
-    // The other half of the frames, the last rows first and those of the paths in turn: a device that slows
-    // down does so for all alike.
+    // The other frames, in rounds of all rows, each in an order of its own: what disturbs the device for a
+    // while falls on no choice of Settings more than on another. Rows that are visited together take turns.
     void timeAgain(Renderer& renderer, const ReferenceFrames& references, SweepState& state,
                    const Stage& stage) {
         constexpr std::size_t atOnce = 6;  // rows whose images there are
-        RenderOptions render = renderOptions(options_);
-        render.runs = options_.runs - firstVisit(options_);
-        if (render.runs == 0) return;
-        std::map<Path, std::vector<TradeoffRow*>> waiting;
+        const std::vector<int> visits = visitsOf(options_.runs);
         double all = 0, done = 0;
-        for (TradeoffRow& row : tradeoff_.rows) {
-            if (row.cameras.front().visits.size() > 1) continue;
-            waiting[row.settings.path].push_back(&row);
-            all += weightOf(row.settings);
-        }
-        while (!waiting.empty()) {
-            std::vector<TradeoffRow*> rows;
-            const double from = done / all;
-            while (rows.size() < atOnce && !waiting.empty()) {
-                for (auto& [path, left] : waiting) {
-                    rows.push_back(left.back());
-                    left.pop_back();
+        for (const TradeoffRow& row : tradeoff_.rows)
+            all += weightOf(row.settings) *
+                   static_cast<double>(visits.size() - row.cameras.front().visits.size());
+        std::mt19937 random(1);
+        for (std::size_t visit = 1; visit < visits.size(); ++visit) {
+            std::vector<TradeoffRow*> round;
+            for (TradeoffRow& row : tradeoff_.rows)
+                if (row.cameras.front().visits.size() == visit) round.push_back(&row);
+            std::ranges::shuffle(round, random);
+            for (std::size_t at = 0; at < round.size(); at += atOnce) {
+                const auto rows = std::span(round).subspan(at, std::min(atOnce, round.size() - at));
+                RenderOptions render = renderOptions(options_);
+                render.runs = visits[visit];
+                double before = 0;
+                const double from = done / all;
+                for (const TradeoffRow* row : rows) {
+                    done += weightOf(row->settings);
+                    before += row->drawing_ms;
                 }
-                std::erase_if(waiting, [](const auto& path) { return path.second.empty(); });
+                render.progress = stage.part(from, done / all);
+                tradeoff::timeAgain(renderer, rows, references, render);
+                for (const TradeoffRow* row : rows) {
+                    tradeoff_.cost.drawing += row->drawing_ms;
+                    state.renew(*row);
+                }
+                tradeoff_.cost.drawing -= before;
             }
-            double before = 0;
-            for (const TradeoffRow* row : rows) {
-                done += weightOf(row->settings);
-                before += row->drawing_ms;
-            }
-            render.progress = stage.part(from, done / all);
-            tradeoff::timeAgain(renderer, rows, references, render);
-            for (const TradeoffRow* row : rows) {
-                tradeoff_.cost.drawing += row->drawing_ms;
-                state.renew(*row);
-            }
-            tradeoff_.cost.drawing -= before;
         }
     }
 

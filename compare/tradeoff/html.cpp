@@ -172,8 +172,9 @@ std::string skips(const Tradeoff& tradeoff) {
 std::string how(const Tradeoff& tradeoff) {
     const char* const visits =
         tradeoff.runs > 1
-            ? "A row is visited twice: when it is drawn, and once all are, the last row first, so that "
-              "a device that slows down does so for all alike. Its time is the mean of the two medians"
+            ? "A row is visited several times: when it is drawn, and once all are, in rounds of all rows, "
+              "each in a random order, six rows in turn: what disturbs the device for a while falls on all "
+              "alike. Its time is the mean of its visits' medians"
             : "Of each row one frame is timed";
     std::string out =
         "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, "

@@ -97,8 +97,8 @@ std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
                                     tradeoff.kept, tradeoff.rows.size()));
     if (const std::optional<Spread> drift = driftOf(tradeoff))
         lines.push_back(fmt::format(
-            "half of the frames were timed at the end, the last row first: they took {:.3g} times as "
-            "long as the first half ({:.3g} to {:.3g} of single rows); between two rows, a smaller "
+            "the frames that were timed once all rows were drawn, in a random order, took {:.3g} times as "
+            "long as the first of each row ({:.3g} to {:.3g} of single rows); between two rows, a smaller "
             "difference than that may be chance",
             drift->value, drift->low, drift->high));
     return lines;

@@ -58,10 +58,14 @@ choose::Judged RecordedLab::judge(const Settings& settings) {
     return {row.error, row.bytes};
 }
 
+double RecordedLab::drift(double timings_ago) const {
+    return 1 + noise_.drift * (std::clamp((timed_ - timings_ago) / noise_.drifts, 0.0, 1.0) - 0.5);
+}
+
 double RecordedLab::slower() {
-    const double part = std::min(timed_++ / noise_.drifts, 1.0);
-    return std::exp(std::normal_distribution<double>(0, noise_.deviation)(random_)) *
-           (1 + noise_.drift * (part - 0.5));
+    const double by = drift() * std::exp(std::normal_distribution<double>(0, noise_.deviation)(random_));
+    ++timed_;
+    return by;
 }
 
 std::vector<double> RecordedLab::time(std::span<const Settings> frames, std::span<const std::size_t> order) {

@@ -44,6 +44,10 @@ public:
     std::vector<std::vector<PassTime>> profile(std::span<const Settings> frames,
                                                std::span<const std::size_t> order) override;
 
+    // How much slower the device was so many timings ago than it was recorded, but for what differs from
+    // frame to frame.
+    double drift(double timings_ago = 0) const;
+
 private:
     double slower();  // by what the next time is multiplied
 

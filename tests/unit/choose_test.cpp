@@ -35,8 +35,7 @@ struct Outcome {
 
 constexpr double near = 1.05, frames_of_each = 6;
 
-Outcome chosenFrom(const RecordedSweep& sweep, const Budget& budget, const ReplayNoise& noise,
-                   std::uint64_t seed) {
+Outcome chosenFrom(const RecordedSweep& sweep, Budget budget, const ReplayNoise& noise, std::uint64_t seed) {
     RecordedLab lab(sweep, noise, seed);
     const Calibration calibration;
     CostModel model(calibration);
@@ -54,6 +53,11 @@ Outcome chosenFrom(const RecordedSweep& sweep, const Budget& budget, const Repla
     options.budget = budget;
     options.seed = seed;
     const Choice choice = search(candidates, lab, model, options);
+    // Whether a frame is in time is said of the device as it was in the race.
+    double raced = 0;
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.standing) raced += 2 * candidate.standing->rounds;
+    if (budget.ms) *budget.ms /= lab.drift(0.5 * raced);
     Outcome outcome;
     outcome.timings =
         static_cast<double>(choice.timings) / (frames_of_each * static_cast<double>(sweep.rows.size()));
@@ -104,9 +108,7 @@ std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
     return budgets;
 }
 
-// The tables were recorded on a machine that others used: rows of one and the same work are 5 to 7 % apart in
-// them, so that the best row is often one of luck, which nobody finds by 5 %. Wanted are 0.95 and 0.10.
-void sweepAll(const ReplayNoise& noise, double least_right, double most_timings) {
+void sweepAll(const ReplayNoise& noise) {
     std::size_t cases = 0, right = 0;
     double most = 0, sum = 0;
     fmt::print("{:<28} {:>6} {:>14} {:>12} {:>12} {:>10}\n", "scene", "rows", "right", "timings", "worst",
@@ -138,16 +140,16 @@ void sweepAll(const ReplayNoise& noise, double least_right, double most_timings)
     }
     fmt::print("{} of {} within 5 %, {:.1f} % of the exhaustive timings in the mean, {:.1f} % at most\n",
                right, cases, 100 * sum / static_cast<double>(cases), 100 * most);
-    EXPECT_GE(static_cast<double>(right), least_right * static_cast<double>(cases));
-    EXPECT_LE(sum / static_cast<double>(cases), most_timings);
+    EXPECT_GE(static_cast<double>(right), 0.95 * static_cast<double>(cases));
+    EXPECT_LE(sum / static_cast<double>(cases), 0.10);
 }
 
 TEST(ChooseReplay, FindsWhatASweepOfEverythingFinds) {
-    sweepAll({.deviation = 0.02, .drift = 0}, 0.8, 0.10);
+    sweepAll({.deviation = 0.02, .drift = 0});
 }
 
 TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
-    sweepAll({.deviation = 0.10, .drift = 0.20}, 0.72, 0.15);
+    sweepAll({.deviation = 0.10, .drift = 0.20});
 }
 
 }  // namespace
