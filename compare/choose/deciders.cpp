@@ -86,6 +86,7 @@ std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double val
         while (up < rangeSteps && lines.isOpen(stepped(least, most, up))) ++up;
         crossing.low = stepped(least, most, down);
         crossing.high = stepped(least, most, up);
+        if (crossing.extrapolated && (down == 0 || up == rangeSteps)) continue;
         nearest = crossing;
     }
     return nearest;
@@ -124,8 +125,12 @@ Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties,
         } else if (decider.times.size() > 1) {
             decider.crossing = crossingOf(decider.times, property.value, property.least, property.most);
             const Lines lines{decider.times};
-            for (int step = 0; step <= rangeSteps && !decider.crossing && !decider.open; ++step)
-                decider.open = lines.isOpen(stepped(property.least, property.most, step));
+            for (int step = 0; step <= rangeSteps && !decider.crossing; ++step) {
+                const double value = stepped(property.least, property.most, step);
+                if (!lines.isOpen(value)) continue;
+                if (!decider.open) decider.open = {value, value};
+                decider.open->second = value;
+            }
         }
         decider.property = std::move(property);
         deciders.properties.push_back(std::move(decider));

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace diptych::choose {
@@ -59,7 +60,8 @@ struct Decider {
     Property property;
     std::vector<TimedValue> times;  // ascending by value
     std::optional<Crossing> crossing;
-    bool open = false;  // without a crossing: the times leave one open within the values looked at
+    // Without a crossing: the least and the greatest value at which the times leave one open, if any.
+    std::optional<std::pair<double, double>> open{};
     // Of few values: that at which the other path is faster for sure.
     std::optional<double> turns_at;
     bool isTurned() const { return crossing || turns_at; }
@@ -77,8 +79,9 @@ Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties,
                       const std::function<void(double, std::string_view)>& progress = {});
 
 // The crossing nearest to `value` of the lines through `times`, which ascend by value, within least and most.
-// Half the interval of a line between two measured values is that of their mean with the line's weights (the
-// interval of the crossing is then Fieller's, 1954).
+// None where the lines cross beyond what was measured and leave that open to the end of the range: their
+// slopes are not told from none. Half the interval of a line between two measured values is that of their
+// mean with the line's weights (the interval of the crossing is then Fieller's, 1954).
 std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double value, double least,
                                    double most);
 

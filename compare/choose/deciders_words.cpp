@@ -4,20 +4,25 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 namespace diptych::choose {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
 
+// Of any size, in four digits, and whole numbers as such.
+std::string figure(double value) {
+    return std::abs(value) >= 1e4 && std::abs(value) < 1e8 ? fmt::format("{:.0f}", value)
+                                                           : fmt::format("{:.4g}", value);
+}
+
 std::string crossingInWords(const Decider& decider, const std::string& other) {
     const Crossing& crossing = *decider.crossing;
-    std::vector<std::string> at;
-    for (const TimedValue& time : decider.times) at.push_back(fmt::format("{:.4g}", time.value));
-    return fmt::format("{} is faster {} {:.4g} ({:.4g} to {:.4g}), {} {}", other,
-                       crossing.other_above ? "above" : "below", crossing.value, crossing.low, crossing.high,
-                       crossing.extrapolated ? "extrapolated from" : "interpolated between",
-                       fmt::join(at, ", "));
+    return fmt::format("{} is faster {} {} ({} to {}), {}", other, crossing.other_above ? "above" : "below",
+                       figure(crossing.value), figure(crossing.low), figure(crossing.high),
+                       crossing.extrapolated ? "extrapolated" : "interpolated");
 }
 
 std::string fewInWords(const Decider& decider, const std::string& chosen, const std::string& other) {
@@ -34,7 +39,7 @@ std::string fewInWords(const Decider& decider, const std::string& chosen, const 
 
 std::string deciderInWords(const Decider& decider, const std::string& chosen, const std::string& other) {
     const Property& property = decider.property;
-    std::string text = fmt::format("{}: {:.4g} {}; ", property.name, property.value, property.unit);
+    std::string text = fmt::format("{}: {} {}; ", property.name, figure(property.value), property.unit);
     if (!property.not_varied.empty() || decider.times.size() < 2)
         return text + (property.not_varied.empty() ? "its variations change nothing" : property.not_varied);
     if (property.few_values)
@@ -42,9 +47,14 @@ std::string deciderInWords(const Decider& decider, const std::string& chosen, co
     else if (decider.crossing)
         text += crossingInWords(decider, other);
     else
-        text += fmt::format("no value within {:.4g} and {:.4g} turns it{}", property.least, property.most,
-                            decider.open ? ", though the times leave it open" : "");
-    return text + " (" + property.how + ")";
+        text +=
+            fmt::format("no value within {} and {} turns it{}", figure(property.least), figure(property.most),
+                        decider.open ? fmt::format(" for sure; that one within {} and {} does is left open",
+                                                   figure(decider.open->first), figure(decider.open->second))
+                                     : "");
+    std::vector<std::string> at;
+    for (const TimedValue& time : decider.times) at.push_back(figure(time.value));
+    return text + fmt::format(" (measured at {}: {})", fmt::join(at, ", "), property.how);
 }
 
 }  // namespace
@@ -52,7 +62,7 @@ std::string deciderInWords(const Decider& decider, const std::string& chosen, co
 std::vector<std::string> inWords(const DecidersReport& report) {
     const TimedValue& here = report.deciders.as_is;
     std::vector<std::string> lines{fmt::format(
-        "what decided it, {} against {}{}: here {:.4g} ms against {:.4g}{}", report.chosen, report.other,
+        "What decided it, {} against {}{}: here {:.4g} ms against {:.4g}{}", report.chosen, report.other,
         report.other_fits ? "" : ", which does not fit and is compared by time alone", here.ms[0], here.ms[1],
         here.isTold() ? "" : ", a tie as far as can be told")};
     for (const Decider& decider : report.deciders.properties)
@@ -73,8 +83,12 @@ nlohmann::ordered_json toJson(const DecidersReport& report) {
                              {"other_ms", at.ms[1]},
                              {"difference", at.difference},
                              {"half_interval", at.half}});
-        Json json{{"name", property.name}, {"value", property.value},   {"unit", property.unit},
-                  {"how", property.how},   {"times", std::move(times)}, {"open", decider.open}};
+        Json json{{"name", property.name},
+                  {"value", property.value},
+                  {"unit", property.unit},
+                  {"how", property.how},
+                  {"times", std::move(times)}};
+        json["open"] = decider.open ? Json{decider.open->first, decider.open->second} : Json();
         if (!property.few_values) json["looked_at"] = {property.least, property.most};
         if (!property.not_varied.empty()) json["not_varied"] = property.not_varied;
         json["crossing"] = Json();

@@ -22,12 +22,13 @@ constexpr const char* choiceStyle = R"css(
 svg.chart { display: block; width: 100%; height: auto; } .chart .budget { stroke: var(--fail); stroke-width: 1.5; stroke-dasharray: 6 4; }
 .chart .untimed .mark { fill-opacity: 0; stroke: currentColor; stroke-width: 1.5; } .chart .point[tabindex] { outline: 0; }
 .chart .point:focus-visible .mark, .chart .point[tabindex]:hover .mark { stroke: var(--accent); stroke-width: 3; }
-.choice { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1.3fr); gap: 16px; align-items: start; }
+.choice { margin-top: 20px; display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1.3fr); gap: 16px; align-items: start; }
 .choice h3 { overflow-wrap: anywhere; } .choice li, .choice p { overflow-wrap: anywhere; } .choice ul { margin: 12px 0 0; padding-left: 18px; font-size: 14px; }
 .choice .figures { font-size: 16px; margin-top: 6px; } .swatch.deferred { background: var(--first); border-radius: 50%; } .swatch.forward_plus { background: var(--second); }
 .again code { display: block; margin: 3px 0 4px; overflow-wrap: anywhere; } .again button { margin: 0; }
 .rows table { font-size: 14px; } .rows th button { font: inherit; color: inherit; background: none; border: 0; padding: 0; cursor: pointer; }
 .rows th[aria-sort=ascending]::after { content: " \2191"; } .rows th[aria-sort=descending]::after { content: " \2193"; }
+.box + .rows { margin-top: 16px; }
 h3.part { margin: 26px 0 10px; }
 .rows tr.chosen td { background: var(--well); font-weight: 600; }
 @media (max-width: 900px) { .choice { grid-template-columns: minmax(0, 1fr); } }

@@ -188,31 +188,46 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceReport& report,
                                                        const Stage& progress) {
     const Choice& choice = report.choice;
-    std::optional<std::size_t> other = bestOfOtherPath(report);
-    const bool fits = other.has_value();
     const Path chosen_path = choice.candidates[*choice.chosen].settings.path;
-    for (std::size_t i = 0; !fits && i < choice.candidates.size(); ++i)
-        if (const Candidate& candidate = choice.candidates[i];
-            candidate.judged && candidate.settings.path != chosen_path &&
-            (!other || candidate.judged->error < choice.candidates[*other].judged->error))
-            other = i;
-    if (!other) return {};  // --grid has candidates of one path alone
-    const Settings& against = choice.candidates[*other].settings;
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i)
+        if (choice.candidates[i].judged && choice.candidates[i].settings.path != chosen_path)
+            others.push_back(i);
+    if (others.empty()) return {};  // --grid has candidates of one path alone
+    const bool fits =
+        std::ranges::any_of(others, [&](std::size_t i) { return choice.candidates[i].isFit(); });
+    if (fits) std::erase_if(others, [&](std::size_t i) { return !choice.candidates[i].isFit(); });
+    std::ranges::sort(others, {}, [&](std::size_t i) {
+        return fits ? choice.candidates[i].predicted.log_ms : choice.candidates[i].judged->error;
+    });
+    // Of those that fit, the fastest by the model race: it may be off for what was not timed.
+    constexpr std::size_t raced = 4;
+    others.resize(std::min(others.size(), fits ? raced : 1));
+    std::vector<Settings> frames;
+    for (const std::size_t i : others) frames.push_back(choice.candidates[i].settings);
+    RaceRules rules;
+    rules.rungs = {2, 4};
+    const Race best = race(
+        frames.size(), [&](std::span<const std::size_t> order) { return held.lab->time(frames, order); },
+        rules, 1);
+    const std::size_t other = others[best.winner];
     const VariedScene varied{device_,
                              pipelines_,
                              held.views,
                              held.renderer,
                              references_.at(report.scene),
-                             {choice.candidates[*choice.chosen].settings, against}};
+                             {choice.candidates[*choice.chosen].settings, frames[best.winner]}};
     constexpr int rounds = 5;
-    return DecidersReport{
+    DecidersReport deciders{
         report.words[*choice.chosen],
-        report.words[*other],
+        report.words[other],
         std::string(nameOf(chosen_path)),
-        std::string(nameOf(against.path)),
+        std::string(nameOf(frames[best.winner].path)),
         fits,
         findDeciders(drawAsIs(varied), propertiesOf(varied), rounds,
                      [&](double done, std::string_view what) { progress.at(done, std::string(what)); })};
+    deciders.deciders.frames += best.draws;
+    return deciders;
 }
 
 UnseenCamera SceneChooser::fromUnseen(Held& held, const Settings& truth, const ChoiceReport& report,

@@ -209,18 +209,18 @@ private:
     Property blended() const {
         const auto [share, surface] = blendedShare(of_.references, here_.surface);
         Property property{.name = "transparency",
-                          .unit = "of the pixels",
+                          .unit = "% of the pixels",
                           .how = "every material opaque, and every one blended",
-                          .value = share,
+                          .value = 100 * share,
                           .least = 0,
-                          .most = 1};
+                          .most = 100};
         const auto vary = [&](bool all, double value) {
             property.others.push_back(
                 withScene([all](const Scene& scene) { return withBlends(scene, all); },
                           [value](MadeScene&, const std::array<Settings, 2>&) { return value; }));
         };
         if (share > 0) vary(false, 0);
-        if (surface > share) vary(true, surface);
+        if (surface > share) vary(true, 100 * surface);
         return property;
     }
 

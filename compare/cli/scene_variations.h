@@ -32,12 +32,17 @@ choose::DrawInOrder drawAsIs(const VariedScene& of);
 // outlive the variations, which are made when they are asked for, one at a time.
 std::vector<choose::Property> propertiesOf(const VariedScene& of);
 
-// Copies of a scene with one thing changed; `scene` shows the same picture but for blends.
+// Copies of a scene with one thing changed. Of posed `lights` each `factor` times, a whole number; or of 1/n
+// every n-th one.
 Scene withLights(const Scene& scene, std::span<const Light> lights, double factor);
+// Before each solid triangle that no skin moves so many copies of it, a little below it.
 Scene withOverdraw(const Scene& scene, int copies);
+// For each triangle so many more that cover nothing.
 Scene withEmptyTriangles(const Scene& scene, int copies);
+// One material for all that is solid; one for each primitive.
 Scene withOneMaterial(const Scene& scene);
 Scene withOwnMaterials(const Scene& scene);
+// Every material blended, or none.
 Scene withBlends(const Scene& scene, bool all);
 
 }  // namespace diptych::cli

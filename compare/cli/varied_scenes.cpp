@@ -61,7 +61,7 @@ Scene withLights(const Scene& scene, std::span<const Light> lights, double facto
         light.node = -1;  // `lights` are posed
         light.source = -1;
         if (factor >= 1) {
-            light.intensity /= static_cast<float>(factor);
+            // As bright: --light-cutoff gives a darker one a smaller range.
             varied.lights.push_back(light);
             light.shadow = false;
             for (int copy = 1; copy < static_cast<int>(factor); ++copy) varied.lights.push_back(light);
