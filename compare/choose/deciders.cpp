@@ -86,7 +86,7 @@ std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double val
         while (up < rangeSteps && lines.isOpen(stepped(least, most, up))) ++up;
         crossing.low = stepped(least, most, down);
         crossing.high = stepped(least, most, up);
-        if (crossing.extrapolated && (down == 0 || up == rangeSteps)) continue;
+        if (down == 0 || up == rangeSteps) continue;
         nearest = crossing;
     }
     return nearest;

@@ -79,9 +79,9 @@ Deciders findDeciders(const DrawInOrder& asIs, std::vector<Property> properties,
                       const std::function<void(double, std::string_view)>& progress = {});
 
 // The crossing nearest to `value` of the lines through `times`, which ascend by value, within least and most.
-// None where the lines cross beyond what was measured and leave that open to the end of the range: their
-// slopes are not told from none. Half the interval of a line between two measured values is that of their
-// mean with the line's weights (the interval of the crossing is then Fieller's, 1954).
+// None where the times leave it open up to an end of that range. Half the interval of a line between two
+// measured values is that of their mean with the line's weights (the interval of the crossing is then
+// Fieller's, 1954).
 std::optional<Crossing> crossingOf(std::span<const TimedValue> times, double value, double least,
                                    double most);
 

@@ -228,7 +228,7 @@ private:
                                    svgNumber(at + 9)) +
                        mark(Path::deferred, at, up, 5);
             });
-        for (const Path path : {Path::forward_plus, Path::deferred})
+        for (const Path path : drawn_paths)
             if (isDrawn([&](std::size_t i) { return choice_.candidates[i].settings.path == path; }))
                 entry(std::string(nameOf(path)), std::string(nameOf(path)),
                       [path](double at, double up) { return mark(path, at, up, 4.5); });

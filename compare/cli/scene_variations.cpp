@@ -280,7 +280,7 @@ private:
                           .unit = "pixels",
                           .how = "half and twice the width and height",
                           .value = pixels,
-                          .least = 64 * 36,
+                          .least = 16 * 9,
                           .most = 7680.0 * 4320};
         for (const double factor : {0.5, 2.0}) {
             std::array<Settings, 2> settings = of_.settings;

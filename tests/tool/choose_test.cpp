@@ -144,9 +144,29 @@ TEST(ChooseTool, WhatDecidedIsNamedWithItsValues) {
     EXPECT_GE(overdraw[2]["value"].get<double>(), 2.5 * overdraw[0]["value"].get<double>());
     const Json& lights = properties["light density"]["times"];
     ASSERT_EQ(lights.size(), 4u);
-    EXPECT_NEAR(lights[3]["value"].get<double>(), 4 * lights[1]["value"].get<double>(), 1e-3);
+    // Of more lights the clusters are finer, so that it is not four times.
+    EXPECT_GT(lights[3]["value"].get<double>(), 2 * lights[1]["value"].get<double>());
+    EXPECT_LT(lights[0]["value"].get<double>(), lights[1]["value"].get<double>());
     EXPECT_EQ(properties["triangles"]["times"][1]["value"].get<double>(),
               9 * properties["triangles"]["value"].get<double>());
+}
+
+// On lavapipe the one path takes twice the other's time at least in each of these, however loaded the
+// machine: with four samples a pixel deferred shading has a fixed cost of some 15 ms, and area lights are
+// dear where forward+ shades a surface more often. Size alone turns it in "areas".
+TEST(ChooseTool, ThePathThatIsMuchFasterIsChosenAndSizeTurnsIt) {
+    const Folder folder;
+    for (const auto& [scene, path] : {std::pair{"builtin:triangle --size 320x180", "forward_plus"},
+                                      {"builtin:areas --size 32x18", "forward_plus"},
+                                      {"builtin:areas --size 160x90", "deferred"}}) {
+        const Ran ran = runTool(
+            folder,
+            fmt::format("choose {} --msaa 4 --reference-mode scene --spp 4 --max-error 1 --json --grid "
+                        "'{{\"settings\":{{\"path\":[\"deferred\",\"forward_plus\"]}}}}'",
+                        scene));
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        EXPECT_EQ(Json::parse(ran.out)["settings"]["path"], path) << scene << ran.out;
+    }
 }
 
 TEST(ChooseTool, RefusesWhatItCannotDo) {

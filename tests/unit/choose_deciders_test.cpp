@@ -80,6 +80,19 @@ TEST(ChooseDeciders, WhereNoValueTurnsItNoneIsSaid) {
     EXPECT_FALSE(still.properties.front().open);
 }
 
+// Lines that are parallel cross somewhere by noise: that is left open, and not told as a crossing.
+TEST(ChooseDeciders, ACrossingThatNoiseMakesIsLeftOpen) {
+    const Law laws[2] = {{2, 1}, {2.2, 1}};
+    int turned = 0, open = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        const Deciders deciders = decided(laws, 8, {4, 16}, 0.02, seed);
+        turned += deciders.properties.front().isTurned();
+        open += deciders.properties.front().open.has_value();
+    }
+    EXPECT_LE(turned, 20);
+    EXPECT_GE(open, 180);
+}
+
 TEST(ChooseDeciders, TheOtherPathWinsBelow) {
     const Law laws[2] = {{10, 0.5}, {2, 1}};
     const Deciders deciders = decided(laws, 32, {8}, 0, 1);
