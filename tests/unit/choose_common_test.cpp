@@ -116,11 +116,13 @@ TEST(ChooseForAll, TheLeastSumOfLogarithmsThoughNoScenesOwn) {
 // The fastest by far in both scenes exceeds the error in one of them.
 TEST(ChooseForAll, WhatExceedsTheErrorInOneSceneIsOut) {
     const ForAll all(
-        {{{1, 0.01}, {10, 0.01}, {30, 0.001}, {12, 0.01}}, {{1, 0.03}, {10, 0.01}, {30, 0.001}, {12, 0.01}}},
+        {{{1, 0.01}, {10, 0.01}, {30, 0.001}, {12, 0.01}}, {{1, 0.03}, {10, 0.01}, {30, 0.05}, {12, 0.01}}},
         {.error = 0.02, .ms = {}, .bytes = {}});
     ASSERT_TRUE(all.result.chosen);
     EXPECT_EQ(all.own[0].candidates[*all.own[0].chosen].settings, compactOne);
     EXPECT_EQ(all.chosen(), standardOne);
+    for (const CommonCandidate& candidate : all.result.candidates)
+        EXPECT_EQ(candidate.fits, candidate.settings == standardOne || candidate.settings == forwardOne);
     EXPECT_NEAR(all.result.slower[0]->ratio, 10, 0.5);
     EXPECT_EQ(all.result.slower[1]->ratio, 1) << "the second scene's own choice";
 }
