@@ -17,6 +17,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -211,12 +212,16 @@ std::optional<DecidersReport> SceneChooser::decidersOf(Held& held, const ChoiceR
         frames.size(), [&](std::span<const std::size_t> order) { return held.lab->time(frames, order); },
         rules, 1);
     const std::size_t other = others[best.winner];
-    const VariedScene varied{device_,
-                             pipelines_,
-                             held.views,
-                             held.renderer,
-                             references_.at(report.scene),
-                             {choice.candidates[*choice.chosen].settings, frames[best.winner]}};
+    // Where nothing is blended, both may differ in how they would blend: not where a variation blends.
+    std::array<Settings, 2> compared{choice.candidates[*choice.chosen].settings, frames[best.winner]};
+    const tradeoff::ReferenceFrames& references = references_.at(report.scene);
+    if (std::ranges::all_of(references.frames,
+                            [](const Frame& frame) { return frame.blended.pixels() == 0; }))
+        for (const Field& field : settingFields())
+            for (Settings& each : compared)
+                if (field.option.starts_with("transparency"))
+                    each.set(field.option, options_.settings.valueOf(field.option));
+    const VariedScene varied{device_, pipelines_, held.views, held.renderer, references, compared};
     constexpr int rounds = 5;
     DecidersReport deciders{
         report.words[*choice.chosen],
